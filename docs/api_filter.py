@@ -23,7 +23,7 @@ def plain(text):
 
 
 def escaped(text):
-    """As plain(), but what stands in backquotes stays code."""
+    """As plain(), but text in backquotes stays code."""
     parts = text.split("`")
     if len(parts) % 2 == 0:
         return plain(text).replace("`", "'")

@@ -16,7 +16,7 @@ struct Probe {
     bool alarm;       // G38.2 and G38.4: an alarm where the end is reached first
 };
 
-// Once all motion before it is finished.
+// A wait that begins when all motion before it is finished.
 struct Dwell {
     double seconds;  // >= 0
 };
@@ -34,7 +34,7 @@ struct Coolant {
 // Offsets or stored positions have changed: `Interpreter::parameters()` holds the new ones.
 struct ParametersChanged {
     bool keep;          // through a power cycle: all but G92, G92.1, G43, G43.1 and G49
-    std::uint8_t tool;  // whose length is new: G10 L1, L10 and L11; 0: none
+    std::uint8_t tool;  // with a new length, by G10 L1, L10 and L11; 0: none
 };
 
 // M0 and M1: once all motion before it is finished, wait for the cycle start.

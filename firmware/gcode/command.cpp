@@ -55,7 +55,7 @@ constexpr std::uint8_t as_value(ToolLength length) noexcept
     return static_cast<std::uint8_t>(length);
 }
 
-// Sorted by number. kNone of Group kMotion with G5.3's number ends a curve.
+// Sorted by number. The entry of G5.3, kEndOfCurve, has Motion::kNone: it ends a curve.
 constexpr std::uint16_t kEndOfCurve = 530;
 constexpr Entry kEntries[] = {
     {0, Group::kMotion, AxisUse::kMotion, as_value(Motion::kRapid)},
@@ -181,8 +181,8 @@ Status apply_g(Command& command, Code code) noexcept
 {
     const Entry* entry = find_entry(code.number * 100 + code.hundredths);
     if (entry == nullptr) {
-        // Grbl distinguishes a decimal that a known number lacks (23) from an unknown number
-        // (20); the families that do have decimals answer 20.
+        // Grbl's error is 23 for a known number with a wrong decimal, and 20 for an unknown
+        // number. Families with decimals (G5, G6, G28 ...) give 20.
         const bool family = code.number == 5 || code.number == 6 || code.number == 28 ||
                             code.number == 30 || code.number == 38 || code.number == 43 ||
                             code.number == 59 || code.number == 90 || code.number == 61 ||
@@ -310,7 +310,7 @@ Status apply_word(Command& command, char upper_case, Decimal value) noexcept
     if (value.is_negative() || whole.digits > kMaxCode) {
         return Error::kGcodeUnsupportedCommand;
     }
-    // Grbl rounds to hundredths; a number that is not whole there is no code either.
+    // Grbl rounds to hundredths. Here a number with more decimals is no code.
     Decimal scaled = value;
     std::int64_t factor = 100;
     while (factor > 1 && scaled.fraction_digits > 0) {
@@ -330,15 +330,15 @@ constexpr char to_upper(char c) noexcept
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-// A longer number is refused: what follows its first part is no letter.
+// A longer number is refused, since the character after its first part is no letter.
 constexpr std::size_t kMaxNumberLength = 48;
 
-// The characters of a line that count. A '(' opens a comment up to ')' or the end of the line.
+// The significant characters of a line. A '(' opens a comment up to ')' or the end of the line.
 class Characters {
 public:
     explicit Characters(std::string_view line) noexcept : line_{line} {}
 
-    // Moves to the next character that counts; false at the end.
+    // Moves to the next significant character; false at the end.
     bool skip() noexcept
     {
         for (; place_ < line_.size(); ++place_) {
@@ -383,8 +383,8 @@ private:
     std::size_t place_{0};
 };
 
-// Reads what follows the O or colon of a program number, `O1001` or `:1001`: it says nothing to a
-// controller that holds no programs. With any other word the line is a subprogram's.
+// Skips a program number, `O1001` or `:1001`, which means nothing to a controller that stores no
+// programs. With any other word the line belongs to a subprogram and is refused.
 Status skip_program_number(Characters& characters, const Command& command) noexcept
 {
     std::array<char, kMaxNumberLength> buffer{};
@@ -426,7 +426,7 @@ Status read_command(std::string_view line, const ModalState& modal, Command& com
             return value.error();
         }
         if (place != text.size()) {
-            // A second sign or point: what follows the number is no letter.
+            // A second sign or point, which is no letter.
             return Error::kExpectedCommandLetter;
         }
         if (const Status status = apply_word(command, upper_case, *value); !status) {

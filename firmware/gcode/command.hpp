@@ -65,7 +65,7 @@ enum class Group : std::uint8_t {
 };
 
 struct Command {
-    ModalState modal;  // after the line, as far as G and M words say
+    ModalState modal;  // after the line, as far as its G and M words set it
     AxisUse axis_use{AxisUse::kNone};
     NonModal non_modal{NonModal::kNone};
     ToolLength tool_length{ToolLength::kUnchanged};
@@ -73,7 +73,7 @@ struct Command {
     bool ends_curve{false};   // G5.3
     std::uint32_t groups{0};  // one bit a Group
     LetterSet words{0};       // value words present
-    LetterSet unused{0};      // those that nothing has used yet
+    LetterSet unused{0};      // value words not used yet
     std::array<Decimal, 26> values{};
 
     bool names(Group group) const noexcept

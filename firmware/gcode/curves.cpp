@@ -37,7 +37,8 @@ Result<double> weight_of(const Command& command, char upper_case) noexcept
     return weight;
 }
 
-// The first control point of a G6.2 is where the tool is, but for the rounding of programs.
+// Whether the first control point of a G6.2 is the position of the tool, apart from the rounding of
+// programs.
 bool is_at(const Position& start, const Position& point) noexcept
 {
     constexpr std::int64_t kNear = 1000;  // nm
@@ -101,7 +102,7 @@ Status Interpreter::check_new_curve(LineContext& line) noexcept
     if (motion != Motion::kUniformNurbs && motion != Motion::kNurbs) {
         return kDone;
     }
-    // A curve streams: its length, which inverse time needs, is not known when it starts.
+    // Inverse time needs the length of the curve, which is not known when it starts.
     if (command.modal.inverse_time) {
         return Error::kGcodeUndefinedFeedRate;
     }
@@ -111,7 +112,7 @@ Status Interpreter::check_new_curve(LineContext& line) noexcept
     return motion == Motion::kNurbs ? check_knotted(line) : check_uniform(command);
 }
 
-// Everything was checked: nothing here can fail.
+// Cannot fail: everything has been checked.
 void Interpreter::open_curve(const LineContext& line) noexcept
 {
     const Command& command = line.command;
@@ -142,7 +143,7 @@ Status Interpreter::continue_curve(LineContext& line) noexcept
         command.names(Group::kMotion) &&
         (uniform ? command.ends_curve : command.modal.motion == Motion::kNurbs);
     const std::uint32_t allowed = names_curve ? 1U << static_cast<unsigned>(Group::kMotion) : 0;
-    // Any other G or M word leaves the curve without its end; so does a new G6.2 with a point.
+    // Any other G or M word would leave the curve without its end; so would a new G6.2 with a point.
     if (command.groups != allowed || (names_curve && command.axes() != 0)) {
         return Error::kGcodeInvalidTarget;
     }

@@ -1,4 +1,4 @@
-// Decimal text to integers: no libc, no floating point on the way to a position.
+// Converts decimal text to integers, without libc and without floating point.
 #include "firmware/gcode/decimal.hpp"
 
 #include <array>
@@ -29,8 +29,8 @@ constexpr std::array<double, kPowers> kDoublePowerOf10 = {1e0,  1e1,  1e2,  1e3,
 
 constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-// The fraction, a count of 10^-from, as a count of 10^-to; halves away from zero. The caller sees
-// to it that the result fits.
+// The fraction, a count of 10^-from, as a count of 10^-to; halves away from zero. Precondition:
+// the result fits.
 std::int64_t rescale(std::int64_t fraction, unsigned from, unsigned to) noexcept
 {
     if (from <= to) {
@@ -133,7 +133,7 @@ Result<ExactLength> to_length(Decimal decimal, bool inches) noexcept
     if (inches && places <= 5) {
         return ExactLength{decimal.digits * kPowerOf10[5 - places] * 254, 0};
     }
-    // As many decimals as make a millionth of a nanometre; the products stay below 2.6e18.
+    // The decimals that resolve a millionth of a nanometre; the products stay below 2.6e18.
     const unsigned kept = inches ? 11 : 12;
     const std::int64_t fraction = rescale(decimal.digits % kPowerOf10[places], places, kept);
     return floored(whole * unit, fraction * unit, kPowerOf10[kept]);

@@ -1,7 +1,7 @@
 // Decimal numbers as a program writes them, and lengths kept finer than a nanometre.
 //
 // 6 decimals in millimetres and 5 in inches are whole nanometres (0.00001 in = 254 nm). Further
-// digits are carried in millionths of a nanometre, so that it is the accumulated position which is
+// digits are carried in millionths of a nanometre, so that only the accumulated position is
 // rounded, never each move.
 #pragma once
 
@@ -75,7 +75,7 @@ struct ExactPosition {
 
 constexpr ExactPosition to_exact(Position p) noexcept { return {{p.x, 0}, {p.y, 0}, {p.z, 0}}; }
 
-// Nothing the controller handles lies further from machine zero than this: 100 m.
+// Nothing the controller handles is farther from machine zero than this: 100 m.
 inline constexpr std::int64_t kMaxCoordinateNm = 100'000'000'000;
 
 // A length word in millimetres or inches, exact to 12 (mm) or 11 (inch) decimals.

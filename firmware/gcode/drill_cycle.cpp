@@ -1,4 +1,4 @@
-// The drilling cycles as a small machine of phases; moves of no length are skipped.
+// The drilling cycles as a sequence of phases; moves of no length are skipped.
 #include "firmware/gcode/drill_cycle.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ bool DrillCycle::move_to(Position target, path::MoveKind kind, Action& action) n
     return true;
 }
 
-// Does the phase at hand and moves on to the next; false where it has nothing to do.
+// Performs the current phase and selects the next; false if the phase has nothing to do.
 bool DrillCycle::perform(Action& action) noexcept
 {
     constexpr auto kRapid = path::MoveKind::kRapid;
@@ -102,7 +102,7 @@ bool DrillCycle::perform(Action& action) noexcept
 
 bool DrillCycle::next(Action& action) noexcept
 {
-    // At most eight phases of a hole can have nothing to do; the peck's feed always has.
+    // At most eight phases of a hole can have nothing to do; the feed of a peck is always a move.
     while (left_ > 0) {
         if (perform(action)) {
             return true;

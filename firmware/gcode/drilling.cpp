@@ -1,4 +1,4 @@
-// The words of G81, G82 and G83, and what they mean in machine coordinates.
+// Converts the words of G81, G82 and G83 to machine coordinates.
 #include <algorithm>
 
 #include "firmware/gcode/line_context.hpp"
@@ -19,7 +19,7 @@ constexpr unsigned normal_axis(path::Plane plane) noexcept
     return 2;
 }
 
-// Takes a length word into the memory, or finds it there.
+// Stores a length word of the line; without one, the stored length is used.
 Status remember(LineContext& line, char upper_case, ExactLength& kept) noexcept
 {
     Command& command = line.command;

@@ -1,4 +1,4 @@
-// The checks of one line in Grbl's order, and what it leaves behind.
+// Checks one line in Grbl's order, then sets the state after it.
 #include "firmware/gcode/interpreter.hpp"
 
 #include "firmware/base/inch.hpp"
@@ -130,7 +130,7 @@ void plan_flow(const Command& command, MotionPlan& plan) noexcept
     plan.add(MotionPlan::Step::kFlow);
 }
 
-// Spindle, coolant and tool, where the line names them; a new S while the spindle turns, too.
+// Plans changes of spindle, coolant and tool, and of the speed while the spindle turns.
 void plan_switches(const LineContext& line, const ModalState& before, MotionPlan& plan) noexcept
 {
     const Command& command = line.command;
@@ -304,7 +304,7 @@ void Interpreter::commit(const LineContext& line) noexcept
     }
 }
 
-// As Grbl 1.1 does at M2 and M30; units, feed, offsets and the tool stay.
+// Resets modes as Grbl 1.1 does at M2 and M30; units, feed, offsets and the tool stay.
 void Interpreter::end_program() noexcept
 {
     modal_.motion = Motion::kLine;

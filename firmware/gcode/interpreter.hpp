@@ -1,5 +1,5 @@
-// Text to moves: reads one line of G-code, checks it against the modal state, and yields what it
-// asks for, action by action. docs/gcode.md lists the dialect.
+// Converts text to moves: reads one line of G-code, checks it against the modal state, and yields
+// its actions one by one. docs/gcode.md lists the dialect.
 //
 //   Interpreter interpreter;
 //   Status status = interpreter.execute(line, number);   // reads and checks; starts nothing
@@ -50,7 +50,7 @@ public:
     Status execute_jog(std::string_view text, std::uint32_t number) noexcept;
 
     // The next action of the line: false, and nothing written, where there is none left.
-    // Cost: bounded; a NURBS piece is the dearest.
+    // Cost: bounded; a NURBS piece costs most.
     bool next(Action& action) noexcept;
 
     // Forgets the actions that were not fetched. The position is then unknown to the interpreter
@@ -74,8 +74,9 @@ public:
     // Holds until the next call.
     void set_tool_change_rule(ToolChangeRule rule) noexcept { tool_change_rule_ = rule; }
 
-    // The touch-off of an M6: the tool of the T word is this long from here on, in the table and in
-    // the offset in force, and the machine has gone to where the program's position is what it was.
+    // Sets the length that the touch-off of an M6 has measured for the tool of the T word, in the
+    // tool table and in the offset in force. The machine has moved, so that the position in program
+    // coordinates is the same as before.
     // Precondition: the line was read with kTouchOff; fits_tool_table(length_nm).
     void take_tool_length(std::int64_t length_nm) noexcept;
 

@@ -40,11 +40,11 @@ inline Result<ExactLength> length_of(const Command& command, char upper_case) no
 
 constexpr char axis_letter(unsigned axis) noexcept { return static_cast<char>('X' + axis); }
 
-// F words and what the motion of the line needs of them. Errors: kGcodeUndefinedFeedRate,
+// Checks the F word, and whether the motion of the line needs one. Errors: kGcodeUndefinedFeedRate,
 // kGcodeMaxValueExceeded.
 Status check_feed(LineContext& line, bool was_inverse_time) noexcept;
 
-// Where the axis words lead: `line.end`. Errors: kGcodeMaxValueExceeded.
+// Sets `line.end` from the axis words. Errors: kGcodeMaxValueExceeded.
 Status find_target(LineContext& line) noexcept;
 
 // A move with the feed and tolerance in force and the number of the line; path and ends are still
@@ -59,13 +59,13 @@ void set_speed(const ModalState& modal, path::Move& move) noexcept;
 // Adds a straight move to line.end to the plan, unless it has no length.
 void plan_line(const LineContext& line, path::MoveKind kind, MotionPlan& plan) noexcept;
 
-// G10, G28.1, G30.1, G92, G92.1, G43, G43.1 and G49. Errors: 20, 23, 26, 28, 29, 37, 38.
+// Plans G10, G28.1, G30.1, G92, G92.1, G43, G43.1 and G49. Errors: 20, 23, 26, 28, 29, 37, 38.
 Status plan_offsets(LineContext& line, MotionPlan& plan) noexcept;
 
-// G28, G30 and the motion commands, NURBS apart. Errors: 22, 26, 28 and 30 to 38.
+// Plans G28, G30 and the motion commands except NURBS. Errors: 22, 26, 28 and 30 to 38.
 Status plan_motion(LineContext& line, MotionPlan& plan) noexcept;
 
-// G81 to G83. Errors: kGcodeNoAxisWords, kGcodeValueWordMissing, kGcodeInvalidTarget,
+// Plans G81 to G83. Errors: kGcodeNoAxisWords, kGcodeValueWordMissing, kGcodeInvalidTarget,
 // kGcodeMaxValueExceeded.
 Status plan_drilling(LineContext& line, MotionPlan& plan) noexcept;
 

@@ -44,7 +44,7 @@ public:
     void clear() noexcept { steps_ = 0; }
     bool empty() const noexcept { return steps_ == 0; }
 
-    // The next action; `curve` yields the pieces of CurveMoves. The fields below say the rest.
+    // The next action; `curve` yields the pieces of CurveMoves. The fields below hold the remaining work.
     bool next(nurbs::PieceStream& curve, Action& action) noexcept;
 
     ToolChange tool_change{};

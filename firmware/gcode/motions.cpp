@@ -149,7 +149,8 @@ Status plan_probe(LineContext& line, MotionPlan& plan) noexcept
     return kDone;
 }
 
-// Through the point of the axis words, then to the stored position: of the named axes, or of all.
+// Plans a move to the point of the axis words, then one to the stored position, of the named axes or
+// of all.
 void plan_home(LineContext& line, const Position& home, MotionPlan& plan) noexcept
 {
     const Command& command = line.command;

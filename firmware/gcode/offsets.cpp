@@ -40,8 +40,8 @@ Status read_tool_number(Command& command, char upper_case, std::uint8_t& tool) n
     return kDone;
 }
 
-// The tool length with which the present tip is at the Z of the line: in the system in force with
-// G92, or in G59.3 without.
+// The tool length for which the tip is now at the Z of the line: in the coordinate system in force
+// with G92, or in G59.3 without it.
 std::int64_t length_from_here(const LineContext& line, G10Value how, std::int64_t z) noexcept
 {
     constexpr std::size_t kSetter = kCoordinateSystems - 1;
@@ -156,8 +156,8 @@ Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
     return kDone;
 }
 
-// G43 H: while the table is empty every length is 0. Once a tool was entered, one that was not is
-// unknown.
+// G43 H: while the table is empty every length is 0. After the first entry, tools without an
+// entry are refused.
 Result<std::int64_t> length_from_table(Command& command, const ToolTable& tools) noexcept
 {
     if (!command.has('H')) {

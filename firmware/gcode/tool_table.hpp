@@ -9,12 +9,12 @@ namespace cusp::gcode {
 class ToolTable {
 public:
     static constexpr unsigned kTools = 16;
-    // A length and its sign in 32 bits: 2 m.
+    // 2 m: a length with its sign fits in 32 bits.
     static constexpr std::int64_t kMostLengthNm = 2'000'000'000;
 
     static constexpr bool holds(unsigned tool) noexcept { return tool >= 1 && tool <= kTools; }
 
-    // No tool was entered: every length is 0.
+    // Whether no tool was entered: then every length is 0.
     constexpr bool empty() const noexcept { return entered_ == 0; }
     // Precondition of these three: holds(tool).
     constexpr bool has(unsigned tool) const noexcept

@@ -158,16 +158,16 @@ bool make_node(const path::BezierPiece& piece, float u, ArcLengthNode& node) noe
     return state.du > 0;
 }
 
-// Whether the quintic between two nodes keeps the speed. Half of kMaxSpeedError is for what the
-// sample points do not see and for rounding.
+// Whether the quintic between two nodes keeps the speed. Half of kMaxSpeedError is reserved
+// for errors between the sample points and for rounding.
 bool keeps_speed(const path::BezierPiece& piece,
                  const ArcLengthNode& a,
                  const ArcLengthNode& b,
                  float length) noexcept
 {
     constexpr float kAccepted = 0.5F * kMaxSpeedError;
-    // Gauss points see least of an error that vanishes with two derivatives at both ends where it
-    // is largest; these seven points do.
+    // The error and two of its derivatives vanish at both ends. Gauss points miss the places where
+    // such an error is largest; these seven points do not.
     constexpr std::array<float, 7> kChecked = {0.1F, 0.24F, 0.37F, 0.5F, 0.63F, 0.76F, 0.9F};
     const Quintic q = quintic_between(a, b, length);
     for (const float x : kChecked) {
@@ -213,7 +213,7 @@ CurveState state_at(const path::BezierPiece& piece, float u) noexcept
 
 bool make_arc_length_table(const path::BezierPiece& piece, ArcLengthTable& table) noexcept
 {
-    // A step below this on a piece that still is not accepted means a cusp.
+    // A piece that needs a step below this has a cusp.
     constexpr float kMinStep = 1.0F / 1024;
     table.size = 1;
     table.nodes[0] = {};

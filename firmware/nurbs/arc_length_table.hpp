@@ -37,12 +37,12 @@ inline constexpr float kMaxSpeedError = 1e-4F;
 // Fills the table: nodes where |dP/ds| - 1 stays below kMaxSpeedError between them.
 //
 // Returns false where kMaxArcLengthNodes do not suffice, or where dP/du vanishes; never for a piece
-// out of PieceStream, which splits until they do. Context: main loop.
+// of PieceStream, which splits until they do. Context: main loop.
 bool make_arc_length_table(const path::BezierPiece& piece, ArcLengthTable& table) noexcept;
 
 // The parameter at arc length s, clamped to the piece.
 //
-//   interval  that of the call before, 0 at first. Calls with rising or falling s take O(1).
+//   interval  that of the previous call, 0 at first. Calls with rising or falling s take O(1).
 //
 // Context: servo tick.
 float parameter_at(const ArcLengthTable& table, float s, unsigned& interval) noexcept;

@@ -51,8 +51,8 @@ Status PieceStream::check_knot(double knot) noexcept
     if (knots_count_ < order_) {
         return repeated ? Status{kDone} : Status{Error::kGcodeInvalidTarget};
     }
-    // The first `order` knots stand behind: one more like them is one too many, and inside the
-    // curve order - 1 already make a corner.
+    // The first `order` knots are equal. One more of that value is refused, and so are `order` equal
+    // knots inside the curve, where order - 1 already make a corner.
     const bool like_first = repeated && multiplicity_ > order_;
     const bool inside = multiplicity_ == order_;
     return like_first || inside ? Status{Error::kGcodeInvalidTarget} : Status{kDone};
@@ -113,7 +113,7 @@ std::uint32_t PieceStream::ready_end() const noexcept
     if (closed_) {
         return points_count_;
     }
-    // Span i ends its wait with knot i + degree. A uniform knot j is sure once j points are here.
+    // Span i is complete with knot i + degree. A uniform knot j is known after j points.
     const std::uint32_t known = source_ == KnotSource::kUniform ? points_count_ + 1 : knots_count_;
     return known > degree ? std::min(known - degree, points_count_) : 0;
 }
@@ -188,7 +188,7 @@ void straighten(path::BezierPiece& piece, Vec3d end) noexcept
 
 }  // namespace
 
-// False where the part from `from` to `to` is too long or too lively for one piece.
+// False where the part from `from` to `to` is too long for one piece, or its speed varies too much.
 bool PieceStream::try_piece(double from, double to, Piece& piece) noexcept
 {
     const Net net = part_of_span(from, to);

@@ -1,4 +1,4 @@
-// A NURBS of any length, point by point, to exact rational Bezier pieces, in fixed memory.
+// Converts a NURBS of any length, point by point, to exact rational Bezier pieces in fixed memory.
 //
 //   PieceStream stream;
 //   stream.open(KnotSource::kUniform, 4, start);  // cubic

@@ -1,4 +1,4 @@
-// Numbers and checks of lines.
+// Line numbers and checksums.
 #include "firmware/protocol/checked_lines.hpp"
 
 namespace cusp::protocol {

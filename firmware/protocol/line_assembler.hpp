@@ -1,4 +1,4 @@
-// LineAssembler: bytes in, one clean line out: no spaces, no comments, capitals only, as in Grbl.
+// LineAssembler: assembles bytes to a line without spaces and comments, in capitals, as Grbl does.
 // The front door of `protocol`, the serial dialect of docs/protocol.md.
 //
 //   LineAssembler assembler;
@@ -24,7 +24,7 @@ namespace cusp::protocol {
 
 inline constexpr std::size_t kMaxLineLength = 255;
 
-// The verdict of the end of a checked line on the bytes before it.
+// The result of the CRC at the end of a checked line.
 struct LineCheck {
     bool present{false};  // the line ends in '*' and eight hexadecimal digits
     bool good{false};     // and they are the CRC-32 of every byte before the '*'
@@ -39,14 +39,14 @@ public:
 
     // The line without spaces, control characters, '/' and comments, in capitals.
     std::string_view line() const noexcept { return {text_.data(), length_}; }
-    // As above, up to the last '*', for checked lines.
+    // The part of line() before the last '*', for checked lines.
     std::string_view checked_part() const noexcept { return {text_.data(), length_at_star_}; }
     LineCheck check() const noexcept;
-    // checked_part() is not whole: the check behind it does not count.
+    // Whether part of checked_part() is lost: the check after it is then invalid.
     bool checked_part_overflow() const noexcept { return overflow_at_star_; }
 
-    // More than kMaxLineLength characters came, or part of the line is known to be lost: line()
-    // holds a part only and must not be executed.
+    // Whether more than kMaxLineLength characters came, or part of the line is known to be lost.
+    // line() then holds a part only and must not be executed.
     bool overflow() const noexcept { return overflow_; }
     void mark_overflow() noexcept { overflow_ = true; }
 

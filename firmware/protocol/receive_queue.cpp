@@ -1,4 +1,4 @@
-// Bytes in, bytes out, losses counted.
+// A ring of bytes that counts what it loses.
 #include "firmware/protocol/receive_queue.hpp"
 
 namespace cusp::protocol {

@@ -22,9 +22,9 @@ public:
     bool empty() const noexcept { return ring_.empty(); }
     std::uint32_t room() const noexcept { return kCapacity - ring_.size(); }
 
-    // Bytes were lost behind the last one taken. Precondition of the answer: empty().
+    // Whether bytes were lost after the last one taken. False while bytes wait.
     bool lost() const noexcept { return losing_ && ring_.empty(); }
-    // Forgets the loss. Returns how many line ends were lost, all of which want an answer.
+    // Forgets the loss. Returns how many line ends were lost, each of which needs an answer.
     std::uint32_t take_lost_line_ends() noexcept;
     // Whether the last byte lost ended a line; if not, the rest of its line is still to come.
     bool loss_ended_a_line() const noexcept { return last_lost_ended_line_; }

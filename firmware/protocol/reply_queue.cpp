@@ -48,7 +48,7 @@ ReplyQueue& ReplyQueue::decimal(std::int64_t scaled, unsigned decimals) noexcept
         if (count == decimals && count > 0) {
             digits[count] = '.';
             ++count;
-            // The point takes a place of its own; what follows are whole digits.
+            // The point takes a place of its own; whole digits follow.
             decimals = kMostDigits + 1;
         }
         digits[count] = static_cast<char>('0' + rest % 10U);

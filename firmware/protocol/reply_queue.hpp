@@ -44,7 +44,7 @@ private:
 
 // x,y,z with three decimals in millimetres, or four in inches.
 void write_position(ReplyQueue& out, Position position, bool inches) noexcept;
-// One length the same way.
+// One length in the form of write_position().
 void write_length(ReplyQueue& out, std::int64_t nanometres, bool inches) noexcept;
 
 // value * 10^decimals to the nearest whole number, halves away from zero.

@@ -1,4 +1,4 @@
-// Recognises '$' commands.
+// Matches the text of '$' commands.
 #include "firmware/protocol/system_command.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// The '$' commands: text of a line to a command, without executing it.
+// Parses '$' commands, without executing them.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ struct SystemCommand {
 // part of the line.
 //
 // Errors, as Grbl gives them:
-//   kInvalidStatement  a known letter with something else behind it, or a number without '='
+//   kInvalidStatement  a known letter followed by something else, or a number without '='
 //   kBadNumberFormat   neither a known letter nor a number; a value that is no number
 Result<SystemCommand> parse_system_command(std::string_view line) noexcept;
 

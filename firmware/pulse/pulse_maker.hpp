@@ -1,4 +1,4 @@
-// Set points become pulse frames: every edge of the step and direction lines with its tick.
+// Converts set points to pulse frames: every edge of the step and direction lines with its tick.
 //
 //   PulseMaker maker{settings};
 //   maker.reset(position);

@@ -1,4 +1,4 @@
-// Runs of short lines to arcs and lines within a tolerance: greedy, streaming, in fixed memory.
+// Fits arcs and lines to runs of short lines, within a tolerance: greedy, streaming, in fixed memory.
 //
 //   ArcFitter fitter{settings, buffer};
 //   fitter.start(first);

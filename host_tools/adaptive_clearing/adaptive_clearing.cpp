@@ -36,7 +36,7 @@ using offset::surrounds;
 
 namespace {
 
-// Of the tool's radius.
+// In radii of the tool.
 constexpr double kSteered[] = {0.3, 0.1, 0.03};  // turning radii
 constexpr double kStrip = 0.04;                  // left along the walls by the first of them
 constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    // A helix into the part, unless there is a hole in it.
+    // Enters the part by a helix, unless a hole is swept there already.
     void enter(const Region2d& centres, const RegionPart& part, PassStarts& starts)
     {
         const Vec2d pole = deepest_place(centres, part);
@@ -192,7 +192,7 @@ private:
         at_ = pole + Vec2d{r, 0.0};
     }
 
-    // Of a grid over the part, the place farthest from walls.
+    // The point of a grid over the part that is farthest from walls.
     Vec2d deepest_place(const Region2d& centres, const RegionPart& part) const
     {
         const Contour& outer = centres.contours[part.outer];
@@ -217,8 +217,8 @@ private:
         return best;
     }
 
-    // Where the region opened by the radius `to` still has stock, one place after the other: passes
-    // along its walls for radii in between.
+    // Finds the places where the region opened by the radius `to` still has stock. Cuts each by
+    // passes along its walls, with turning radii that fall from `from` to `to`.
     void narrow(double from, double to)
     {
         std::vector<Box2d> spots;
@@ -243,7 +243,8 @@ private:
         }
     }
 
-    // Along the walls of the region opened by the radius `to`; `from` is the one of before.
+    // Passes along the walls of the region opened by the radius `to`, inside the box. `from` is the
+    // radius of the passes before; if the engagement is too large, radii in between come first.
     void cut_walls(double from, double to, const Box2d& spot, int depth)
     {
         constexpr int kMostDepth = 1;
@@ -266,8 +267,8 @@ private:
         }
     }
 
-    // What no turn reaches: slots hardly wider than the tool, and corners that no pass within the
-    // bound opens. What rounding may leave in corners stays.
+    // Cuts the stock that no turning radius reaches: slots hardly wider than the tool, and corners
+    // that no pass of bounded engagement opens. Stock thinner than the rounding of corners is left.
     void cut_rest()
     {
         const Region2d& finest = opened(finest_turn());
@@ -284,7 +285,7 @@ private:
         }
     }
 
-    // What passes left between them: straight onto it from the nearest place of before.
+    // Cuts slivers left between passes, each by a straight move from the nearest earlier place.
     void cut_slivers()
     {
         const Region2d whole = walls_.at(settings_.wall_clearance);
@@ -325,7 +326,7 @@ private:
         }
     }
 
-    // Straight down where nothing is swept yet.
+    // Plunges at the place, unless it is swept already.
     void enter_at(Vec2d place)
     {
         if (swept_.engagement(place, {1.0, 0.0}, -0.01 * radius_, kPi) < 0.1) {
@@ -338,7 +339,7 @@ private:
         at_ = place;
     }
 
-    // At least what the swept area, of discs and chords, misses.
+    // mm: at least the width that the swept area, made of discs and chords, misses.
     double least_sliver() const
     {
         return std::max(std::min(0.004 * radius_, 0.5 * settings_.corner),
@@ -367,7 +368,7 @@ private:
         });
     }
 
-    // Before the path is swept: the link meets the stock there is then.
+    // To be called before the path is swept: the link passes through the stock of that time.
     void link_to(Vec2d start)
     {
         link_.clear();
@@ -436,7 +437,7 @@ private:
     SweptArea swept_;
     KeepDownLinks links_;
     std::vector<LinkLeg> link_;  // to the next run
-    double expected_;            // mm of way
+    double expected_;            // mm: length of all passes
     AdaptivePath result_;
     std::map<double, Region2d> opened_;  // by radius
     std::vector<Vec2d> places_;          // where the tool has been

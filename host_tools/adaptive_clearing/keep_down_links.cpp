@@ -20,7 +20,7 @@ using offset::unit;
 
 namespace {
 
-// Of the radius.
+// In radii.
 constexpr double kMargin = 0.03;
 constexpr double kLook = 0.06;  // between places that are looked at: half of it and the margin are
                                 // SweptArea::kMaxShrink

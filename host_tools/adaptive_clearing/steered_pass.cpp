@@ -171,7 +171,7 @@ private:
         return Step{edge, std::max(first, second), ahead};
     }
 
-    // Of the half of the edge about its place at `share`, as SweptArea::engagement_bound().
+    // SweptArea::engagement_bound() for the half of the edge around its point at `share`.
     double bound_of_half(const Edge& edge, double share) const
     {
         return space_.swept.engagement(
@@ -182,7 +182,7 @@ private:
     const SteeringSpace& space_;
     double radius_;
     double last_{0.0};
-    // What was seen on from the step before, for the same turn.
+    // The engagement ahead that the step before found for a curvature.
     double known_curvature_{kUnbounded};
     double known_{};
 };

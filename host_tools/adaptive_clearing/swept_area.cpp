@@ -103,7 +103,8 @@ void SweptArea::add_disc(Vec2d centre, double radius)
 }
 
 // Whether all points of the cell about `middle`, and within kGrown of it, are nearer to the other
-// disc, which is no smaller: then it covers in the cell what the disc covers, at any slack.
+// disc, which is no smaller. Then that disc covers all that this one covers in the cell, for any
+// `shrink`.
 bool SweptArea::is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const
 {
     const Disc& a = discs_[disc];

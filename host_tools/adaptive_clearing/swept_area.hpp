@@ -19,6 +19,7 @@
 
 namespace cusp::adaptive_clearing {
 
+// Not for use by two threads at once, const members included.
 class SweptArea {
 public:
     // In radii: the largest `shrink` of engagement().
@@ -33,8 +34,8 @@ public:
     // The tool along the edge, by chords of its arcs within `tolerance` (mm).
     void add(const offset::Edge& edge, double tolerance = 0.0);
 
-    // Radians of the tool's circle at `centre` that are not swept, of those within a quarter turn
-    // and `widened` (radians) of the unit vector `heading`.
+    // The engagement at `centre`, radians: how much of the tool's circle is not swept. Only the part
+    // within a quarter turn and `widened` (radians) of the unit vector `heading` counts.
     //
     // shrink  mm, at most kMaxShrink radii: discs are taken as smaller by it. For the tool anywhere
     //        within `shrink` of the centre the result is an upper bound, with headings up to

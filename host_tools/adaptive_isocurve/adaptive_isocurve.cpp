@@ -288,7 +288,7 @@ private:
         return {"face ", surface + 1, where};
     }
 
-    // What is cut along one curve.
+    // The passes along one isocurve.
     struct PassesOfCurve {
         std::vector<SurfaceOperation::FittedPass> passes;
         bool whole{};    // one pass, from end to end

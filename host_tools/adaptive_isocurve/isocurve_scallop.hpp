@@ -58,10 +58,10 @@ private:
         Vec3d tangent;
         double rate;  // mm of the path by u
     };
-    // What a ball leaves over a point along its normal, and how far along the path it is nearest.
+    // The stock that a ball leaves over a point, along the normal.
     struct Uncut {
         double height;
-        double ahead;  // mm
+        double ahead;  // mm: from the point to the nearest ball, along the path
     };
     // towards  v of the neighbour
     Sweep sweep_at(double u, CurvePlace place, double towards);

@@ -28,7 +28,7 @@ constexpr int kCurvatureSamples = 60;  // along u and v
 constexpr double kSmoothShare = 0.99;
 // Share of the scallop that passes are planned for: the rest is room for their bend along the way.
 constexpr double kPlannedShare = 0.99;
-// The same where ScallopCheck proves the scallop: it needs room between plan and limit.
+// Share of the scallop that is planned where ScallopCheck proves it: the proof needs a reserve.
 constexpr double kCheckedShare = 0.97;
 constexpr double kCompleteShare = 0.99;  // of the least step
 constexpr int kSpacingRounds = 5;

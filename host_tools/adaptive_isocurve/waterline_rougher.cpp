@@ -361,7 +361,7 @@ private:
         return *std::min_element(least.begin(), least.end());
     }
 
-    // That of the moves from number `first` on, up to `last`.
+    // mm: the least clearance of the moves [first, last).
     double least_clearance(std::size_t first, std::size_t last) const
     {
         const std::vector<ToolMove>& moves = result_.planned.path.moves;

@@ -105,12 +105,12 @@ public:
             }
             const Vec2d start = run.path.front().start;
             if (run.link.empty()) {
-                // Below it slivers may remain beside the tool: not at rapid.
+                // Lower down the tool may meet slivers, so it descends at the plunge feed.
                 writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
                 writer_.line(MoveKind::kPlunge, {start.x, start.y, z});
             }
             for (std::size_t i = 0; i < run.link.size(); ++i) {
-                // Free legs do not rub on the floor.
+                // Rapid legs run above the floor.
                 const bool raised =
                     run.link[i].free || (i + 1 < run.link.size() && run.link[i + 1].free);
                 const Vec2d to = run.link[i].end;

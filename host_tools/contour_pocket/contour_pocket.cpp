@@ -74,7 +74,7 @@ constexpr double kLevelsDone = 0.6;  // of the progress
 
 constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius
 
-// Such a floor has no cliffs.
+// Whether the floor is one surface without trims, which has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
 {
     return operation.floor.size() == 1 && operation.floor.front().trims.empty();
@@ -235,7 +235,8 @@ private:
         return result;
     }
 
-    // Without pencil passes: the loops before them have cut that stock, as the map shows.
+    // Leaves pencil passes out where the stock height map is known: the loops before them have cut
+    // that stock.
     std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
         for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {

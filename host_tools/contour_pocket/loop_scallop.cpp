@@ -69,7 +69,7 @@ double LoopScallop::proven(const BendBounds& bounds) const
     return proven_reach(floor_.tool().radius, allowed(secant), bounds) - tolerances_.plan_tolerance;
 }
 
-// As above, for passes in the box and floor up to `step` (mm) beside it.
+// That distance for passes in the box, over the floor up to `step` (mm) beside it.
 double LoopScallop::proven(const Box2d& passes, double step) const
 {
     return proven(

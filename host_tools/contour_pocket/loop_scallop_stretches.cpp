@@ -1,5 +1,5 @@
-// Cross lines in turn: where one of two neighbours has too high a scallop, the stretch between them
-// counts.
+// Examines cross lines in order. The stretch between two neighbours is reported if one of them has
+// too high a scallop.
 #include <algorithm>
 #include <cmath>
 

@@ -293,9 +293,9 @@ private:
         }
     }
 
-    // In a hole narrower than the tool the tip has a single lowest place, with no curve from it:
-    // the nearer a section passes it, the tighter and yet smoother it bends. The place gets a
-    // straight line through it.
+    // In a hole narrower than the tool the height of the tip has a single lowest point, and no
+    // pencil curve starts there: sections near the point bend tightly, but smoothly. The result is a
+    // straight line through that point.
     void cross_dimple(const Sample& a, const Sample& b)
     {
         const double step = 0.5 * distance(a.at, b.at);
@@ -347,8 +347,8 @@ private:
         return true;
     }
 
-    // The same point of the line, found again on a section perpendicular to it, from two
-    // neighbouring points.
+    // Finds a point of the line again on a section perpendicular to the line, whose direction is
+    // that of two neighbouring points.
     std::optional<PencilPoint> met_perpendicular(const PencilPoint& start) const
     {
         const double step = 4.0 * kShortestStep * radius_;
@@ -387,7 +387,7 @@ private:
         Vec2d way;
     };
 
-    // The next point of the line, as far on as the tolerance of chords allows.
+    // The next point of the line, as far ahead as the tolerance of chords allows.
     std::optional<Step> next(const PencilPoint& from, Vec2d way, double& step) const
     {
         const double shortest = kShortestStep * radius_;
@@ -421,7 +421,7 @@ private:
         return best;
     }
 
-    // Traces on from the last point of the last line.
+    // Continues the trace from the last point of the last line.
     void follow(Vec2d way)
     {
         constexpr int kMostPoints = 200000;

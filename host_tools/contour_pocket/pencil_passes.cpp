@@ -226,7 +226,7 @@ private:
     const DropCutter& floor_;
     const ClearedRegion& cleared_;
     std::optional<HeightAfterPasses> leavings_;
-    bool jumps_count_{true};  // whatever stock they leave
+    bool jumps_count_{true};  // true: jumps are followed, whatever stock is left there
     const PencilSettings& settings_;
     std::vector<ClearingPass> passes_;
 };

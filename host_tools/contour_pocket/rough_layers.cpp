@@ -102,7 +102,7 @@ CutSettings rough_settings(const Operation& operation,
     return settings;
 }
 
-// Fills path and statistics but the gouge bound and the time; takes the moves.
+// Fills path and statistics, except the gouge bound and the time; takes the moves.
 void fill_operation(const Operation& operation,
                     const ClearedRegion& cleared,
                     ClPathWriter& moves,

@@ -26,7 +26,7 @@ struct Wedge {
     }
 };
 
-// From the origin to all points within `room` of the end of `arm`, whose length is `apart` > room.
+// The directions from the origin to all points within `room` of the end of `arm`, whose length is `apart` > room.
 Wedge wedge_about(Vec2d arm, double apart, double room)
 {
     const Vec2d way = arm * (1.0 / apart);
@@ -104,7 +104,8 @@ private:
 
     bool ends_home(std::size_t j) const { return fixed_end_ && j == last_; }
 
-    // How far a line from here can pass all stations; `way` becomes the middle of its directions.
+    // The last station up to which one line from here passes all stations; `way` becomes the middle
+    // of the directions of such lines.
     std::size_t widest_wedge(std::size_t i, Vec2d& way) const
     {
         std::size_t good = i + 1;
@@ -158,7 +159,7 @@ private:
                 if (reach->station >= limit || reach->station == i + 1) {
                     return *reach;
                 }
-                // The floor limits it: fewer stations leave a wider range of directions.
+                // The floor limits the line: fewer stations leave a wider range of directions.
                 limit = reach->station;
             } else {
                 limit = i + 1;
@@ -168,7 +169,7 @@ private:
         return plain(i, i + 1);
     }
 
-    // The direction for stations up to `limit` only.
+    // Sets `way` to the direction for stations up to `limit` only.
     void narrow_to(std::size_t i, std::size_t limit, Vec2d& way) const
     {
         ChainBuilder part = *this;

@@ -237,7 +237,7 @@ double DropCutter::State::axial_clearance(const Piece& piece, Vec3d a, Vec3d b, 
     return std::max(over_box, std::min(over_plane(a), over_plane(b)));
 }
 
-// What to halve for a part of a move whose clearance from a piece is at least `here`.
+// Decides whether to halve the piece or the part of the move whose clearance is at least `here`.
 //
 //   length  of the part, mm
 //   tilt    mm: how much the part rises over the piece's plane

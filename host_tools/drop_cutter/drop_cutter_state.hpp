@@ -30,8 +30,8 @@ struct DropCutter::State {
     // Most queries read only the first cache line of a piece.
     struct alignas(64) Piece {
         // A plane above the piece, where the piece is a graph: z = z_at_origin + gradient . (x, y).
-        // Of a wall: n . p = z_at_origin, with the unit normal n and n.z = rise; its `gradient` is
-        // that of the piece that was halved.
+        // For a wall the plane is n . p = z_at_origin, with the unit normal n and n.z = rise;
+        // `gradient` is that of the piece that was halved.
         Vec2d gradient;
         double z_at_origin;
         double rise;  // mm: of the tip over the plane at the tool's axis

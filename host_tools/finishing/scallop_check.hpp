@@ -115,11 +115,11 @@ private:
         double least_z;         // of the normals
     };
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
-    // What a cell without a missing pass, or with one, was found to be.
+    // The finding for one cell.
     struct CellFinding {
-        bool missing{};         // a pass is
-        bool moved_clear{};     // some tip was rejected since it would gouge an edge
-        double left{};          // mm: over the reachable, where a pass is missing
+        bool missing{};         // a pass is needed here
+        bool moved_clear{};     // some tip was rejected because it would gouge an edge
+        double left{};          // mm: over the reachable height, where a pass is missing
         double beside_edges{};  // mm
     };
     struct SharedVisibility {
@@ -204,7 +204,7 @@ private:
     bool overflowed_{};
     mutable bool nearly_uncovered_{};  // some tip would remove nearly the scallop
     mutable double near_share_{1};     // share of the scallop that counts as nearly
-    mutable bool moved_clear_{};       // some tip was rejected since it would gouge an edge
+    mutable bool moved_clear_{};       // some tip was rejected because it would gouge an edge
     mutable std::vector<std::uint32_t> near_;
 };
 

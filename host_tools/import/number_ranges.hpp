@@ -1,4 +1,4 @@
-// Ranges of the numbers in jobs and of the options that replace a job; the inch.
+// Ranges of the numbers in jobs and of the options that replace a job.
 #pragma once
 
 namespace cusp::import {

@@ -68,7 +68,7 @@ struct PartGeometry {
     std::vector<PartLayer> layers;
 
     std::vector<nurbs::Surface> surfaces;
-    // Of each surface: +1 if du x dv points out of its solid, -1 if into it; 0: of no solid. Empty
+    // One value for each surface: +1 if du x dv points out of its solid, -1 if into it; 0: of no solid. Empty
     // where the file has no solids.
     std::vector<double> outwards;
     std::size_t solids{};        // STEP, IGES and BREP

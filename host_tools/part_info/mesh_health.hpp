@@ -31,7 +31,7 @@ struct MeshEdge {
 struct WeldedMesh {
     std::vector<Vec3d> corners;
     std::vector<std::array<std::uint32_t, 3>> facets;
-    // Of each facet: +1 where its corners run counter-clockwise seen from outside, -1 where
+    // One value for each facet: +1 where its corners run counter-clockwise seen from outside, -1 where
     // clockwise; 0: its shell is not closed and has no outside.
     std::vector<std::int8_t> outwards;
     std::vector<MeshEdge> edges;  // those with two facets

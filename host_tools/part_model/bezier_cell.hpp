@@ -40,7 +40,7 @@ public:
     int surface() const { return surface_; }
     // Point and derivatives by the local parameters, each in [0, 1].
     nurbs::SurfacePoint at(double s, double t) const;
-    // The same without second derivatives, which may be zero.
+    // First derivatives at (s, t); second derivatives may be left zero.
     nurbs::SurfacePoint tangents_at(double s, double t) const;
 
     // A bicubic cell at one s, as control points of a curve of t and of its derivative by s.

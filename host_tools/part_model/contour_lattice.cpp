@@ -106,7 +106,7 @@ bool ContourLattice::halve()
     const std::size_t coarse_rows = rows();
     const std::size_t coarse_u = u_cells_;
     const std::size_t coarse_v = v_cells_;
-    // Of cells, by their lower nodes.
+    // Flags of cells, at the index of their lower node.
     std::vector<char> settled(values_.size(), 1);
     std::vector<char> crossed(values_.size(), 0);
     for (std::size_t i = 0; i < coarse_u; ++i) {

@@ -305,7 +305,8 @@ const BezierCell::NearPatches& MoveClearanceBound::find_patches(const CcPoint& f
     auto near = std::make_unique<BezierCell::NearPatches>();
     near->centre = cell.middle().point + cell.axes()[0] * from.distance;
     near->range = limit + std::max(kRangeMore * radius_, 1.1 * norm(from.centre() - near->centre));
-    // What was known is known again: two distances in turn would be looked for in turn.
+    // The new range includes the old one: otherwise two distances in turn would each replace the
+    // list of the other.
     if (const BezierCell::NearPatches* known = cell.near_patches()) {
         near->range = std::max(near->range, known->range + norm(near->centre - known->centre));
     }

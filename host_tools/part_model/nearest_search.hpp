@@ -58,7 +58,7 @@ struct PartModel::State {
     // The contacts of the last queries: a path queries each contact for the moves to and from it.
     KnownContact known(const CcPoint& contact) const;
     void remember(const KnownContact& contact) const;
-    // What the last queries of a thread have found.
+    // The last results of a thread, from which its next query starts.
     struct History {
         std::array<std::optional<KnownContact>, 4> known_contacts;
         std::size_t oldest_contact{};
@@ -72,9 +72,9 @@ struct PartModel::State {
         std::size_t last_u{};
         std::size_t last_v{};
     };
-    // That of the calling thread.
+    // The history of the calling thread.
     History& history() const;
-    // Of all threads; for one thread while no other queries.
+    // Clears the histories of all threads. To be called while no other thread queries.
     void forget_histories() const;
 
 private:

@@ -37,7 +37,7 @@ struct ToolDistance {
     NearestPoint nearest;
 };
 
-// What distance_within() may leave inexact, all in mm.
+// How exact distance_within() must be, all in mm.
 struct DistanceOptions {
     double least;  // distances below this may be inexact, but do not exceed it by `max_error`
     double max_distance;  // greater distances are returned as this
@@ -223,7 +223,7 @@ public:
 
     // derivatives_at() by the cells, several times faster.
     nurbs::SurfacePoint evaluate(int surface, double u, double v) const;
-    // The same without second derivatives, which may be zero.
+    // As evaluate(), but second derivatives may be left zero.
     nurbs::SurfacePoint tangents(int surface, double u, double v) const;
 
     // The surface at one u, for queries at many v.

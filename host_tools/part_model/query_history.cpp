@@ -1,4 +1,4 @@
-// What queries have found of cells, and where the last ones of each thread ended.
+// The memory of queries: proved facts of cells, and the last results of each thread.
 #include <algorithm>
 
 #include "host_tools/part_model/nearest_search.hpp"

@@ -11,7 +11,7 @@ namespace cusp::toolpath {
 // A number in fixed point with at most `decimals`, without trailing zeros.
 std::string fixed_point(double value, int decimals);
 
-// As above with nine digits in all: a knot or a weight.
+// The value with nine significant digits: a knot or a weight.
 std::string nine_digits(double value);
 
 // Appends value / scale, exact.

@@ -7,7 +7,7 @@
 
 namespace cusp::verify {
 
-// The same for any number of threads: what a band finds may depend on where it begins.
+// Fixed, whatever the number of threads: results of a band may depend on where it begins.
 inline constexpr std::size_t kBands = 8;
 
 // Calls work(begin, end, number of the band) for disjoint ranges that cover [0, count), several at

@@ -1,5 +1,5 @@
-// What the engagement of a program amounts to: its greatest, the way over a limit, air, and how
-// much stock is removed in a minute.
+// Figures of a program's engagement: the greatest, the length over a limit, the length in air, and
+// the removal rate.
 #pragma once
 
 #include <cstdint>

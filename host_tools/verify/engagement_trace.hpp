@@ -34,11 +34,11 @@
 
 namespace cusp::verify {
 
-// Of the way to a position.
+// The kind of the step that leads to a position.
 enum class StepKind : std::uint8_t {
     kRapid,
     kAir,    // a feed move that removes nothing
-    kEntry,  // it goes down by over 2 % of its way: helix, ramp or plunge
+    kEntry,  // it descends by over 2 % of its length: helix, ramp or plunge
     kCut,
 };
 

@@ -278,7 +278,7 @@ void judge(const Scene& scene, Verification& result)
     }
     if (f.tabs_standing != f.tabs_wanted) {
         result.broken.push_back(
-            fmt::format("tabs: {} stand, {} are wanted", f.tabs_standing, f.tabs_wanted));
+            fmt::format("tabs: {} found, {} expected", f.tabs_standing, f.tabs_wanted));
     }
     if (scene.scallop) {
         bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
@@ -372,7 +372,7 @@ void sum_engagement(const Job& job,
     figures.seconds = programmed_seconds(result.program);
 }
 
-// What surfaces and their walls ask for.
+// Judges surfaces and their walls; fills the maps.
 void judge_surfaces(const Job& job,
                     const Scene& scene,
                     const std::vector<ToolPositions>& runs,
@@ -396,8 +396,8 @@ void judge_surfaces(const Job& job,
     result.part = std::move(maps.part);
 }
 
-// What 2.5-D operations ask for. Where they cut, a surface of another operation is no bound: their
-// figures of gouges replace those of the surfaces.
+// Judges 2.5-D operations. Where they cut, surfaces of other operations do not limit the depth, so
+// these figures of gouges replace those of the surfaces.
 void add_levels(const Job& job,
                 const Scene& scene,
                 const MachinedStock& stock,

@@ -88,11 +88,11 @@ struct VerifyFigures {
     double left_volume{};                       // mm^3
     std::optional<ThickestLeft> thickest_left;  // if it is more than scallop and tolerance
     double uncovered_share{};                   // of the floor: left above the scallop bound
-    // Of 2.5-D operations: the most that is left over the tolerance; tabs of all profiles.
+    // For 2.5-D operations: the most stock left over the tolerance, and the tabs of all profiles.
     std::optional<LevelLeft> level_left;
     int tabs_standing{};
     int tabs_wanted{};
-    std::optional<EngagementFigures> engagement;  // where it was asked for
+    std::optional<EngagementFigures> engagement;  // if requested
 };
 
 // The limits of the figures, mm. The error of the judgement is added to each.

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Times `cusp plan` and `cusp verify` on a dozen parts of the kinds that strangers bring, all made here.
+"""Times `cusp plan` and `cusp verify` on a dozen parts of kinds that users have, all made here.
 
 usage: parts_bench.py CUSP [--part NAME ...] [--threads N ...] [--keep FOLDER]
 
 Prints one row a part: processor time of one thread (user and system), wall time for each number of threads, the most
-memory, and whether the bytes of all runs are equal. Wall times mean something on an idle machine only.
+memory, and whether the bytes of all runs are equal. Wall times are meaningful on an idle machine only.
 Exit status: 0 all planned and equal, 1 otherwise. Figures: docs/benchmarks.md.
 """
 import argparse
@@ -178,7 +178,7 @@ def sharp_crest(folder, n=12):
     write_surfaces(folder, [surface([(50 * i / (n - 1), xs[j], zs[j]) for j in range(n) for i in range(n)], n, n)])
 
 
-# Name: what makes it, its keys beside floor and strategy.
+# Name: the function that makes it, and the job's keys other than floor and strategy.
 ROUGH = {"roughing": True, "max_depth": 4, "tools": [2], "allowance": 0.3}
 PARTS = {
     "leaning posts": (leaning_posts, {"scallop": 0.05}),

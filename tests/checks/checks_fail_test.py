@@ -109,7 +109,8 @@ class ChecksOfTheTree(unittest.TestCase):
                             ("docs/walls.md", "The tool can feel the wall.\n"),
                             ("host_tools/view/web/src/scene.ts", "/** Where metal stands. */\n"),
                             ("hal/sim/mill.hpp", "int a;  // The axis stands still.\n"),
-                            ("tests/support/box.hpp", "int a;  // upright\n")):
+                            ("tests/support/box.hpp", "int a;  // upright\n"),
+                            ("tests/cli/box.py", 'def box():\n    """A box of metal."""\n'), ("tests/cli/tap.py", "a = 1  # what is told\n")):
             self.write(place, text)
             status, said = self.run_check("retired_words.py")
             self.assertEqual(status, 1, place)
@@ -172,7 +173,6 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` | its first type |\n| `firmware/path` | `arc.hpp` | |\n")
         self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
 
-    def test_sizes_refuses_long_files_and_functions_and_private_parts_first(self):
     def test_front_doors_have_the_name_of_the_module_or_a_reason(self):
         text = "// Lines.\n//\n//   Line line;\n#pragma once\nclass LineSet final {\n};\n"
         self.write("firmware/path/line_set.hpp", text)
@@ -189,6 +189,7 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "| `firmware/path` | `path.hpp` | a reason |\n")
         self.assertIn("no reason needed", self.run_check("front_doors.py")[1])
 
+    def test_sizes_refuses_long_files_and_functions_and_private_parts_first(self):
         self.assertEqual(self.run_check("sizes.py")[0], 2)
         body = "\n".join(["    step();"] * 56)
         function = "namespace cusp {\n\n%sint cut(int a,\n        int b)\n{\n" + body + "\n%s}\n\n}  // namespace cusp\n"
@@ -210,7 +211,6 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("host_tools/clearing/ring.hpp", "// A ring.\n" * 501)
         self.assertIn("501 lines; limit 500", self.run_check("sizes.py")[1])
 
-    def test_glossary_refuses_a_noun_that_it_lacks(self):
     def test_constants_refuses_other_names_for_nothing_and_for_the_inch(self):
         self.assertEqual(self.run_check("constants.py")[0], 2)
         place = "host_tools/clearing/loops.cpp"
@@ -225,6 +225,7 @@ class ChecksOfTheTree(unittest.TestCase):
             self.assertEqual(status, 1 if wrong else 0, said)
             self.assertIn(f"{place}:2: {wrong}" if wrong else "1 files", said)
 
+    def test_glossary_refuses_a_noun_that_it_lacks(self):
         self.assertEqual(self.run_check("glossary.py")[0], 2)
         self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
         self.write("host_tools/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")

@@ -1,4 +1,4 @@
-"""What an image for a Cortex-M is made of: its functions, who calls whom, how much stack each takes.
+"""Reads an image for a Cortex-M: its functions, their calls, and the stack that each takes.
 
 The calls come from the linked image, so they are what the core does, whatever the sources say. The
 stack comes from the compiler (-fcallgraph-info=su) where it compiled the function, and from the
@@ -49,7 +49,7 @@ def register_count(operands):
 
 
 def stack_taken(mnemonic, operands):
-    """Bytes that an instruction takes from the stack; None where only the run can tell."""
+    """Bytes that an instruction takes from the stack; None where it is known at run time only."""
     name = mnemonic.split(".")[0]
     if name == "push" or (name.startswith("stmdb") and operands.startswith("sp!")):
         return 4 * register_count(operands)
@@ -125,7 +125,7 @@ def add_compiler_sizes(functions, folder):
 
 
 RELOCATION = re.compile(r"^([0-9a-f]{8})\s+[0-9a-f]+\s+(R_ARM_\w+)\s+([0-9a-f]{8})\s+(\S+)")
-# What puts an address into a word (R_ARM_TARGET1: of a table of constructors), or into two instructions.
+# Relocations that put an address into a word (R_ARM_TARGET1: of a table of constructors), or into two instructions.
 WORDS = {"R_ARM_ABS32", "R_ARM_TARGET1"}
 HALVES = {"R_ARM_THM_MOVW_ABS_NC", "R_ARM_THM_MOVT_ABS", "R_ARM_MOVW_ABS_NC", "R_ARM_MOVT_ABS"}
 # Sections that are not in the chip's memory.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the jobs of the examples name no file outside them: installed, they have nothing else around.
+"""Checks that the jobs of the examples name no file outside them: when installed, they have no other files beside them.
 
 usage: examples.py TOP
 Exit status: 0 all files are there and inside, 1 some are not, 2 there are no jobs.

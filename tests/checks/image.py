@@ -33,7 +33,7 @@ RAM_LIMIT = 96 * 1024  # unless the call says otherwise
 
 
 def reached(functions, root):
-    """What a function reaches: each with who calls it first."""
+    """The functions that a function reaches, each with its first caller."""
     found, waiting = {root: None}, [root]
     while waiting:
         name = waiting.pop(0)
@@ -45,7 +45,7 @@ def reached(functions, root):
 
 
 def way(found, name):
-    """The chain of calls that reaches a function, as people write the names."""
+    """The chain of calls that reaches a function, with names as in the sources."""
     chain = [name]
     while found[chain[0]]:
         chain.insert(0, found[chain[0]])
@@ -88,7 +88,7 @@ def symbols(image):
 
 
 def plain(names):
-    """Names as people write them, for reports."""
+    """Names as in the sources, for reports."""
     text = subprocess.run(["arm-none-eabi-c++filt", "-p", *names], capture_output=True,
                           text=True).stdout
     return text.split("\n")[:len(names)]

@@ -12,7 +12,7 @@ import re
 import sys
 
 TOP_FOLDERS = ("firmware", "hal", "boards", "host_tools")
-# What firmware may take from the standard library: nothing of it allocates, throws or differs.
+# Headers of the standard library for firmware: none allocates, throws, or differs between libraries.
 FREESTANDING_HEADERS = {
     "algorithm", "array", "atomic", "cmath", "cstddef", "cstdint", "limits", "optional",
     "string_view", "tuple", "type_traits", "utility", "variant",

@@ -3,13 +3,16 @@
 
 usage: retired_words.py TOP
 WORDS are looked for everywhere: in code, comments, documents and names of files. IDENTIFIERS are common words too, so
-they are looked for in C++ without comments and strings; PHRASES in comments, those of PAGE_PHRASES in pages of docs/
-too. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
+they are looked for in C++ without comments and strings; PHRASES in comments and docstrings, those of PAGE_PHRASES in
+pages of docs/ too. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
 Exit status: 0 none is found, 1 some are, 2 there are no sources.
 """
+import ast
+import io
 import pathlib
 import re
 import sys
+import tokenize
 
 FOLDERS = ("firmware", "hal", "boards", "host_tools", "tests", "docs", "cmake")
 ENDINGS = (".hpp", ".cpp", ".md", ".py", ".txt", ".cmake", ".sh", ".ts", ".mjs")
@@ -60,7 +63,7 @@ IDENTIFIERS = {
     "rolls_freely": "is_move_between_contacts_clear", "worth": "resolution", "told": "lookup_spacing", "bare": "uncovered",
     "cushion": "clearance_reserve", "metal": "stock", "stands": "remains", "kept_off": "with_clearance", "askew": "at_an_angle",
 }
-# In comments of C++ and TypeScript.
+# In comments of C++, TypeScript and Python, and in docstrings.
 PHRASES = {
     "told apart": "inexact", "let down": "dropped", "askew": "at an angle", "felt": "tracked", "feel": "track", "feels": "tracks",
     "upright": "vertical", "metal": "stock", "stands": "is", "standing": "uncut", "stood": "was", "told": "given", "tells": "returns",
@@ -82,6 +85,19 @@ PHRASE, PAGE_PHRASE = (re.compile(r"\b(?:%s)\b" % "|".join(words), re.IGNORECASE
 WORD, IDENTIFIER = pattern(WORDS), re.compile(r"\b(?:%s)\b" % "|".join(IDENTIFIERS))
 
 
+def python_comments(text):
+    """Comments and docstrings, each at its line; all else is left blank."""
+    lines = [""] * (text.count("\n") + 1)
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            lines[token.start[0] - 1] = token.string
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node, clean=False):
+            for line in range(node.body[0].lineno - 1, node.body[0].end_lineno):
+                lines[line] = text.split("\n")[line]
+    return "\n".join(lines)
+
+
 def files_of(top):
     for folder in FOLDERS:
         for file in sorted((top / folder).rglob("*")):
@@ -96,6 +112,7 @@ def complaints(file, place):
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text) if file.suffix in (".hpp", ".cpp") else ""
     commented = file.suffix in (".hpp", ".cpp", ".ts", ".mjs")
     comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if commented else ""
+    comments = python_comments(text) if file.suffix == ".py" else comments
     page = text if file.suffix == ".md" else ""
     for names, searched, found in ((WORDS, text, WORD), (IDENTIFIERS, code, IDENTIFIER), (PHRASES, comments, PHRASE),
                                    (PHRASES, page, PAGE_PHRASE)):

@@ -55,7 +55,7 @@ def first_access(lines):
 
 
 def complaints(file, place):
-    """Of tests only the length of the file: a test may be one long conversation."""
+    """Of tests, the length of the file only: a test may be one long dialogue."""
     lines = file.read_text().split("\n")
     if len(lines) - 1 > MOST_LINES:
         yield f"{place}: {len(lines) - 1} lines; limit {MOST_LINES}"

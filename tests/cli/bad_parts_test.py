@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Parts that are no parts: cusp plan ends with status 2 and says which file, what and how much; never a crash or a hang.
+"""Invalid parts: cusp plan ends with status 2 and names file, quantity and value; it never crashes or hangs.
 
 usage: bad_parts_test.py CUSP [--without-cad]
 """

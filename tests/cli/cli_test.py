@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Calls cusp as a user does, mostly wrongly: each call has its exit status and its words.
+"""Calls cusp as a user does, mostly with mistakes, and checks exit statuses and messages.
 
 usage: cli_test.py CUSP
 """
@@ -69,7 +69,7 @@ class Cli(unittest.TestCase):
         self.expect(2, words, "plan", "job.toml", "-o", "p.ngc")
         self.assertFalse((self.folder / "p.ngc").exists())
 
-    # The floor, 4 mm under its stock, as one that lies in the top: nothing for hull_rough.
+    # The floor lies in the top of the stock instead of 4 mm below it: hull_rough has nothing to cut.
     def test_nothing_to_rough_is_a_warning_where_another_operation_cuts(self):
         rough = '[[operation]]\nstrategy = "hull_rough"\nfloor = "floor.json"\nmax_depth = 2\n'
         head, finish = JOB.replace("top = 0", "top = -4").split("[[operation]]")

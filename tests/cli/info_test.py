@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""cusp info as a machinist calls it: what it says, what it writes, and how it refuses.
+"""cusp info as a machinist calls it: its text, its JSON and its errors.
 
 usage: info_test.py CUSP
 """

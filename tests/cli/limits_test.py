@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Ctrl-C and the end of memory: `cusp plan` ends at once, says where it was, and leaves no half-written program.
+"""Ctrl-C and the end of memory: `cusp plan` ends at once, reports its progress, and leaves no half-written program.
 
 usage: limits_test.py CUSP [--sanitized]
 --sanitized: CUSP was built with a sanitizer, which leaves its memory without a limit.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One box as STL, OBJ and 3MF: cusp info and cusp plan say and write the same of all three; broken 3MF files are refused.
+"""One box as STL, OBJ and 3MF: cusp info and cusp plan give the same results for all three; broken 3MF files are refused.
 
 usage: mesh_files_test.py CUSP [--without-3mf]
 """

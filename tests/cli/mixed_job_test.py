@@ -1,4 +1,4 @@
-"""A job of 3-D and 2.5-D operations: cut as it should be, and spoiled in each of them.
+"""A job of 3-D and 2.5-D operations: verified as planned, and with a fault planted in each of them.
 
 usage: mixed_job_test.py CUSP
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plans parts without a job file: what is said, what the printed job amounts to, what is refused.
+"""Plans parts without a job file: messages, the result of the printed job, errors.
 
 usage: one_line_test.py CUSP [--without-cad]
 """

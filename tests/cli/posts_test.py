@@ -21,7 +21,7 @@ CUSP = str(pathlib.Path(sys.argv[1]).resolve())
 EXAMPLES = "--examples" in sys.argv
 TOP = pathlib.Path(__file__).resolve().parents[2]
 POSTS = ("cusp", "fanuc", "grbl", "grblhal", "linuxcnc", "mach3")
-# What the makers' manuals list of the words that planned programs may need.
+# Of the words that planned programs may need, those in the manufacturers' manuals.
 COMMON = {"G0", "G1", "G2", "G3", "G17", "G18", "G19", "G20", "G21", "G40", "G49", "G54", "G80", "G90", "G94",
           "M0", "M3", "M5", "M8", "M9", "M30"}
 WORDS = {
@@ -280,7 +280,7 @@ class LinuxCnc(Scratch):
                 at = points[-1]
         return motions
 
-    # The same from our controller: all set points, and the rows of each line, with some before and after: filters lag.
+    # The motions of our controller: all set points, and the rows of each line, with some before and after: filters lag.
     def samples(self, name):
         self.cusp(0, "sim", name, "--samples", "s.csv", "--stats", "s.json")
         points, rows = [], {}

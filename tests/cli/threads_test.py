@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Any number of threads gives the same bytes.
+"""Checks that the output does not depend on the number of threads.
 
 usage: threads_test.py CUSP [--first SEED] [--count N] [--all-examples]
 
@@ -22,11 +22,11 @@ from random_job import RandomJob
 
 QUICK_EXAMPLES = ("adaptive_isocurve/trimmed.toml",)
 THREADS = (1, 2, 3)
-WHOLE = 600  # s: a limit no sound call comes near
+WHOLE = 600  # s: longer than any correct call takes
 
 
 def results(cusp, job, folder, threads):
-    """What a job gives: exit status, bytes of the program, figures of plan and of verify."""
+    """The results of a job: exit status, bytes of the program, figures of plan and of verify."""
     program, stats, check = (folder / name for name in ("out.ngc", "plan.json", "verify.json"))
     for path in (program, stats, check):
         path.unlink(missing_ok=True)

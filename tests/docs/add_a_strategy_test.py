@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/add_a_strategy.md, tried: its blocks applied to a copy of the tree keep the checks, and the strategy plans.
+"""Applies the blocks of docs/add_a_strategy.md to a copy of the tree: the checks pass, and the strategy plans.
 
 usage: add_a_strategy_test.py TOP PLAN_WITH_IT CUSP
 """

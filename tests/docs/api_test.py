@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The index of the public headers is made without a warning, and a wrong comment is one.
+"""The index of the public headers is made without a warning, and a wrong comment gives one.
 
 usage: api_test.py TOP
 """

@@ -4,12 +4,12 @@
 usage: docs_test.py CUSP TOP DOCUMENT...    (documents relative to TOP)
 
 A block ```sh holds commands, a block ```console commands after "$ " and below each what it prints,
-both streams; "..." stands for any text. Words after sh or console:
+both streams; "..." means any text. Words after sh or console:
   no-run=REASON  is not run; REASONS below has the words
   needs=view     is run where the build has the pages of cusp view
   background     one command, which runs until the document ends
   stop-after=S   Ctrl-C comes after S seconds
-  status=N       the exit status of the last command, 0 where nothing is said
+  status=N       the exit status of the last command, 0 if not given
 Each document has an empty folder of its own, with the tree's examples in it.
 Exit status: 0 all agree, 1 not.
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shows that two builds of `cusp` give the same bytes: what a refactoring is judged by.
+"""Shows that two builds of `cusp` give the same bytes: the test of a refactoring.
 
 usage: compare_bytes.py OLD NEW [--first SEED] [--count N] [--no-examples] [--no-messages] [--jobs N] [--limit S] [--keep FOLDER]
 
@@ -28,7 +28,7 @@ TIMES = {"planning_s", "wall_s"}
 PROGRESS = re.compile(rb"(planning|timing|cutting) \d+ %\n")
 TIME_WORDS = re.compile(rb"(planned|simulated) in [0-9.]+ s")
 VERSION = re.compile(rb"cusp \d+\.\d+\.\d+")
-WHOLE = 600  # s: a limit no sound call comes near
+WHOLE = 600  # s: longer than any correct call takes
 SIMULATED = 40  # s of motion; longer programs are not traced
 
 
@@ -147,7 +147,7 @@ class Outputs:
 
 
 def compare(programs, job, folder, scratch, limit, options):
-    """What the job's outputs differ in, or nothing; and what was compared."""
+    """The difference of the job's outputs, or nothing, and the names of the outputs compared."""
     old = outputs(programs[0], job, folder, scratch / "out-old", limit, options)
     try:
         new = outputs(programs[1], job, folder, scratch / "out-new", WHOLE, options)

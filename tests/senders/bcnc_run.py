@@ -4,7 +4,7 @@
 usage: bcnc_run.py CUSP [BCNC]
 
 BCNC is the folder with Sender.py: /usr/share/bcnc/bCNC of Debian's package bcnc. Exit status: 0 all
-steps and the tap's books are right, 1 not, 77 there is no bCNC.
+steps and the tap's counts are right, 1 not, 77 there is no bCNC.
 """
 import os
 import pathlib
@@ -55,7 +55,7 @@ class Headless(Sender):
         self.queue.put((WAIT,))
 
     def watch(self):
-        """A turn of the window's monitor: a run is over when all its lines are counted."""
+        """One cycle of the window's monitor: a run is over when all its lines are counted."""
         while not self.log.empty():
             self.log.get()
         if self.running and self._gcount >= self._runLines:
@@ -66,7 +66,7 @@ def state():
     return CNC.vars["state"]
 
 
-# Waits are generous: a sender that shares two cores with other tests may stand still for seconds. So
+# Waits are generous: a sender that shares two cores with other tests may stall for seconds. So
 # the motions that are to be seen under way last longer than that, and are cut short.
 SOON = 30
 
@@ -128,16 +128,16 @@ class Session:
         time.sleep(0.5)
         self.sender.feedHold()
         self.until("Hold:0", lambda: state() == "Hold:0", SOON)
-        stands = CNC.vars["mx"]
+        held_at = CNC.vars["mx"]
         time.sleep(0.5)
-        assert CNC.vars["mx"] == stands
+        assert CNC.vars["mx"] == held_at
         self.sender.resume()
         self.until("the end", lambda: not self.sender.running, 90)
         self.purged(resets)
         assert CNC.vars["mx"] == 3.0
 
-    # bCNC counts its steps from the last report: where that was late it stops beside the value, and
-    # whoever moves the slider moves it again.
+    # bCNC counts its steps from the last report: if that was late it stops beside the value, and a
+    # user would move the slider again.
     def moves_override(self, reported, wanted):
         if CNC.vars[reported] != wanted and time.monotonic() > self.slid + 1:
             self.slid = time.monotonic()
@@ -203,7 +203,7 @@ class Session:
                    (-1.0, -1.0, -1.0) and state() == "Idle", 60)
 
     def check_mode(self):
-        stands = CNC.vars["mx"]
+        held_at = CNC.vars["mx"]
         self.sender.checkGcode()
         self.until("Check", lambda: state() == "Check", SOON)
         self.sender.sendGCode("G91 G1 X-5 F1000")
@@ -211,7 +211,7 @@ class Session:
         time.sleep(1)
         self.sender.checkGcode()
         self.until("out of Check", lambda: state() != "Check", SOON)
-        assert CNC.vars["mx"] == stands
+        assert CNC.vars["mx"] == held_at
 
     def close(self):
         self.sender.close()

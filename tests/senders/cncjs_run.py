@@ -3,7 +3,7 @@
 
 usage: cncjs_run.py CUSP NODE_MODULES
 
-NODE_MODULES is what `npm i cncjs` made. Exit status: 0 all steps and the tap's books are right, 1 not.
+NODE_MODULES is what `npm i cncjs` made. Exit status: 0 all steps and the tap's counts are right, 1 not.
 """
 import os
 import pathlib

@@ -1,8 +1,8 @@
 """A tap on the serial line: everything passes, every byte outstanding and every answer is counted.
 
-A sender opens the tap's link (a pseudo-terminal) instead of the controller's. What the tap holds the
-controller to: one answer for each line end, in order; never more bytes outstanding than were promised;
-ASCII alone; status reports of Grbl's form.
+A sender opens the tap's link (a pseudo-terminal) instead of the controller's. The tap requires of the controller: one
+answer for each line end, in order; never more bytes outstanding than were promised; ASCII alone; status reports of
+Grbl's form.
 """
 import collections
 import os
@@ -24,7 +24,7 @@ REPORT = re.compile(
 
 
 class Account:
-    """The books of one line, filled from both directions."""
+    """The counts of one line, of both directions."""
 
     def __init__(self, room=1024):
         self.room = room
@@ -96,7 +96,7 @@ class Account:
             self.faults.append(f"an answer that is not alone: {line}")
 
     def verdict(self):
-        """What is wrong once all is at rest; empty where nothing is."""
+        """The faults found when all is at rest; empty if there are none."""
         wrong = list(self.faults)
         if self.outstanding:
             wrong.append(f"{len(self.outstanding)} lines without an answer")

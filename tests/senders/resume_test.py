@@ -3,9 +3,8 @@
 
 usage: resume_test.py CUSP [unittest options]
 
-Faults come over the control port of the virtual mill; the iron's steps, from its VCD file, are what
-was cut. Every point of the program's path must have been passed; and wherever the tool was below the
-height of travel, it was on that path.
+Faults come over the control port of the virtual mill; the steps in its VCD file are what was cut. Every point of the
+program's path must have been passed; and wherever the tool was below the height of travel, it was on that path.
 """
 import math
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What well-known senders do, done again: how they connect, fill the buffer, hold, stop and jog.
+"""Repeats what well-known senders do: how they connect, fill the buffer, hold, stop and jog.
 
 usage: senders_test.py CUSP [unittest options]
 

@@ -3,7 +3,7 @@
 
 usage: timing_test.py CUSP [--strict]
 
-Without --strict nothing is judged but that all was taken: a build for debugging on a busy machine can't
+Without --strict the only condition is that all was taken: a build for debugging on a busy machine can't
 keep real time. docs/benchmarks.md has the numbers of a strict run.
 """
 import math
@@ -40,7 +40,7 @@ def circle(lines, step, feed, radius=40):
 
 
 def starvation(folder):
-    """0.1 mm segments at 6000 mm/min: the speed of the iron, each 10 ms, from its steps."""
+    """0.1 mm segments at 6000 mm/min: the speed every 10 ms, from the steps."""
     file, vcd = folder / "short.ngc", folder / "short.vcd"
     file.write_text(circle(8000, 0.1, 6000))
     with VirtualMill(CUSP, "--vcd", str(vcd)) as mill:
@@ -58,7 +58,7 @@ def starvation(folder):
     for when, place in read_steps_in_time(vcd):
         places[when // window] = place
     first, last = min(places), max(places)
-    # Beyond a half second at either end the speed is the feed, or somebody starved.
+    # Beyond a half second at either end the speed is the feed, or the planner starved.
     speeds = [100 * math.dist(places[i], places[i - 1]) / 800
               for i in range(first + 51, last - 50) if i in places and i - 1 in places]
     judge("lowest speed of 0.1 mm lines at 6000 mm/min, mm/s", min(speeds), "99", min(speeds) > 98.5)
@@ -67,7 +67,7 @@ def starvation(folder):
 
 
 def lines_a_second(folder):
-    """How many short G1 lines a sender gets rid of in a second, moving at full speed."""
+    """How many short G1 lines a second the controller takes at full speed."""
     file = folder / "many.ngc"
     file.write_text(circle(12000, 0.03, 6000))
     with VirtualMill(CUSP, tap=False) as mill:

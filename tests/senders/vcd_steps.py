@@ -1,4 +1,4 @@
-"""Steps of the iron from a VCD file, which may be unfinished."""
+"""Steps from a VCD file, which may be unfinished."""
 
 
 def read_steps_in_time(vcd):

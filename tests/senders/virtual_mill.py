@@ -74,7 +74,7 @@ class VirtualMill:
         return answer.decode().strip()
 
     def where(self):
-        """What the iron did: mm from the start."""
+        """The position by its steps: mm from the start."""
         text = self.command("where")
         steps = re.search(r"steps (-?\d+),(-?\d+),(-?\d+)", text)
         return tuple(int(count) / self.steps_per_mm for count in steps.groups())

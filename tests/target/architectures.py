@@ -29,7 +29,7 @@ def edges(command):
 
 
 def checksum(listed):
-    """What the edges of a list sum up to; the list ends with what its program says of it."""
+    """The checksum of the edges of a list, and the one that its program printed at its end."""
     rows = (tuple(map(int, line.split())) for line in listed.split(b"\n")[:-2])
     return f"{zlib.crc32(b''.join(struct.pack('<QBB', *row) for row in rows)):08x}"
 

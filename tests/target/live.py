@@ -5,7 +5,7 @@ usage: live.py --cusp CUSP --image IMAGE PROGRAM --end X,Y,Z [--alone]
 
 QEMU's serial port is a TCP socket that `cusp stream` opens; --alone sends the lines from here, each
 after the answer to the one before, without cusp.
-Exit status: 0 the stream was taken without an error and the machine stands idle at the end given,
+Exit status: 0 the stream was taken without an error and the machine is idle at the end given,
 1 it does not, 2 something could not run.
 """
 import argparse

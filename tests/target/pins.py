@@ -10,7 +10,7 @@ LINES = 0x3F
 
 
 def options_of(plugin, log):
-    """QEMU's options: the value comes from its log of what it does not model, the time from us."""
+    """QEMU's options: the plugin gives the time, its log of unmodelled stores the value."""
     return ["-plugin", str(plugin), "-d", "unimp,plugin", "-D", str(log)]
 
 

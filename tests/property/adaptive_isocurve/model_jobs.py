@@ -1,4 +1,4 @@
-"""What the random models of adaptive_isocurve have in common: the job, planning it, cutting it in memory."""
+"""Shared by the random models of adaptive_isocurve: writes the job, plans it, cuts it in memory."""
 import json
 import subprocess
 
@@ -46,7 +46,7 @@ def run(arguments):
 
 
 def judged(cusp, folder):
-    """Plans the job and cuts it in memory: what was wrong, or none; and the figures of `cusp verify`."""
+    """Plans the job and cuts it in memory. Returns the fault, or None, and the figures of `cusp verify`."""
     program = folder / "out.ngc"
     planned = run([cusp, "plan", folder / "job.toml", "-o", program, "--stats", folder / "plan.json"])
     if planned.returncode:

@@ -3,8 +3,8 @@
 
 usage: random_models.py CUSP [--first SEED] [--count N] [--keep FOLDER]
 
-A seed makes the whole case: surfaces, tool, bounds, form of the output. Each kind of surface that has made trouble for
-tool paths has its turn: wavy, steep, sheared, folded over itself, with poles, closed, with creases, and several surfaces
+A seed makes the whole case: surfaces, tool, bounds, form of the output. All kinds of surfaces that have caused faults
+in tool paths occur: wavy, steep, sheared, folded over itself, with poles, closed, with creases, and several surfaces
 that meet in concave and convex edges. Exit status 1 where a bound does not hold.
 """
 import argparse
@@ -37,7 +37,7 @@ def knots_by_chance(rng, count, degree):
 
 
 def sheet(rng, rise, shake=0.0, shear=0.0, rational=False, uneven=False):
-    """A sheet over a square: control heights by chance, moved aside by `shake` of a cell."""
+    """A sheet over a square: random control heights, moved sideways by `shake` of a cell."""
     degree_u, degree_v = rng.choice([(3, 3), (3, 3), (2, 3), (3, 2), (2, 2), (4, 3)])
     rows, columns = rng.randint(degree_u + 1, 7), rng.randint(degree_v + 1, 7)
     cell_x, cell_y = SIZE / (rows - 1), SIZE / (columns - 1)

@@ -4,9 +4,10 @@
 usage: rim_models.py CUSP SEED...
 
 A seed makes the whole case: a trimmed patch over another one, a narrow strip over one, patches with a narrow gap or a
-step between them, a steep patch between two others. There the ball reaches much from beyond a rim only. Of what the ball
-can reach no more than the scallop and the tolerance may stand anywhere, where the tolerance has one side; where it has
-two, slivers beside rims may, on as much of the floor as `cusp verify` allows. Exit status 1 where a bound does not hold.
+step between them, a steep patch between two others. There the ball reaches many places only from beyond a rim. With a
+one-sided tolerance the stock left over the reachable height must be within scallop and tolerance everywhere. With a
+two-sided one slivers beside rims may be higher, on as much of the floor as `cusp verify` allows. Exit status 1 where
+a bound does not hold.
 """
 import math
 import pathlib

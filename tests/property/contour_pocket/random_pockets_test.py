@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Plans random pockets and cuts them in memory: floors and walls are whole, no rapid move meets
-metal, no cut is deeper than the job allows, no more stays, and retracts are few.
+"""Plans random pockets and cuts them in memory: no gouge, no rapid move through stock, no cut deeper
+and no more stock left than the job allows, few retracts.
 
 usage: random_pockets_test.py CUSP [CASES [FIRST_SEED]]
 
@@ -34,7 +34,7 @@ def limit(job, key):
 
 
 def fault(cusp, job, folder):
-    """What is wrong with the planned pocket; "" where nothing is, None where it is refused."""
+    """The fault of the planned pocket; "" if there is none, None if the pocket is refused."""
     program, figures = folder / "pocket.ngc", folder / "verify.json"
     planned = call(cusp, "plan", job, "-o", program, "--stats", folder / "plan.json")
     if planned.returncode == 2 and any(word in planned.stderr for word in REFUSALS):

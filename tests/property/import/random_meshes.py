@@ -6,7 +6,7 @@ usage: random_meshes.py CUSP [--first SEED] [--count N] [--keep FOLDER]
 Boxes and steps on a plate, cylinders, domes and barrels on walls, drafted blocks, half pipes, wavy
 lids. Every place of the path is
 compared with all triangles near it: the ball with facets, sides and corners, the shank over it seen from above. What is
-left is compared with the lowest the ball can get over the part's own heights. Exit status 1 where a bound does not hold.
+left is compared with the ball's lowest positions over the part's own heights. Exit status 1 where a bound does not hold.
 """
 import argparse
 import json
@@ -243,7 +243,7 @@ def deepest(tips, radius, triangles):
         over = (low[:, 0] < tip[0] + radius) & (high[:, 0] > tip[0] - radius) & (low[:, 1] < tip[1] + radius) & (
             high[:, 1] > tip[1] - radius) & (high[:, 2] > centre[2])
         for corners in t[over]:
-            # Looked at where it is over the centre: from its highest corner on down.
+            # Sampled where it is above the centre, from its highest corner downwards.
             for s in numpy.linspace(0, 1, 9):
                 for u in numpy.linspace(0, 1, 9):
                     p = corners[0] + (corners[1] - corners[0]) * s * (1 - u) + (corners[2] - corners[0]) * u * s
@@ -290,7 +290,7 @@ def under_ball(z, radius, sign):
 
 
 def left(tips, radius, triangles):
-    """Metal over what the ball can reach, square to the part, at places of a grid: 99 of 100, and the most on open ground."""
+    """Stock over the reachable height, along the normal, on a grid: 99th percentile, and maximum away from walls."""
     xs = numpy.arange(GRID / 2, SIZE, GRID)
     part, cosine = heights(triangles, xs, xs)
     reach = under_ball(under_ball(part, radius, 1), radius, -1)

@@ -84,7 +84,7 @@ class Chip:
         raise CosimFailed(f"{text}: the co-simulation ended: {answer}")
 
     def run(self, milliseconds, until=""):
-        """What the chip says in that time, or to the text that is waited for."""
+        """The output of the chip in that time, or up to the text that is waited for."""
         wanted = until.encode("latin-1").hex()
         answer = self.command(f"run {milliseconds} {wanted}")
         return bytes.fromhex(answer[-1].partition(" ")[2]).decode("latin-1")
@@ -128,10 +128,10 @@ class Chip:
 
     def levels(self):
         """name -> level of the pins that the chip drives."""
-        return self.told("pin")
+        return self.answered("pin")
 
-    def told(self, kind):
-        """name -> value of one kind of lines that `pins` answers: pin, function, spindle."""
+    def answered(self, kind):
+        """name -> value, from one kind of line in the answer to `pins`: pin, function, spindle."""
         return {words[1]: int(words[2]) for words in map(str.split, self.command("pins"))
                 if words[0] == kind}
 

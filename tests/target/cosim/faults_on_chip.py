@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a machine's owner would meet: the board's shipping image in the co-simulation, fault by fault.
+"""Faults in use, one by one, on the board's shipping image in the co-simulation.
 
 usage: faults_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [--baud N] [-k PATTERN]
 """
@@ -109,8 +109,8 @@ class Pins(unittest.TestCase):
                 machine.run(5)
                 self.assertEqual(on(), wanted, line)
             pulses = machine.pins["spindle pulses"]
-            self.assertEqual(machine.told("function")[pulses], 2)
-            self.assertEqual(machine.told("spindle")[TIMER3[pulses]], 500)
+            self.assertEqual(machine.answered("function")[pulses], 2)
+            self.assertEqual(machine.answered("spindle")[TIMER3[pulses]], 500)
             if "drives power" in machine.pins:
                 self.assertEqual(machine.levels()[machine.pins["drives power"]], 1)
 
@@ -396,7 +396,7 @@ class Power(unittest.TestCase):
                 heard = self.cut(machine, after, f"$100={value + 1}.000")
                 self.assertNotIn("error:7", heard, after)
                 self.assertEqual(float(settings_of(machine)["100"]), value, after)
-                # What was cut is behind: the next write holds, and a cut right after it finds it.
+                # The interrupted write does no harm: the next one is kept, and is there after a cut.
                 if after % 10 == 0:
                     value += 1
                     self.assertIn("ok", machine.ask(f"$100={value}.000"))

@@ -60,7 +60,7 @@ FAULTS = {
     "no barrier": ("boards/mill3/mill_image.hpp", '__asm volatile("dsb" ::: "memory");', ""),
 }
 
-# The same on the pill, whose pace, clocks and pins are others.
+# These faults on the pill, which has other rates, clocks and pins.
 FAULTS_OF_PILL = {
     **FAULTS,
     "wrong channel": (PACE, "{5, 6, detail", "{5, 7, detail"),
@@ -141,7 +141,7 @@ class Builder:
 
 
 def find(options, image):
-    """What the co-simulation says of an image; None where it finds nothing."""
+    """The fault that the co-simulation finds in an image, or None."""
     options.image = image
     try:
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as said:

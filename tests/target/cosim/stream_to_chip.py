@@ -2,7 +2,7 @@
 """`cusp stream` sends a program to a board's shipping image, over a pseudo-terminal, at its baud rate.
 
 usage: stream_to_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin PROGRAM --end X,Y,Z
-Exit status: 0 it was taken and the machine stands at the end given, 1 it does not.
+Exit status: 0 it was taken and the machine is at the end given, 1 it does not.
 """
 import argparse
 import pathlib
