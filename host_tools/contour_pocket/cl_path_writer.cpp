@@ -8,6 +8,8 @@
 
 namespace cusp::contour_pocket {
 
+using cl_path::ClMove;
+using cl_path::ClPath;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
 using toolpath::beginning;

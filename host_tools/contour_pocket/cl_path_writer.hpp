@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/contour_pocket/cl_path.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
 #include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::contour_pocket {
@@ -30,7 +30,7 @@ EntryHeights heights_over(double stock_top);
 inline constexpr double kEntrySlope = 0.08;
 
 // The path's moves, all of the given kind.
-std::vector<toolpath::ToolMove> tool_moves(const ClPath& path, toolpath::MoveKind kind);
+std::vector<toolpath::ToolMove> tool_moves(const cl_path::ClPath& path, toolpath::MoveKind kind);
 
 class ClPathWriter {
 public:
@@ -43,7 +43,7 @@ public:
     // slope until all of it is at depth. It goes there and back along the first part of an open or
     // short pass, and plunges with `plunge`. A tool that is already above the start begins from
     // there.
-    void enter_along(const ClPath& path, const EntryHeights& heights, bool plunge);
+    void enter_along(const cl_path::ClPath& path, const EntryHeights& heights, bool plunge);
 
     // A helix around the start of a pass.
     struct Helix {
@@ -62,8 +62,8 @@ public:
     // Returns the z at its end.
     double enter_by_helix(const Helix& helix, const HelixFloor& floor);
 
-    void cut(const ClPath& pass) { follow(toolpath::MoveKind::kCut, pass); }
-    void link(const ClPath& path) { follow(toolpath::MoveKind::kLink, path); }
+    void cut(const cl_path::ClPath& pass) { follow(toolpath::MoveKind::kCut, pass); }
+    void link(const cl_path::ClPath& path) { follow(toolpath::MoveKind::kLink, path); }
     void retract() { writer_.retract(); }
 
     Vec3d place() const { return writer_.at(); }
@@ -89,7 +89,7 @@ private:
     void plunge(Vec3d end) { writer_.line(toolpath::MoveKind::kPlunge, end); }
     double begin_entry(Vec3d start, const EntryHeights& heights);
     void plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& clearance);
-    void follow(toolpath::MoveKind kind, const ClPath& path);
+    void follow(toolpath::MoveKind kind, const cl_path::ClPath& path);
 
     std::vector<toolpath::ToolMove> moves_;
     toolpath::ToolpathWriter writer_;

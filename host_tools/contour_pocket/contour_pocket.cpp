@@ -24,6 +24,8 @@
 
 namespace cusp::contour_pocket {
 
+using cl_path::flattened;
+using cl_path::repeated_plan_tolerance;
 using clearing::AxialDepthTracker;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;

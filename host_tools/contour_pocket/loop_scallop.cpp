@@ -5,12 +5,17 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/cl_path/station_row.hpp"
 #include "host_tools/clearing/corner_cleanup.hpp"
 #include "host_tools/contour_pocket/loop_spacing.hpp"
-#include "host_tools/contour_pocket/station_row.hpp"
 
 namespace cusp::contour_pocket {
 
+using cl_path::PathFloor;
+using cl_path::Station;
+using cl_path::StationRow;
+using cl_path::stations_along;
+using cl_path::StationSpacing;
 using clearing::LoopStrip;
 using clearing::starts_cleanup_spur;
 using drop_cutter::DropCutter;
@@ -159,8 +164,9 @@ void LoopScallop::set_paths(const Region2d& ring, double step)
 {
     const double height = 0.2 * tolerances_.scallop_height;
     const StationSpacing spacing{0.5 * step, 0.02 * step, height, false};
+    const PathFloor floor{floor_};
     for (const Contour& contour : ring.contours) {
-        const StationRow row = stations_along(contour, &floor_, spacing);
+        const StationRow row = stations_along(contour, &floor, spacing);
         for (std::size_t i = 1; i < row.stations.size(); ++i) {
             const Station& a = row.stations[i - 1];
             const Station& b = row.stations[i];

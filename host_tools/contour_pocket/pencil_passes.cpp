@@ -11,6 +11,10 @@
 
 namespace cusp::contour_pocket {
 
+using cl_path::ClMove;
+using cl_path::ClPath;
+using cl_path::ClPathSettings;
+using cl_path::drop_path;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::PassStart;

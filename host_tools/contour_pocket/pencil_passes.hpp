@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "host_tools/cl_path/cl_path.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/cl_path.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 
 namespace cusp::contour_pocket {
@@ -17,7 +17,7 @@ struct PencilSettings {
     // true: short curves are always followed; false: only those of long ones that leave too much
     bool fragments{true};
     // Chords of a curve keep within a third of the plan tolerance.
-    ClPathSettings path_settings;
+    cl_path::ClPathSettings path_settings;
 };
 
 // Open and closed passes, all PassStart::kRetractAndDrop. Where the CL height jumps they run along

@@ -10,6 +10,13 @@
 
 namespace cusp::contour_pocket {
 
+using cl_path::ClMove;
+using cl_path::ClPath;
+using cl_path::ClPathSettings;
+using cl_path::drop_path;
+using cl_path::flattened;
+using cl_path::kWrittenStep;
+using cl_path::repeated_plan_tolerance;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::is_path_clear;

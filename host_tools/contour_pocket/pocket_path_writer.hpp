@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
+#include "host_tools/cl_path/cl_path.hpp"
 #include "host_tools/clearing/axial_depth_tracker.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/cl_path.hpp"
 #include "host_tools/contour_pocket/cl_path_writer.hpp"
 #include "host_tools/job/job.hpp"
 
@@ -23,7 +23,7 @@ struct StockBesidePasses {
 };
 
 struct CutSettings {
-    ClPathSettings path_settings;
+    cl_path::ClPathSettings path_settings;
     job::EntryKind entry{job::EntryKind::kAuto};
     double wall_clearance{};  // mm: least distance of the tool's centre from the walls
     // Passes that nowhere go below this z are omitted (the layer above has cut them).
@@ -73,13 +73,13 @@ private:
     // A pass with its path on the floor.
     struct ProjectedPass {
         clearing::ClearingPass pass;
-        ClPathSettings settings;
-        ClPath path;
+        cl_path::ClPathSettings settings;
+        cl_path::ClPath path;
     };
     ProjectedPass project_pass(const clearing::ClearingPass& pass,
                                const CutSettings& settings,
                                bool repeated);
-    bool too_deep(const ClPath& path, const CutSettings& settings) const;
+    bool too_deep(const cl_path::ClPath& path, const CutSettings& settings) const;
     bool link(const ProjectedPass& projected, const CutSettings& settings);
     bool link_above_stock(const ProjectedPass& projected, const CutSettings& settings);
     bool link_around(const ProjectedPass& projected, const CutSettings& settings);
@@ -94,12 +94,13 @@ private:
     void cut_final(clearing::ClearingPass& pass, const CutSettings& settings, bool repeated);
     void cut_pass(clearing::ClearingPass& pass, const CutSettings& settings, bool repeated);
     ProjectedPass cut_above(const ProjectedPass& deep, const CutSettings& settings, bool repeated);
-    ClPath project(const std::vector<offset::Edge>& plan, const ClPathSettings& path_settings);
+    cl_path::ClPath project(const std::vector<offset::Edge>& plan,
+                            const cl_path::ClPathSettings& path_settings);
     void enter(const ProjectedPass& cut, const CutSettings& settings);
     void track_moves();
-    std::optional<double> allowed_height_over(const ClPath& path,
+    std::optional<double> allowed_height_over(const cl_path::ClPath& path,
                                               const CutSettings& settings) const;
-    double stock_top_over(const ClPath& path) const;
+    double stock_top_over(const cl_path::ClPath& path) const;
     double stock_top_around(Vec2d start, double radius) const;
 
     const job::Operation& operation_;

@@ -5,14 +5,16 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/contour_pocket/cl_path.hpp"
-#include "host_tools/contour_pocket/nurbs_fit.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
+#include "host_tools/cl_path/nurbs_fit.hpp"
 #include "host_tools/drop_cutter/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
 
 namespace cusp::contour_pocket {
 
+using cl_path::kWrittenStep;
+using cl_path::nurbs_fit_available;
 using drop_cutter::DropCutter;
 using job::Job;
 using job::Loop;

@@ -10,6 +10,7 @@
 
 namespace cusp::contour_pocket {
 
+using cl_path::flattened;
 using clearing::AxialDepthTracker;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;

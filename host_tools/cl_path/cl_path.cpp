@@ -1,19 +1,18 @@
 // Drops the tool at stations along the path, fits the longest moves within the band, and raises
 // moves that would gouge.
-#include "host_tools/contour_pocket/cl_path.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/contour_pocket/cl_path_proof.hpp"
-#include "host_tools/contour_pocket/equal_pieces.hpp"
-#include "host_tools/contour_pocket/nurbs_fit.hpp"
-#include "host_tools/contour_pocket/station_row.hpp"
-#include "host_tools/contour_pocket/tolerance_chain.hpp"
+#include "host_tools/cl_path/cl_path_proof.hpp"
+#include "host_tools/cl_path/equal_pieces.hpp"
+#include "host_tools/cl_path/nurbs_fit.hpp"
+#include "host_tools/cl_path/station_row.hpp"
+#include "host_tools/cl_path/tolerance_chain.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
-using drop_cutter::DropCutter;
 using offset::arc_edge;
 using offset::distance;
 using offset::Edge;
@@ -82,9 +81,29 @@ std::vector<Edge> flattened(const std::vector<Edge>& plan,
 
 namespace {
 
+// Heights above the allowance and `min_z`.
+void raise_to_limits(std::vector<Station>& stations, const ClPathSettings& settings)
+{
+    for (Station& s : stations) {
+        s.height += settings.allowance;
+        if (s.height < settings.min_z) {
+            s.height = settings.min_z;
+            s.gradient = {};
+        }
+    }
+    if (settings.level_at_min_z) {
+        const auto at_limit = [&](std::size_t i) {
+            return stations[std::min(i, stations.size() - 1)].height == settings.min_z;
+        };
+        for (std::size_t i = 0; i < stations.size(); ++i) {
+            stations[i].level = at_limit(i > 0 ? i - 1 : i) && at_limit(i) && at_limit(i + 1);
+        }
+    }
+}
+
 // Returns how far (mm) a move was raised to clear the floor between its stations.
 double path_over_stations(const std::vector<Edge>& plan,
-                          const DropCutter& floor,
+                          const PathFloor& floor,
                           const ClPathSettings& settings,
                           bool sparse,
                           ClPath& path)
@@ -97,18 +116,16 @@ double path_over_stations(const std::vector<Edge>& plan,
         path.missing = *row.missing;
         return 0.0;
     }
-    for (Station& s : row.stations) {
-        s.height += settings.allowance;
-        if (s.height < settings.min_z) {
-            s.height = settings.min_z;
-            s.gradient = {};
-        }
-    }
-    const std::vector<Station>& stations = row.stations;
+    raise_to_limits(row.stations, settings);
+    std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
     const double tolerance = kUsed * settings.height_tolerance;
     const StationBand band{kUsedInPlan * settings.plan_tolerance,
                            settings.one_sided ? settings.clearance_reserve : -tolerance, tolerance};
+    if (settings.start_z) {
+        stations.front().height = *settings.start_z - band.middle();
+        stations.front().level = false;
+    }
     const Chain chain = settings.even
                             ? equal_pieces_chain(plan, floor,
                                                  {band, settings.allowance, settings.min_z,
@@ -132,7 +149,7 @@ double path_over_stations(const std::vector<Edge>& plan,
 }  // namespace
 
 ClPath drop_path(const std::vector<Edge>& plan,
-                 const DropCutter& floor,
+                 const PathFloor& floor,
                  const ClPathSettings& settings)
 {
     // If lookups are too far apart to show a ridge, whole moves would be raised over it.
@@ -151,4 +168,4 @@ ClPath drop_path(const std::vector<Edge>& plan,
     return path;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

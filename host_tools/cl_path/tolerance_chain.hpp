@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "host_tools/contour_pocket/cl_path.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 // A point of the plan path with the lowest height of the tip there.
 struct Station {
@@ -14,6 +14,7 @@ struct Station {
     Vec2d gradient;  // of the floor, dz/dx and dz/dy
     double bend{};   // curvature of the plan path from the last station, 1/mm, > 0 to the left
     bool exact{};    // a move ends here, in the middle of the band
+    bool level{};    // moves pass it at its height, without a band
 };
 
 // How far from a station moves may pass it.
@@ -23,6 +24,9 @@ struct StationBand {
     double high;
 
     double middle() const { return 0.5 * (low + high); }
+    double low_at(const Station& s) const { return s.level ? 0.0 : low; }
+    double high_at(const Station& s) const { return s.level ? 0.0 : high; }
+    double middle_at(const Station& s) const { return s.level ? 0.0 : middle(); }
 };
 
 struct Chain {
@@ -40,4 +44,4 @@ Chain chain_through(const std::vector<Station>& stations,
                     bool arcs,
                     bool closed);
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

@@ -1,7 +1,7 @@
 // The build without Eigen: no curves are fitted.
-#include "host_tools/contour_pocket/nurbs_fit.hpp"
+#include "host_tools/cl_path/nurbs_fit.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 bool nurbs_fit_available() { return false; }
 
@@ -10,4 +10,4 @@ std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>&, const Station
     return std::nullopt;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

@@ -1,13 +1,12 @@
 // A move that gouges is raised by its shortfall of clearance. It is halved first if only a part of
 // it has a large shortfall.
-#include "host_tools/contour_pocket/cl_path_proof.hpp"
+#include "host_tools/cl_path/cl_path_proof.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
-using drop_cutter::DropCutter;
 using nurbs::Curve;
 using offset::left_normal;
 using offset::unit;
@@ -75,7 +74,7 @@ Chords chords_of(Vec3d start, const ClMove& move, double fine)
     return chords;
 }
 
-double clearance_of(Vec3d start, const ClMove& move, const DropCutter& floor, double fine)
+double clearance_of(Vec3d start, const ClMove& move, const PathFloor& floor, double fine)
 {
     if (move.turn == 0 && move.curve.points.empty()) {
         return floor.move_clearance(start, move.end);
@@ -161,12 +160,8 @@ struct Raised {
     double clearance;
 };
 
-Raised raised_off(Vec3d start,
-                  ClMove move,
-                  double clearance,
-                  const DropCutter& floor,
-                  double allowed,
-                  double fine)
+Raised raised_off(
+    Vec3d start, ClMove move, double clearance, const PathFloor& floor, double allowed, double fine)
 {
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // then larger steps
@@ -221,7 +216,7 @@ std::size_t halve_neighbours(ClPath& path, std::size_t i, double radius)
 
 // Raising never reduces the clearance of neighbours. The two ends of a closed path are raised
 // together.
-double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& settings, bool closed)
+double certify(ClPath& path, const PathFloor& floor, const ClPathSettings& settings, bool closed)
 {
     const double allowed = allowed_clearance(settings);
     path.least_clearance = 0.0;
@@ -285,7 +280,7 @@ namespace {
 // max_shortfall  mm: at a larger one the remaining chords are skipped
 std::vector<double> shortfalls(Vec3d start,
                                const ClMove& move,
-                               const DropCutter& floor,
+                               const PathFloor& floor,
                                double fine,
                                double allowed,
                                double max_shortfall,
@@ -337,7 +332,7 @@ void raise_moves(ClPath& path, std::vector<std::vector<double>>& raises, bool cl
 
 // Raising a control point lowers no part of the curve: clear parts stay clear.
 double certify_curves(ClPath& path,
-                      const DropCutter& floor,
+                      const PathFloor& floor,
                       const ClPathSettings& settings,
                       bool closed)
 {
@@ -367,4 +362,4 @@ double certify_curves(ClPath& path,
     return lift;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

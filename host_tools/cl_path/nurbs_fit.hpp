@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/contour_pocket/tolerance_chain.hpp"
+#include "host_tools/cl_path/tolerance_chain.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 // False in a build without Eigen: fit_cubic() then finds no curve.
 bool nurbs_fit_available();
@@ -17,4 +17,4 @@ bool nurbs_fit_available();
 std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>& stations,
                                       const StationBand& band);
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

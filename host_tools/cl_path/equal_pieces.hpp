@@ -1,10 +1,9 @@
 // Links as equal pieces, so that no corner lies beside the pass that a link is tangent to.
 #pragma once
 
-#include "host_tools/contour_pocket/tolerance_chain.hpp"
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/cl_path/tolerance_chain.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 // Each edge as equal lines (arcs if `arcs`), as few as stay within the band above the floor's
 // height + `allowance` at every `spacing` (mm). Places below `min_z` count as being at `min_z`.
@@ -20,7 +19,7 @@ struct EqualPieces {
     bool arcs;
 };
 Chain equal_pieces_chain(const std::vector<offset::Edge>& plan,
-                         const drop_cutter::DropCutter& floor,
+                         const PathFloor& floor,
                          const EqualPieces& settings);
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

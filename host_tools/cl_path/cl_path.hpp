@@ -1,14 +1,27 @@
 // Projection of a tool path in plan onto the floor: a chain of lines and arcs of the tip, within
 // the tolerances and above the floor.
+//
+//     const DropCutter cutter{surfaces, tool, 0.001};
+//     ClPathSettings settings;
+//     settings.plan_tolerance = 0.01;
+//     settings.height_tolerance = 0.02;
+//     settings.clearance_reserve = 0.001;
+//     settings.spacing = 0.5;
+//     const ClPath path = drop_path({line_edge({0.0, 0.0}, {40.0, 0.0})}, cutter, settings);
+//     // path.over_floor: a surface lies under all of it; path.least_clearance >= 0: no move gouges
+//
+// Three steps. Stations: the drop cutter gives heights along the plan, close enough for chords.
+// Chain: the longest moves through the bands of the stations. Proof: DropCutter::move_clearance()
+// bounds the clearance of each move, and moves that would gouge are raised.
 #pragma once
 
-#include <variant>
+#include <optional>
 #include <vector>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/cl_path/path_floor.hpp"
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 struct ClPathSettings {
     double plan_tolerance{};    // mm: largest distance of a move from the plan path, to either side
@@ -20,9 +33,11 @@ struct ClPathSettings {
     bool even{false};   // true: each edge in equal pieces (for links; see equal_pieces.hpp)
     // mm: reserve above the floor, so that certifying a move needs no finer floor bounds
     double clearance_reserve{};
-    double allowance{};         // mm: stock left over the floor, measured along the axis
-    double min_z{-kUnbounded};  // mm: the tip stays at or above this z
-    double spacing{};           // mm: largest distance between stations
+    double allowance{};          // mm: stock left over the floor, measured along the axis
+    double min_z{-kUnbounded};   // mm: the tip stays at or above this z
+    bool level_at_min_z{false};  // true: moves over a floor below `min_z` run at it, without a band
+    std::optional<double> start_z{};  // mm: where the tip is; none: in the middle of the band
+    double spacing{};                 // mm: largest distance between stations
     // mm: up to this distance between stations, cubics between them are accurate; 0: not known
     double lookup_spacing{};
 };
@@ -61,7 +76,7 @@ std::vector<offset::Edge> flattened(const std::vector<offset::Edge>& plan,
 
 // Projects a chain of edges onto the floor. A closed chain gives a closed path.
 ClPath drop_path(const std::vector<offset::Edge>& plan,
-                 const drop_cutter::DropCutter& floor,
+                 const PathFloor& floor,
                  const ClPathSettings& settings);
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

@@ -1,5 +1,5 @@
 // Equally spaced stations along each edge, halved where the slope changes.
-#include "host_tools/contour_pocket/station_row.hpp"
+#include "host_tools/cl_path/station_row.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,9 @@
 
 #include "host_tools/clearing/corner_cleanup.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 using clearing::starts_cleanup_spur;
-using drop_cutter::DropCutter;
 using offset::Edge;
 using offset::left_normal;
 using offset::unit;
@@ -72,7 +71,7 @@ struct Stop {
 
 class RowBuilder {
 public:
-    RowBuilder(const DropCutter* floor, const StationSpacing& spacing)
+    RowBuilder(const PathFloor* floor, const StationSpacing& spacing)
         : floor_{floor}, spacing_{spacing}
     {
     }
@@ -153,12 +152,12 @@ private:
         if (floor_ == nullptr) {
             return {at, 0.0, {}, bend};
         }
-        const std::optional<DropCutter::ClPoint> cl = floor_->drop(at);
-        if (!cl) {
+        const std::optional<PathFloor::Lowest> tip = floor_->drop(at);
+        if (!tip) {
             row_.missing = at;
             return {at, -kUnbounded, {}, bend};
         }
-        return {at, cl->z, cl->slope, bend};
+        return {at, tip->z, tip->slope, bend};
     }
 
     // A station with its position and direction along the plan path.
@@ -324,7 +323,7 @@ private:
         halve(edge, whole, middle, to, next);
     }
 
-    const DropCutter* floor_;
+    const PathFloor* floor_;
     const StationSpacing& spacing_;
     std::vector<Stop> stops_;  // after the first station
     bool starts_exact_{};
@@ -334,10 +333,10 @@ private:
 }  // namespace
 
 StationRow stations_along(const std::vector<Edge>& plan,
-                          const DropCutter* floor,
+                          const PathFloor* floor,
                           const StationSpacing& spacing)
 {
     return RowBuilder{floor, spacing}.run(plan);
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

@@ -1,9 +1,9 @@
-#include "host_tools/contour_pocket/cl_path.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/contour_pocket/station_row.hpp"
+#include "host_tools/cl_path/station_row.hpp"
 #include "tests/support/holed_sheet.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
@@ -11,7 +11,7 @@
 
 namespace cusp::test {
 
-using namespace contour_pocket;
+using namespace cl_path;
 using namespace drop_cutter;
 using namespace nurbs;
 using namespace offset;
@@ -108,8 +108,9 @@ TEST(ClPath, StationsBetweenLookupsAreAsHighAsTheFloorSays)
     const DropCutter floor{{hill(60.0, 4.0)}, kBall, kAccuracy};
     const std::vector<Edge> plan{line_edge({10.0, 11.0}, {45.0, 25.0}),
                                  line_edge({45.0, 25.0}, {20.0, 50.0})};
-    const StationRow dense = stations_along(plan, &floor, {0.54, 0.02, 0.016, false});
-    const StationRow sparse = stations_along(plan, &floor, {0.54, 0.02, 0.016, true});
+    const PathFloor under{floor};
+    const StationRow dense = stations_along(plan, &under, {0.54, 0.02, 0.016, false});
+    const StationRow sparse = stations_along(plan, &under, {0.54, 0.02, 0.016, true});
     CHECK_EQUAL(dense.corners.size(), sparse.corners.size());
     int interpolated = 0;
     for (const Station& s : sparse.stations) {
@@ -249,6 +250,58 @@ TEST(ClPath, MovesUpASmoothSteepFloorStandNoMoreThanTheBandOverIt)
                   2.0 * (laying.height_tolerance + kSteepest * laying.plan_tolerance));
         }
     }
+}
+
+TEST(ClPath, ALevelOverAHillIsOneMoveFromWhereTheTipIs)
+{
+    const DropCutter floor{{hill(60.0, 4.0)}, kBall, kAccuracy};
+    ClPathSettings laying = settings();
+    laying.plan_tolerance = 1e-6;
+    laying.min_z = 5.0;
+    laying.level_at_min_z = true;
+    laying.start_z = 5.0;
+    const std::vector<Edge> plan{line_edge({10.0, 11.0}, {50.0, 11.0}),
+                                 line_edge({50.0, 11.0}, {50.0, 40.0})};
+    const ClPath over = drop_path(plan, floor, laying);
+    LONGS_EQUAL(2, over.moves.size());
+    DOUBLES_EQUAL(5.0, over.start.z, 1e-12);
+    for (const ClMove& move : over.moves) {
+        DOUBLES_EQUAL(5.0, move.end.z, 1e-12);
+    }
+    // Where the hill reaches through the level, moves follow it and stay straight in plan.
+    laying.min_z = laying.start_z.emplace(1.0);
+    const ClPath path = drop_path(plan, floor, laying);
+    DOUBLES_EQUAL(1.0, path.start.z, 1e-12);
+    CHECK(path.moves.size() > 2 && path.least_clearance >= 0.0);
+    for (const ClMove& move : path.moves) {
+        CHECK(move.end.z >= 1.0);
+        CHECK(std::abs(move.end.y - 11.0) < 1e-9 || std::abs(move.end.x - 50.0) < 1e-9);
+    }
+}
+
+TEST(ClPath, AnAllowanceIsLeftAlongTheNormalAndPathsGoOnBesideTheFloor)
+{
+    constexpr double kAllowance = 0.5;
+    constexpr double kMaxGouge = 0.02;
+    Tool grown = kBall;
+    grown.radius = grown.corner_radius = kBall.radius + kAllowance;
+    Tool shrunk = grown;
+    shrunk.radius = shrunk.corner_radius = grown.radius - kMaxGouge;
+    const std::vector<Surface> level{hill(60.0, 0.0)};
+    const DropCutter cutter{level, grown, kAccuracy};
+    const DropCutter gouge_cutter{level, shrunk, kAccuracy};
+    PathFloor floor{cutter, kAllowance};
+    DOUBLES_EQUAL(kAllowance, floor.drop({30.0, 30.0})->z, kAccuracy);
+    DOUBLES_EQUAL(0.0, floor.drop({200.0, 30.0})->z, kAccuracy);
+    CHECK(!PathFloor{cutter}.drop({200.0, 30.0}));
+    const auto clearance = [&](double z) {
+        return floor.move_clearance({20.0, 30.0, z}, {40.0, 30.0, z});
+    };
+    CHECK(clearance(kAllowance) >= 0.0);
+    CHECK(clearance(kAllowance - 0.1) < -0.09);
+    floor.set_shrunk(gouge_cutter, kMaxGouge);
+    CHECK(clearance(kAllowance - kMaxGouge) >= -kMaxGouge);
+    CHECK(clearance(kAllowance - 0.1) < -0.09);
 }
 
 }  // namespace cusp::test

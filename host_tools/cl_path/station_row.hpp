@@ -4,10 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/contour_pocket/tolerance_chain.hpp"
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/cl_path/tolerance_chain.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 struct StationSpacing {
     double along;           // mm: largest distance of stations
@@ -29,7 +28,7 @@ struct StationRow {
 //
 // floor  null: a level floor at z = 0
 StationRow stations_along(const std::vector<offset::Edge>& plan,
-                          const drop_cutter::DropCutter* floor,
+                          const PathFloor* floor,
                           const StationSpacing& spacing);
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

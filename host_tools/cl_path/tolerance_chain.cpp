@@ -1,11 +1,11 @@
 // Greedy wedges for lines, circles through three points for arcs.
-#include "host_tools/contour_pocket/tolerance_chain.hpp"
+#include "host_tools/cl_path/tolerance_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 using offset::left_normal;
 using offset::unit;
@@ -63,7 +63,7 @@ public:
     {
         const Station& first = stations_.front();
         at_ = first.at;
-        z_ = first.height + band_.middle();
+        z_ = first.height + band_.middle_at(first);
         Chain chain{{at_.x, at_.y, z_}, {}};
         for (std::size_t i = 0; i + 1 < stations_.size();) {
             const std::size_t from = i;
@@ -95,7 +95,10 @@ private:
         return best.station;
     }
 
-    Vec3d middle_of(const Station& s) const { return {s.at.x, s.at.y, s.height + band_.middle()}; }
+    Vec3d middle_of(const Station& s) const
+    {
+        return {s.at.x, s.at.y, s.height + band_.middle_at(s)};
+    }
 
     struct Reach {
         std::size_t station;
@@ -205,7 +208,7 @@ private:
             if (ends_home(k)) {
                 next.pass(along, home_.z - z_, home_.z - z_);
             } else {
-                next.pass(along, floor + band_.low - z_, floor + band_.high - z_);
+                next.pass(along, floor + band_.low_at(s) - z_, floor + band_.high_at(s) - z_);
             }
             if (!next.open()) {
                 break;
@@ -263,7 +266,7 @@ private:
             if (ends_home(k)) {
                 rise.pass(angle, home_.z - z_, home_.z - z_);
             } else {
-                rise.pass(angle, floor + band_.low - z_, floor + band_.high - z_);
+                rise.pass(angle, floor + band_.low_at(s) - z_, floor + band_.high_at(s) - z_);
             }
             if (!rise.open()) {
                 return std::nullopt;
@@ -322,4 +325,4 @@ Chain chain_through(const std::vector<Station>& stations,
     return ChainBuilder{stations, band, arcs, closed}.run();
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

@@ -1,14 +1,13 @@
 // The number of pieces of an edge grows until all of them are within the band.
-#include "host_tools/contour_pocket/equal_pieces.hpp"
+#include "host_tools/cl_path/equal_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
-using drop_cutter::DropCutter;
 using offset::Edge;
 
 namespace {
@@ -24,7 +23,7 @@ constexpr double kDegree = kPi / 180.0;
 
 class EdgePieces {
 public:
-    EdgePieces(const Edge& edge, const DropCutter& floor, const EqualPieces& settings)
+    EdgePieces(const Edge& edge, const PathFloor& floor, const EqualPieces& settings)
         : edge_{edge}, floor_{floor}, settings_{settings}
     {
     }
@@ -76,18 +75,19 @@ public:
 private:
     double lowest(Vec2d at) const
     {
-        return std::max(floor_.tip_height(at) + settings_.allowance, settings_.min_z);
+        const auto tip = floor_.drop(at);
+        return std::max(tip ? tip->z + settings_.allowance : -kUnbounded, settings_.min_z);
     }
 
     const Edge& edge_;
-    const DropCutter& floor_;
+    const PathFloor& floor_;
     const EqualPieces& settings_;
 };
 
 }  // namespace
 
 Chain equal_pieces_chain(const std::vector<Edge>& plan,
-                         const DropCutter& floor,
+                         const PathFloor& floor,
                          const EqualPieces& settings)
 {
     Chain chain;
@@ -113,4 +113,4 @@ Chain equal_pieces_chain(const std::vector<Edge>& plan,
     return chain;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path

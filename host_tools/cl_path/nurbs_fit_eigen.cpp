@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "host_tools/contour_pocket/cl_path.hpp"
-#include "host_tools/contour_pocket/nurbs_fit.hpp"
+#include "host_tools/cl_path/cl_path.hpp"
+#include "host_tools/cl_path/nurbs_fit.hpp"
 
 // Eigen's headers do not compile without these warnings.
 #pragma GCC diagnostic push
@@ -17,7 +17,7 @@
 #include <Eigen/Sparse>
 #pragma GCC diagnostic pop
 
-namespace cusp::contour_pocket {
+namespace cusp::cl_path {
 
 using nurbs::Curve;
 using offset::left_normal;
@@ -214,4 +214,4 @@ std::optional<Curve> fit_cubic(const std::vector<Station>& stations, const Stati
     return best;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::cl_path
