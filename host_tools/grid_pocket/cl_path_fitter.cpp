@@ -8,12 +8,24 @@
 
 #include "firmware/base/math.hpp"
 #include "firmware/segmenter/arc_fitter.hpp"
+#include "host_tools/cl_path/cl_path_proof.hpp"
+#include "host_tools/cl_path/station_row.hpp"
 
 namespace cusp::grid_pocket {
 
+using cl_path::ClMove;
+using cl_path::ClPath;
+using cl_path::ClPathSettings;
+using cl_path::drop_path;
+using cl_path::PathFloor;
+using cl_path::Station;
+using cl_path::StationRow;
+using cl_path::stations_along;
+using cl_path::written;
 using drop_cutter::DropCutter;
 using nurbs::Surface;
 using offset::Edge;
+using offset::line_edge;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
 using toolpath::MoveKind;
@@ -26,8 +38,16 @@ namespace {
 // A move is proved clear if the bound of its clearance exceeds this.
 constexpr double kProven = -1e-6;
 
-// Shorter moves are raised instead of divided.
-constexpr double kShortestPiece = 0.02;
+// Shorter segments are ignored, mm.
+constexpr double kNoLength = 1e-9;
+
+// How far moves may be beside the straight line between corners, mm: rounding only.
+constexpr double kStraight = 1e-6;
+
+// Shares of an arc's tolerance by which the floor may rise above the chord between two stations. The
+// rim of a flat end follows the floor itself, which may bend more.
+constexpr double kBallBetweenStations = 0.06;
+constexpr double kRimBetweenStations = 0.09;
 
 // Sagitta of the chords that replace arcs in proofs, as a share of their tolerance.
 constexpr double kArcSagitta = 0.025;
@@ -86,7 +106,6 @@ ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
 
 std::optional<double> ClPathFitter::height(Vec2d at) const
 {
-    // A tool grown on all sides by the allowance has its tip that much lower.
     const std::optional<DropCutter::ClPoint> cl = drop_cutter_->drop(at);
     return cl ? std::optional{cl->z + allowance_} : std::nullopt;
 }
@@ -94,17 +113,13 @@ std::optional<double> ClPathFitter::height(Vec2d at) const
 ClPathFitter ClPathFitter::above(double level) const
 {
     ClPathFitter out = *this;
-    out.min_z_ = level;
+    // Tips are at written steps: a level between two of them would have no straight moves.
+    out.min_z_ = written({0, 0, level}).z;
     out.gouge_bound_ = 0;
     return out;
 }
 
 double ClPathFitter::reserve() const { return kRounding + kReserve * accuracy_; }
-
-double ClPathFitter::used_of(double tolerance) const
-{
-    return std::max(kTwoSided * tolerance - reserve(), tolerance / 2);
-}
 
 // Beyond the floor, passes continue at its lowest height.
 double ClPathFitter::path_height(Vec2d at) const
@@ -116,7 +131,8 @@ double ClPathFitter::start_height(Vec2d at) const
 {
     const double exact = path_height(at);
     const bool on_level = exact == min_z_;
-    return settings_.both_sides || on_level ? exact : exact + settings_.tolerance / 2;
+    const double z = settings_.both_sides || on_level ? exact : exact + settings_.tolerance / 2;
+    return written({at.x, at.y, z}).z;
 }
 
 double ClPathFitter::lowest_height(Vec2d at) const
@@ -127,50 +143,16 @@ double ClPathFitter::lowest_height(Vec2d at) const
 
 double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double margin) const
 {
-    const Vec3d down{0, 0, -allowance_};
-    const double clear = drop_cutter_->move_clearance(a + down, b + down, margin);
-    const double allowed = allowed_gouge();
-    if (!gouge_cutter_ || clear >= kProven - allowed) {
-        return clear;
-    }
-    // The bound of a deep gouge is accurate to a tenth only. If a tool reduced by the allowed gouge
-    // is clear, the tool gouges by no more than that.
-    const Vec3d up{0, 0, allowed - allowance_};
-    return std::max(clear, gouge_cutter_->move_clearance(a + up, b + up, margin) - allowed);
+    return floor().move_clearance(a, b, margin);
 }
 
-std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) const
+PathFloor ClPathFitter::floor() const
 {
-    const double length = norm(b - a);
-    const int count = std::max(1, static_cast<int>(std::ceil(length / settings_.sample - 1e-9)));
-    const double step = length / count;
-    std::vector<double> heights;
-    for (int i = 0; i <= count; ++i) {
-        heights.push_back(path_height(a + (b - a) * (static_cast<double>(i) / count)));
+    PathFloor floor{*drop_cutter_, allowance_};
+    if (gouge_cutter_) {
+        floor.set_shrunk(*gouge_cutter_, allowed_gouge());
     }
-    std::vector<BandPoint> out;
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        const double z = heights[i];
-        if (settings_.both_sides) {
-            const double used = used_of(tolerance);
-            out.push_back({static_cast<double>(i) * step, std::max(min_z_, z - used), z + used});
-            continue;
-        }
-        if (z == min_z_ && (i == 0 || heights[i - 1] == min_z_) &&
-            (i + 1 == heights.size() || heights[i + 1] == min_z_)) {
-            out.push_back({static_cast<double>(i) * step, z, z});
-            continue;
-        }
-        // The exact height is an upper envelope of arcs of the tool's corner: between two places it
-        // rises above their chord by no more than such an arc.
-        const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
-        const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
-        const double slope = std::max(before, after);
-        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(drop_cutter_->tool());
-        const double margin = std::min(step * step / 8 * bend + reserve(), tolerance / 3);
-        out.push_back({static_cast<double>(i) * step, z + margin, z + tolerance});
-    }
-    return out;
+    return floor;
 }
 
 // Lower bound, at most 0, of the clearance of a move that bulges by up to `sagitta` mm, in its
@@ -187,97 +169,60 @@ double ClPathFitter::bulged_clearance(Vec3d a, Vec3d b, double sagitta) const
     return move_clearance(a + down, b + down);
 }
 
-void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int depth)
-{
-    const Vec3d from = moves.at();
-    const double proven = kProven - allowed_gouge();
-    const double kept = bulged_clearance(from, end, 0);
-    if (kept >= proven) {
-        gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
-        moves.line(kind, end);
-        return;
-    }
-    constexpr int kDeepest = 12;
-    if (depth < kDeepest && norm(end - from) > kShortestPiece) {
-        Vec3d middle = (from + end) * 0.5;
-        const double exact = std::max(min_z_, height(in_plan(middle)).value_or(middle.z));
-        middle.z = std::max(middle.z, exact + reserve());
-        chord(moves, middle, kind, depth + 1);
-        chord(moves, end, kind, depth + 1);
-        return;
-    }
-    // On slopes, raising along the axis adds less clearance than its length, so it is doubled until
-    // it suffices.
-    constexpr int kMostLifts = 10;
-    Vec3d lift{0, 0, (proven - kept) * 1.5};
-    double left = bulged_clearance(from + lift, end + lift, 0);
-    for (int i = 0; i < kMostLifts && left < proven; ++i) {
-        lift.z *= 2;
-        left = bulged_clearance(from + lift, end + lift, 0);
-    }
-    moves.line(kind, from + lift);
-    moves.line(kind, end + lift);
-    gouge_bound_ = std::max(gouge_bound_, -left);
-}
-
-void ClPathFitter::follow_segment(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
-{
-    std::vector<BandPoint> places = band(a, b, settings_.tolerance);
-    const double z = moves.at().z;
-    places.front().low = std::min(places.front().low, z);
-    places.front().high = std::max(places.front().high, z);
-    const auto point = [&, length = norm(b - a)](const ProfilePoint& p) {
-        const Vec2d at = a + (b - a) * (p.s / length);
-        return Vec3d{at.x, at.y, p.z};
-    };
-    std::vector<ProfilePoint> points = fit_chords(places, z);
-    constexpr int kMostRaises = 6;
-    for (int i = 0; i < kMostRaises && raise_band(places, points, point); ++i) {
-        points = fit_chords(places, z);
-    }
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        chord(moves, point(points[i]), kind, 0);
-    }
-}
-
-// The rim of a flat end follows the floor itself, which may bend more between samples than the band
-// assumes. Raises the band below each chord by the shortfall of clearance; returns whether any was
-// raised.
-bool ClPathFitter::raise_band(std::vector<BandPoint>& places,
-                              const std::vector<ProfilePoint>& points,
-                              const std::function<Vec3d(const ProfilePoint&)>& point) const
-{
-    constexpr double kRaise = 1.5;
-    if (is_ball()) {
-        return false;
-    }
-    const double proven = kProven - allowed_gouge();
-    bool raised = false;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const double lacks = proven - move_clearance(point(points[i - 1]), point(points[i]));
-        for (BandPoint& place : places) {
-            const bool under = place.s >= points[i - 1].s && place.s <= points[i].s;
-            if (under && lacks > 0 && lacks < settings_.tolerance && place.low < place.high) {
-                place.low = std::min(place.low + kRaise * lacks, place.high);
-                raised = true;
-            }
-        }
-    }
-    return raised;
-}
-
 void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)
 {
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-        const Vec2d a = corners[i - 1];
-        const Vec2d b = corners[i];
-        if (norm(b - a) < 1e-9) {
-            continue;
-        }
-        if (!settings_.arcs || !follow_with_arcs(moves, a, b, kind)) {
-            follow_segment(moves, a, b, kind);
+    for (std::size_t i = 1; settings_.arcs && i < corners.size(); ++i) {
+        if (norm(corners[i] - corners[i - 1]) >= kNoLength &&
+            !follow_with_arcs(moves, corners[i - 1], corners[i], kind)) {
+            follow_in_lines(moves, {corners[i - 1], corners[i]}, kind);
         }
     }
+    if (!settings_.arcs) {
+        follow_in_lines(moves, corners, kind);
+    }
+}
+
+ClPath ClPathFitter::lines(const std::vector<Vec2d>& corners, double start_z) const
+{
+    std::vector<Edge> plan;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (norm(corners[i] - corners[i - 1]) >= kNoLength) {
+            plan.push_back(line_edge(corners[i - 1], corners[i]));
+        }
+    }
+    if (plan.empty()) {
+        ClPath none;
+        none.start = {corners[0].x, corners[0].y, start_z};
+        return none;
+    }
+    ClPathSettings settings;
+    settings.start_z = start_z;
+    settings.plan_tolerance = kStraight;
+    settings.one_sided = !settings_.both_sides;
+    settings.height_tolerance = settings_.tolerance - (settings_.both_sides ? reserve() : 0.0);
+    settings.clearance_reserve = settings_.both_sides ? reserve() / 2 : reserve();
+    settings.min_z = min_z_;
+    settings.level_at_min_z = true;
+    settings.spacing = settings_.sample;
+    return drop_path(plan, floor(), settings);
+}
+
+void ClPathFitter::follow_in_lines(ToolpathWriter& moves,
+                                   const std::vector<Vec2d>& corners,
+                                   MoveKind kind)
+{
+    ClPath path = lines(corners, moves.at().z);
+    if (path.moves.empty()) {
+        return;
+    }
+    // The path is rounded to written steps; the next one starts at the corner itself.
+    path.moves.back().end.x = corners.back().x;
+    path.moves.back().end.y = corners.back().y;
+    moves.line(kind, {moves.at().x, moves.at().y, path.start.z});
+    for (const ClMove& move : path.moves) {
+        moves.line(kind, move.end);
+    }
+    gouge_bound_ = std::max(gouge_bound_, -path.least_clearance);
 }
 
 // Lower bound of the clearance along the arc, at most 0; it may end early at a gouge that is too
@@ -321,22 +266,25 @@ double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvatur
 
 std::vector<Vec3d> ClPathFitter::arc_vertices(Vec2d a, Vec2d b) const
 {
-    const std::vector<BandPoint> places = band(a, b, settings_.arc_tolerance);
-    const double length = norm(b - a);
+    const double tolerance = settings_.arc_tolerance;
+    const PathFloor under = floor();
+    const StationRow row =
+        stations_along({line_edge(a, b)}, &under, {settings_.sample, kStraight, tolerance, true});
+    const Vec2d way = (b - a) * (1 / norm(b - a));
     std::vector<Vec3d> out;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Vec2d at = a + (b - a) * (places[i].s / length);
-        double z = (places[i].low + places[i].high) / 2;
+    for (const Station& station : row.stations) {
+        double z = std::max(station.height, min_z_);
         if (!settings_.both_sides) {
             // The fitter measures perpendicular to the path: on slopes that distance is longer
             // along the axis.
-            const BandPoint& before = places[i > 0 ? i - 1 : i];
-            const BandPoint& after = places[i + 1 < places.size() ? i + 1 : i];
-            const double slope = (after.high - before.high) / (after.s - before.s);
-            const double height = settings_.arc_tolerance / 2 * std::sqrt(1 + slope * slope);
-            z = std::max(z, places[i].low + kArcSagitta * settings_.arc_tolerance + height);
+            const double slope = dot(station.gradient, way);
+            const double between = is_ball() ? kBallBetweenStations : kRimBetweenStations;
+            const double rise = between * std::pow(1 + slope * slope, 1.5);
+            const double low = std::min(reserve() + rise * tolerance, tolerance / 3);
+            const double height = tolerance / 2 * std::sqrt(1 + slope * slope);
+            z += std::max((low + tolerance) / 2, low + kArcSagitta * tolerance + height);
         }
-        out.push_back({at.x, at.y, z});
+        out.push_back({station.at.x, station.at.y, z});
     }
     return out;
 }
@@ -362,12 +310,19 @@ bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, Mov
     fitter.start(vertices.front());
     std::for_each(vertices.begin() + 1, vertices.end(), [&](Vec3d v) { fitter.push(v); });
     fitter.finish();
+    const double proven = kProven - allowed_gouge();
     for (segmenter::FittedMove piece; fitter.next(piece);) {
+        const Vec3d from = moves.at();
         if (!piece.is_arc) {
-            chord(moves, piece.end, kind, 0);
+            const double kept = move_clearance(from, piece.end);
+            if (kept >= proven) {
+                gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
+                moves.line(kind, piece.end);
+            } else {
+                follow_in_lines(moves, {in_plan(from), in_plan(piece.end)}, kind);
+            }
             continue;
         }
-        const Vec3d from = moves.at();
         const Vec3d centre =
             along_x ? Vec3d{from.x + piece.second_offset, from.y, from.z + piece.first_offset}
                     : Vec3d{from.x, from.y + piece.first_offset, from.z + piece.second_offset};
@@ -376,11 +331,11 @@ bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, Mov
         const double radius = norm(centre - from);
         const double curvature = (centre.z > (from.z + piece.end.z) / 2 ? 1 : -1) / radius;
         const double kept = arc_clearance(from, arc, curvature);
-        if (kept >= kProven - allowed_gouge()) {
+        if (kept >= proven) {
             gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
             moves.arc(kind, arc);
         } else {
-            follow_segment(moves, in_plan(from), in_plan(piece.end), kind);
+            follow_in_lines(moves, {in_plan(from), in_plan(piece.end)}, kind);
         }
     }
     return true;
@@ -430,24 +385,19 @@ bool ClPathFitter::follow_level_arc(ToolpathWriter& moves, const Edge& arc, Move
 
 std::vector<Vec3d> ClPathFitter::chords(const std::vector<Vec2d>& corners, double length) const
 {
-    std::vector<Vec3d> out{{corners[0].x, corners[0].y, start_height(corners[0])}};
+    std::vector<Vec2d> plan{corners[0]};
     for (std::size_t i = 1; i < corners.size() && length > 0; ++i) {
-        const Vec2d a = corners[i - 1];
-        const double whole = norm(corners[i] - a);
-        if (whole < 1e-9) {
-            continue;
-        }
-        const Vec2d b = a + (corners[i] - a) * std::min(1.0, length / whole);
-        std::vector<BandPoint> places = band(a, b, settings_.tolerance);
-        places.front().low = std::min(places.front().low, out.back().z);
-        places.front().high = std::max(places.front().high, out.back().z);
-        const double step = norm(b - a);
-        const std::vector<ProfilePoint> points = fit_chords(places, out.back().z);
-        for (std::size_t k = 1; k < points.size(); ++k) {
-            const Vec2d at = a + (b - a) * (points[k].s / step);
-            out.push_back({at.x, at.y, points[k].z});
+        const double whole = norm(corners[i] - corners[i - 1]);
+        if (whole >= kNoLength) {
+            const double share = std::min(1.0, length / whole);
+            plan.push_back(corners[i - 1] + (corners[i] - corners[i - 1]) * share);
         }
         length -= whole;
+    }
+    const ClPath path = lines(plan, start_height(corners[0]));
+    std::vector<Vec3d> out{path.start};
+    for (const ClMove& move : path.moves) {
+        out.push_back(move.end);
     }
     return out;
 }

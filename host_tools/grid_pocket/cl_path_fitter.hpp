@@ -2,13 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "host_tools/cl_path/cl_path.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
-#include "host_tools/grid_pocket/profile_fit.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/toolpath/toolpath_writer.hpp"
@@ -99,15 +98,14 @@ private:
     {
         return drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius;
     }
-    // mm: the share of a two-sided tolerance that bands use.
-    double used_of(double tolerance) const;
+    cl_path::PathFloor floor() const;
     double path_height(Vec2d at) const;
 
-    std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
-    bool raise_band(std::vector<BandPoint>& places,
-                    const std::vector<ProfilePoint>& points,
-                    const std::function<Vec3d(const ProfilePoint&)>& point) const;
-    void follow_segment(toolpath::ToolpathWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
+    // The moves along the corners from `start_z`.
+    cl_path::ClPath lines(const std::vector<Vec2d>& corners, double start_z) const;
+    void follow_in_lines(toolpath::ToolpathWriter& moves,
+                         const std::vector<Vec2d>& corners,
+                         toolpath::MoveKind kind);
     double bulged_clearance(Vec3d a, Vec3d b, double sagitta) const;
     bool in_band(Vec2d at, double z) const;
     double arc_clearance(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
@@ -116,7 +114,6 @@ private:
                           Vec2d a,
                           Vec2d b,
                           toolpath::MoveKind kind);
-    void chord(toolpath::ToolpathWriter& moves, Vec3d end, toolpath::MoveKind kind, int depth);
 };
 
 }  // namespace cusp::grid_pocket

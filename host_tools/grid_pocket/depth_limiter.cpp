@@ -23,6 +23,10 @@ constexpr double kNoWay = 1e-9;
 constexpr int kSparse = 8;
 constexpr double kNearLimit = 0.4;
 
+// A floor that rises by more than this from sample to sample, in distances of samples, is a cliff.
+constexpr double kCliff = 10.0;
+constexpr double kFootError = 2e-3;  // mm: of the place of its foot
+
 constexpr int kMaxLevels = 1000;
 constexpr double kEntryLength = 4.0;  // radii: length of a run that an entry may cut
 
@@ -66,15 +70,36 @@ std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitt
         if (level <= low) {
             continue;
         }
+        const double foot_level =
+            std::max(level_at_foot(floor, place(i), low, place(std::max(0, i - 1))),
+                     level_at_foot(floor, place(i), low, place(i + 1)));
         const double begin = std::max(0.0, (i - 1) * step);
         if (out.empty() || out.back().end < begin - step) {
             out.push_back({begin, begin, level, low});
         }
         out.back().end = std::min(length, (i + 1) * step);
-        out.back().min_z = std::max(out.back().min_z, level);
+        out.back().min_z = std::max({out.back().min_z, level, foot_level});
         out.back().low = std::min(out.back().low, low);
     }
     return out;
+}
+
+// The height that does not cut too deep at the foot of a cliff between a low place and a higher one:
+// stock beside the cliff is higher than at the samples. Lower than any other without a cliff.
+double DepthLimiter::level_at_foot(const ClPathFitter& floor,
+                                   Vec2d at,
+                                   double low,
+                                   Vec2d higher) const
+{
+    const double top = low + kCliff * spacing_;
+    if (floor.lowest_height(higher) < top) {
+        return -kUnbounded;
+    }
+    while (norm(higher - at) > kFootError) {
+        const Vec2d middle = (at + higher) * 0.5;
+        (floor.lowest_height(middle) < top ? at : higher) = middle;
+    }
+    return depth_.stock_top_at(at) - *depth_.max_depth();
 }
 
 void DepthLimiter::enter(const ClPathFitter& floor,

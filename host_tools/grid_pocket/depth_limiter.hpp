@@ -60,6 +60,7 @@ private:
     bool is_limited() const { return depth_.max_depth().has_value(); }
     // Where a tip at the lowest height over the floor would cut too deep.
     std::vector<Stretch> deep_stretches(const ClPathFitter& floor, Vec2d a, Vec2d b) const;
+    double level_at_foot(const ClPathFitter& floor, Vec2d at, double low, Vec2d higher) const;
     void follow_segment(ClPathFitter& floor,
                         Vec2d a,
                         Vec2d b,
