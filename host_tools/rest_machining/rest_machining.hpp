@@ -1,4 +1,5 @@
-// Rest machining: of a planned path only what still meets stock, after earlier programs.
+// Rest machining: keeps of a planned path only the stretches that still meet stock after earlier
+// programs.
 //
 //     SweptStock stock{job.stock_top};
 //     take_away(earlier_path, stock);                       // or stock.add() for each move
@@ -16,7 +17,7 @@
 
 namespace cusp::rest_machining {
 
-// Stock that is thinner is not cut again, mm.
+// Thinner stock is not cut again, mm.
 struct RestTolerance {
     double surface;  // square to the surface; at least 0.001
     double wall;     // across the vertical side of a flat end; at least `surface`
@@ -26,8 +27,8 @@ struct RestTolerance {
 // twentieth of its scallop, at least 0.001. Wall: of a 2.5-D operation no less than its plan_tolerance.
 RestTolerance rest_tolerance(const job::Operation& operation);
 
-// Takes what the path's feed moves sweep out of the stock. Arcs and curves as chords within
-// 0.0002 mm, by a tool smaller by as much.
+// Removes from the stock what the path's feed moves sweep. Arcs and curves count as chords within
+// 0.0002 mm, swept by a tool that is smaller by as much.
 void take_away(const toolpath::Toolpath& path, SweptStock& stock);
 
 struct RestRequest {
@@ -35,8 +36,9 @@ struct RestRequest {
     RestTolerance tolerance;
 };
 
-// Leaves out of the operation what cuts nothing of the stock, and sets stats.rest. Where nothing meets stock the operation has no moves. The figures of an operation that is changed:
-// retracts is counted anew, scallop_bound_mm is more by the tolerance.
+// Removes the stretches that cut no stock from the operation, and sets stats.rest. An operation that
+// meets no stock at all ends up without moves. In a changed operation `retracts` is counted again and
+// `scallop_bound_mm` grows by the tolerance.
 void keep_rest(const SweptStock& stock,
                const job::Job& job,
                const RestRequest& request,

@@ -13,27 +13,27 @@ namespace cusp::rest_machining {
 
 class RestTransitions {
 public:
-    // stock, job, path  outlive this; of the path: tool and feeds
-    // inner             the tool less the tolerance, which places of the path may touch stock by
-    // moves             that are written to
+    // stock, job, path  must outlive this; the path gives tool and feeds
+    // inner             the tool less the tolerance by which the path may touch stock
+    // moves             output
     RestTransitions(const SweptStock& stock,
                     const job::Job& job,
                     const toolpath::Toolpath& path,
                     const EndProfile& inner,
                     std::vector<toolpath::ToolMove>& moves);
 
-    // Writes what leads to a place that the tool may reach through air.
+    // Writes the moves that lead to a place which the tool may reach through air.
     //
     // at_rest_height  the path came down to it by a rapid
     void go_to(Vec3d place, bool at_rest_height);
 
-    // Writes feed moves and takes what they cut out of the stock of later descents.
+    // Writes feed moves and removes what they cut from the stock of later descents.
     void cut(const std::vector<toolpath::ToolMove>& moves);
 
     void retract() { writer_.retract(); }
     int retracts() const { return writer_.retracts(); }
 
-    // s that leaving one place and coming to another takes over the clearance height
+    // s: time of a transition between two places by the clearance height
     double seconds_over(Vec3d from, Vec3d to) const;
 
 private:

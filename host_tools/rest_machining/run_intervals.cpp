@@ -22,7 +22,7 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kShortestShare = 1.0 / 8;  // of the radius: of a piece that is asked about
+constexpr double kShortestShare = 1.0 / 8;  // of the radius: of a piece that is tested
 constexpr double kLongestShare = 4;
 constexpr double kSameLength = 1e-9;  // mm
 

@@ -1,4 +1,4 @@
-// The feed moves between two rapids, by their length: where they meet stock, and pieces of them.
+// The feed moves between two rapids, parametrised by length: intervals in stock, and their moves.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace cusp::rest_machining {
 // mm: between a curve and the chords that are looked at
 inline constexpr double kChordError = 2e-4;
 
-// From `begin` to `end` mm of a run's length.
+// An interval of a run's length, mm.
 struct RunInterval {
     double begin;
     double end;
@@ -27,12 +27,12 @@ public:
     Vec3d start() const { return start_; }
     double length() const { return ends_.empty() ? 0.0 : ends_.back(); }
 
-    // Where the tool meets stock, to an eighth of its radius; a NURBS wholly or not at all.
+    // The intervals in which the tool meets stock, to an eighth of its radius. A NURBS counts as a whole.
     //
     // inner  the tool less the tolerance, and less kChordError
     std::vector<RunInterval> in_stock(const SweptStock& stock, const EndProfile& inner) const;
 
-    // Longer by `by` mm at both ends, up to the ends of the run; no end is inside a NURBS.
+    // The interval, extended by `by` mm at both ends within the run. No end is inside a NURBS.
     RunInterval widened(const RunInterval& interval, double by) const;
 
     // s of the feed moves in the interval

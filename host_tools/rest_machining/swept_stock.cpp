@@ -1,5 +1,5 @@
 // Squares are halved until one sweep covers each, or a point shows stock in the tool. Each square
-// knows only the sweeps that may be the lowest somewhere in it.
+// lists only the sweeps that may be the lowest somewhere in it.
 #include "host_tools/rest_machining/swept_stock.hpp"
 
 #include <algorithm>

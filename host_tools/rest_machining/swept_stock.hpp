@@ -14,16 +14,16 @@
 
 namespace cusp::rest_machining {
 
-// Without sides: it continues in x and y without end.
+// Unbounded in x and y.
 class SweptStock {
 public:
     // top  z of the uncut stock
     explicit SweptStock(double top) : top_{top} {}
 
-    // Takes away what a tool sweeps on a straight move.
+    // Removes what a tool sweeps on a straight move.
     void add(const EndProfile& end, Vec3d from, Vec3d to);
 
-    // As add(), with all sweeps of the other stock that come into the box.
+    // Adds all sweeps of the other stock that overlap the box.
     void add_near(const SweptStock& other, Vec2d low, Vec2d high);
 
     double top() const { return top_; }
@@ -42,7 +42,7 @@ private:
         Vec2d middle;
         double half;
     };
-    // Of a quadtree, made where it is asked for: the sweeps that may be lowest in a square.
+    // A cell of a quadtree that is built on demand: the sweeps that may be lowest in its square.
     struct Cell {
         std::vector<std::uint32_t> sweeps;
         std::int32_t children{-1};  // the first of four
@@ -65,7 +65,7 @@ private:
 
     double top_;
     std::vector<ToolSweep> sweeps_;
-    // made from the sweeps where they are first asked for
+    // built from the sweeps by the first query
     mutable bool prepared_{false};
     mutable Vec2d origin_{};
     mutable double size_{};  // mm: of a bucket

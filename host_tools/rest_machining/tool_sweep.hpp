@@ -1,5 +1,5 @@
-// What a tool takes away on a straight move. It is convex and open upwards, so that four corners
-// bound its lower side from above over a square, and a tangent plane bounds it from below.
+// The volume that a tool sweeps on a straight move. It is convex and open upwards, so four corners
+// bound its lower side over a square from above, and a tangent plane bounds it from below.
 #pragma once
 
 #include "host_tools/nurbs/plan_vector.hpp"
@@ -9,11 +9,11 @@ namespace cusp::rest_machining {
 
 // The lower side of a tool end: a level bottom, then a round corner or a slanted flank.
 struct EndProfile {
-    double radius{};  // mm: of the whole tool
+    double radius{};  // mm: of the tool
     double flat{};    // mm: of the level bottom
     double corner{};  // mm: of the corner
-    double rise{};    // of a flank, mm a mm outward; 0: none
-    double raised{};  // mm: the tip of a shrunk tool over that of the tool
+    double rise{};    // slope of a flank, mm per mm outward; 0: none
+    double raised{};  // mm: height of a shrunk tool's tip over the tool's tip
 
     // The profile of what lies deeper than `shrink` inside the tool; 0: the tool.
     explicit EndProfile(const toolpath::Tool& tool, double shrink = 0);
@@ -45,7 +45,7 @@ public:
     // mm: from the tool's axis to p, in plan.
     double distance(Vec2d p) const;
 
-    // True only where all of the other sweep is in this one; it may be there and not be seen.
+    // Whether the other sweep is provably inside this one. False where the proof fails, too.
     bool contains(const ToolSweep& other) const;
 
     double radius() const { return end_.radius; }
@@ -63,7 +63,7 @@ private:
     double length_{};  // in plan
     double slope_{};
 
-    // Where on the way the tool is lowest over a point, mm; negative where it never is.
+    // Distance along the move at which the tool is lowest over a point, mm; negative: nowhere.
     double lowest_place(Vec2d p) const;
     double numeric_place(double along, double away, double low, double high) const;
     Vec2d axis(double place) const { return in_plan(from_) + way_ * place; }

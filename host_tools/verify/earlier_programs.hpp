@@ -19,20 +19,20 @@ struct EarlierCut {
     Vec3d to;
 };
 
-// The feed moves of a program, as straight ones. Tools are those that its comments describe
+// The feed moves of a program as straight moves. Tools are those that its comments describe
 // (tool_comment.hpp), else those of the job with the same number. A program that names no tool is
-// cut with the job's, where that has one only.
+// cut with the job's tool, where that has only one.
 //
 // Errors: InputError where the program cannot be read, or a tool of its feed moves is not known.
 std::vector<EarlierCut> earlier_cuts(const job::Job& job, const std::string& file);
 
-// Those of the job's stock, then those that its operations come after, each once.
+// The programs of [stock] program, then those of `after` of the operations, each once.
 std::vector<std::string> earlier_programs(const job::Job& job);
 
 // The tool positions of earlier_programs(), at most `spacing` mm apart.
 std::vector<ToolPositions> earlier_positions(const job::Job& job, double spacing);
 
-// Cuts them. Returns the volume removed, mm^3.
+// Cuts the stock with earlier_programs(). Returns the volume removed, mm^3.
 double cut_earlier_programs(const job::Job& job, double spacing, MachinedStock& stock);
 
 }  // namespace cusp::verify

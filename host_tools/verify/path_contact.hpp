@@ -18,13 +18,13 @@ struct PathContact {
 };
 
 // The worst contact of each part of a tool on each path: by path, then by part. The paths are cut one
-// after the other from the job's whole stock, on the grid and at the spacing of verify(). It takes its
-// time too, but none where no tool goes as deep as its flutes or its length.
+// after the other from the job's whole stock, on the grid and at the spacing of verify(). It costs
+// as much as verify(), and nothing where no tool goes as deep as its flutes or its length.
 //
 // paths  none is null; each starts with a rapid move
 //
-// Accuracy: as ContactTrace; verify() finds nothing in what this found nothing in, as its discs are
-// smaller by kProgramSlack.
+// Accuracy: as ContactTrace. verify() finds no contact in a program that has none here, since its
+// discs are smaller by kProgramSlack.
 std::vector<PathContact> path_contacts(const job::Job& job,
                                        const std::vector<const toolpath::Toolpath*>& paths,
                                        const Progress& progress);

@@ -1,25 +1,25 @@
-// What of a tool is no cutter against the stock while it is cut: beyond the flutes, shank, holder.
+// Contacts of stock with what does not cut: the tool beyond its flutes, its shank, its holder.
 //
 //     ContactTrace trace{grid, positions, tool_discs(job, positions.tool), stock_around(job, grid)};
 //     stock.cut(positions, spacing, progress, nullptr, &trace);
 //     for (const BodyContact& contact : trace.finish()) { contact.depth; }  // mm
 //
-// Stock has no undercuts in a height map: a cylinder of the tool meets it exactly if some stock
-// inside its radius is higher than its lower end. So each cylinder is a disc at a height over the
-// tip, grown by `holder_clearance` in radius and downward. A tool that is longer by the depth of the
-// worst contact has none.
+// Stock in a height map has no undercuts. So a cylinder of the tool meets stock exactly where stock
+// inside its radius is higher than its lower end. Each cylinder is therefore a disc at a height over
+// the tip, grown by `holder_clearance` in radius and downward. A tool that is longer by the depth of
+// the worst contact has no contact.
 //
 // - Beyond the flutes: stock that the cutter removes higher over its tip than the flutes are long. Less
 //   than 0.02 mm, or twice the job's tolerance, of it in height or width does not count.
-// - A shank that is no wider than the cutter goes where the cutter has been; it has no disc.
+// - A shank that is no wider than the cutter moves where the cutter has cut; it has no disc.
 //
 // Accuracy: a place of the stock that holds a circle of a radius of 1.5 pitches is not missed; its
 // height over the disc is found within half the distance of two positions. With the default grid that
 // is 0.26 mm, half the default clearance, and 0.05 mm. tests/unit/verify/tool_contact_test.cpp cuts and
-// looks at every point of a raster in turn.
+// tests every point of a raster.
 //
-// Time: tiles of the grid know a height that their stock does not exceed, and a place that has none
-// near clears all positions nearer to it than the nearest stock: stock only falls.
+// Time: each tile of the grid has a bound of its stock's height. A position without stock nearby
+// clears all positions that are nearer to it than the nearest stock, since stock is only removed.
 #pragma once
 
 #include <array>
@@ -46,12 +46,12 @@ struct ToolDisc {
 // mm: shrinks all discs of a program that was written with rounded numbers.
 inline constexpr double kProgramSlack = 0.01;
 
-// Those that the job has the lengths for.
+// The discs for which the job gives lengths.
 //
 // slack  mm: discs are narrower by it, and no deeper contact is none
 std::vector<ToolDisc> tool_discs(const job::Job& job, const toolpath::Tool& tool, double slack = 0);
 
-// Beyond these limits there is stock up to `top`, which no tool cuts; infinite: there is none.
+// Stock up to `top` beyond these limits, which no tool cuts; infinite limits: none.
 struct StockExtent {
     std::array<double, 2> x{-kUnbounded, kUnbounded};
     std::array<double, 2> y{-kUnbounded, kUnbounded};
@@ -69,7 +69,7 @@ struct BodyContact {
     std::size_t position{};
 };
 
-// mm, to a hundredth more: the flute_length, or of a holder the length, with which the contact would not be.
+// mm, rounded up to a hundredth: the flute_length (for a holder: the length) that avoids the contact.
 double long_enough(const job::Job& job, const toolpath::Tool& tool, const BodyContact& contact);
 
 // Its key in the figures of `cusp verify`.
@@ -83,7 +83,7 @@ public:
                  std::vector<ToolDisc> discs,
                  const StockExtent& around);
 
-    // Before position k cuts the heights of the columns [begin, end), which are those of `band`.
+    // To be called before position k cuts the columns [begin, end) of `band`.
     void look(const std::vector<double>& heights,
               std::size_t k,
               std::size_t band,
@@ -114,7 +114,7 @@ private:
         std::size_t begin;
         std::size_t end;
     };
-    // Of the stock over a height: its least distance, up to a limit, and its top within the radius.
+    // Stock over a height: its least distance, up to a limit, and its top within the radius.
     struct Nearest {
         double distance;
         double top;

@@ -1,6 +1,6 @@
 // EngagementSamples: the engagement of the tool over the time of a run.
 //
-// The verification knows the engagement at positions of the programmed path; the run knows where the
+// The verification has the engagement at positions of the programmed path; the run has where the
 // tip is at each tick, and on which line. Each tick takes the engagement of the position of its line
 // that is nearest, and not behind those of earlier ticks.
 #pragma once
