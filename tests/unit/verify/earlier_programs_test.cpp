@@ -31,7 +31,8 @@ TEST(ToolComment, describes_each_tool_as_it_was_written)
         for (const char* name : {"", "6mm (two flutes)"}) {
             path.tool_name = name;
             for (const bool inch : {false, true}) {
-                const std::string text = tool_text(path, inch ? kMillimetresPerInch : 1.0, inch ? "inch" : "mm");
+                const std::string text =
+                    tool_text(path, inch ? kMillimetresPerInch : 1.0, inch ? "inch" : "mm");
                 for (const std::string& line : {"(" + text + ")", "; " + text}) {
                     const auto found = tool_of_comment(line);
                     CHECK(found.has_value());
