@@ -15,7 +15,7 @@ float squared_part(unsigned percent) noexcept
 }  // namespace
 
 Interpolator::Interpolator(planner::Planner& planner) noexcept
-    : planner_{planner}, queue_{planner.queue()}, servo_{planner.queue()}
+    : planner_{planner}, queue_{planner.queue()}, servo_{planner.queue()}, shaper_{planner.shaper()}
 {
     reset({});
 }
@@ -34,6 +34,7 @@ void Interpolator::reset(Position at) noexcept
     }
     first_.clear();
     second_.clear();
+    shaper_.reset();
     set_axis_filter(axis_filter_);
     position_ = at;
     drained_ = true;
@@ -59,7 +60,7 @@ void Interpolator::set_axis_filter(planner::AxisFilter filter) noexcept
 bool Interpolator::filters_drained() const noexcept
 {
     return leading_->filter.drained() && trailing_->filter.drained() && first_.drained() &&
-           second_.drained();
+           second_.drained() && shaper_.drained();
 }
 
 Position Interpolator::tick() noexcept
@@ -82,7 +83,10 @@ Position Interpolator::tick() noexcept
     }
     moved = moved + travel(*leading_, step);
     drop_passed_blocks();
-    const PathOffset smooth = second_.add(first_.add(moved));
+    PathOffset smooth = second_.add(first_.add(moved));
+    if (shaper_.on()) {
+        smooth = shaper_.add(smooth);
+    }
     for (unsigned i = 0; i < kAxisCount; ++i) {
         position_[i] += axis_division_[i].divide(smooth[i]);
     }
@@ -98,6 +102,10 @@ Position Interpolator::tick() noexcept
 bool Interpolator::ready_to_go_on() noexcept
 {
     if (!servo_.standing() || !trailing_->filter.drained()) {
+        return false;
+    }
+    // A shaper reaches too far for that: what it holds is on the path before the stop.
+    if (shaper_.on() && !filters_drained()) {
         return false;
     }
     std::uint32_t next = leading_->block;

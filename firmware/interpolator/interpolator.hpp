@@ -4,12 +4,14 @@
 //   path filter: a moving average of it, which limits jerk without leaving the path
 //   position on the block
 //   axis filters: two short moving averages an axis, for jumps of direction and curvature
+//   input shaper: against vibration, where the settings ask for it
 //
 // Fixed work a tick, integers and float only.
 #pragma once
 
 #include "firmware/interpolator/box_filter.hpp"
 #include "firmware/interpolator/path_servo.hpp"
+#include "firmware/interpolator/shaper_filter.hpp"
 #include "firmware/planner/planner.hpp"
 
 namespace cusp::interpolator {
@@ -22,7 +24,8 @@ public:
     Interpolator(const Interpolator&) = delete;
     Interpolator& operator=(const Interpolator&) = delete;
 
-    // Starts at rest at `at`, filters empty. The planner must have been reset with it.
+    // Starts at rest at `at`, filters empty, the shaper that of the planner. The planner must have
+    // been reset with it.
     void reset(Position at) noexcept;
 
     // The next set point, machine nanometres.
@@ -91,6 +94,7 @@ private:
     bool trail_drained_{true};    // that of the trailing track, before the last tick
     RunningSum<PathOffset, kMaxAxisFilter> first_;
     RunningSum<PathOffset, kMaxSecondFilter> second_;
+    ShaperFilter shaper_;
     PerAxis<ExactDivision> axis_division_{};
     planner::AxisFilter axis_filter_{};
     Position position_{};

@@ -156,6 +156,7 @@ private:
     void start_listing(Listing listing) noexcept;
     void set_setting(std::uint32_t number, float value) noexcept;
     void tell_fault(const SettingFault& fault) noexcept;
+    void tell_range(std::uint32_t number, float value) noexcept;
     void restore(bool settings, bool parameters, bool texts) noexcept;
     void toggle_check_mode() noexcept;
     void unlock() noexcept;

@@ -143,6 +143,7 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
 {
     Settings changed = stored_.settings;
     if (const std::optional<Error> error = changed.put(number, value)) {
+        tell_range(number, value);
         finish_line(error);
         return;
     }
@@ -154,6 +155,28 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
     stored_.settings = changed;
     store_wanted_ = true;
     task_ = Task::kConfigure;
+}
+
+// The range of a setting that Grbl does not have, and so no sender knows.
+void Machine::tell_range(std::uint32_t number, float value) noexcept
+{
+    constexpr std::uint32_t kFirst = 810;
+    constexpr unsigned kDecimals = 3;
+    for (std::size_t i = 0; i < kSettingCount; ++i) {
+        const SettingEntry& entry = setting_entry(i);
+        if (entry.number == number && number >= kFirst) {
+            const auto write = [this](float x) {
+                (void)replies_.decimal(protocol::scaled(x, kDecimals), kDecimals);
+            };
+            (void)replies_.text("[MSG:$").number(number).text(" is ");
+            write(value);
+            (void)replies_.text(", range ");
+            write(entry.least);
+            (void)replies_.text(" to ");
+            write(entry.most);
+            (void)replies_.text("]").end_line();
+        }
+    }
 }
 
 // Both settings by number and value, and what they come to.

@@ -43,6 +43,7 @@ void Motion::configure(const Settings& settings) noexcept
     const Position at = interpolator_.position();
     planner_.set_limits(limits);
     planner_.reset(at);
+    planner_.set_shaper(settings.input_shaper());
     interpolator_.reset(at);
     pulses_.configure(settings.steps());
     pulses_.reset(at);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "firmware/base/path_units.hpp"
 #include "firmware/machine/report_units.hpp"
 
 namespace cusp::machine {
@@ -11,6 +12,9 @@ namespace {
 constexpr float kMostAny = 1e7F;
 constexpr float kMostJerk = 1e10F;
 constexpr float kLeastPositive = 0.001F;
+constexpr float kLeastVibration = 10.0F;  // Hz
+constexpr float kMostVibration = 200.0F;
+constexpr float kMostDamping = 0.99F;
 constexpr float kLongestFilter = 0.250F;  // s: the longest filter of the interpolator
 
 constexpr std::array<SettingEntry, kSettingCount> kTable{{
@@ -71,6 +75,15 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
+    {810, 0, 0, 0, 3},
+    {811, 0, 0, 0, 3},
+    {812, 0, 0, 0, 3},
+    {820, 3, 40, kLeastVibration, kMostVibration},
+    {821, 3, 40, kLeastVibration, kMostVibration},
+    {822, 3, 40, kLeastVibration, kMostVibration},
+    {830, 3, 0.05F, 0, kMostDamping},
+    {831, 3, 0.05F, 0, kMostDamping},
+    {832, 3, 0.05F, 0, kMostDamping},
 }};
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept
@@ -156,6 +169,14 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
                                 number(Setting::kJerk), filter, kLongestFilter};
         }
     }
+    const planner::InputShaper shaper = input_shaper();
+    if (shaper.ticks > planner::kMostShaperTicks) {
+        const unsigned axis = slowest_shaped_axis();
+        return SettingFault{Error::kGcodeMaxValueExceeded,
+                            kTable[index_of(Setting::kShaperFrequency, axis)].number,
+                            kTable[index_of(Setting::kShaperType, axis)].number, shaper.length,
+                            static_cast<float>(planner::kMostShaperTicks) * kServoTick};
+    }
     if (on(Setting::kSoftLimits) && !on(Setting::kHoming)) {
         return SettingFault{Error::kSoftLimitError};
     }
@@ -182,6 +203,32 @@ MachineLimits Settings::limits() const noexcept
         limits.jerk[axis] = value(Setting::kJerk, axis);
     }
     return limits;
+}
+
+planner::InputShaper Settings::input_shaper() const noexcept
+{
+    PerAxis<planner::AxisVibration> axes{};
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        axes[axis] = {static_cast<planner::ShaperType>(
+                          static_cast<unsigned>(value(Setting::kShaperType, axis))),
+                      value(Setting::kShaperFrequency, axis), value(Setting::kShaperDamping, axis)};
+    }
+    return planner::make_input_shaper(axes);
+}
+
+// Of the axes that are shaped the one with the lowest frequency. Precondition: there is one.
+unsigned Settings::slowest_shaped_axis() const noexcept
+{
+    unsigned slowest = 0;
+    float least = kMostAny;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        if (value(Setting::kShaperType, axis) != 0 &&
+            value(Setting::kShaperFrequency, axis) < least) {
+            least = value(Setting::kShaperFrequency, axis);
+            slowest = axis;
+        }
+    }
+    return slowest;
 }
 
 pulse::StepSettings Settings::steps() const noexcept

@@ -12,6 +12,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/error.hpp"
 #include "firmware/base/machine_limits.hpp"
+#include "firmware/planner/input_shaper.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
 
 namespace cusp::machine {
@@ -55,16 +56,19 @@ enum class Setting : std::uint8_t {
     kToolSearch,                          // $342 mm: the longest way down to the tool setter
     kToolFeed,                            // $343 mm/min: the slow touch
     kToolSeek,                            // $344 mm/min: the fast touch
-    kSquarePercent,  // $347 %: of the travel that one switch may close later, but
-    kSquareLeast,    // $348 mm: no less
-    kSquareMost,     // $349 mm: no more
-    kLimitFilter,    // $790 ms
-    kLinkWatchdog,   // $791 ms; 0: off
-    kStopOnError,    // $792
-    kSecondMotor,    // $793: axis with a second motor, 1 to 3; 0: none
-    kSquaring,       // $794: the second motor has a switch of its own
-    kJerk,           // $800 mm/s^3
-    kCount = kJerk + 3,
+    kSquarePercent,           // $347 %: of the travel that one switch may close later, but
+    kSquareLeast,             // $348 mm: no less
+    kSquareMost,              // $349 mm: no more
+    kLimitFilter,             // $790 ms
+    kLinkWatchdog,            // $791 ms; 0: off
+    kStopOnError,             // $792
+    kSecondMotor,             // $793: axis with a second motor, 1 to 3; 0: none
+    kSquaring,                // $794: the second motor has a switch of its own
+    kJerk,                    // $800 mm/s^3
+    kShaperType = kJerk + 3,  // $810 planner::ShaperType
+    kShaperFrequency = kShaperType + 3,     // $820 Hz
+    kShaperDamping = kShaperFrequency + 3,  // $830 ratio
+    kCount = kShaperDamping + 3,
 };
 
 inline constexpr std::size_t kSettingCount = static_cast<std::size_t>(Setting::kCount);
@@ -131,7 +135,8 @@ public:
     // The contradiction between settings, if any:
     //   kMaxStepRateExceeded   $110 x $100 needs steps closer than twice $0, or more of them than
     //                          the board plays
-    //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms
+    //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms, or $810 to $832 for
+    //                          shapers over planner::kMostShaperTicks together
     //   kSoftLimitError        soft limits without homing
     //   kSettingDisabled       a second motor on a board without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
@@ -154,8 +159,11 @@ public:
 
     MachineLimits limits() const noexcept;
     pulse::StepSettings steps() const noexcept;
+    planner::InputShaper input_shaper() const noexcept;
 
 private:
+    unsigned slowest_shaped_axis() const noexcept;
+
     std::array<float, kSettingCount> values_{};
 };
 

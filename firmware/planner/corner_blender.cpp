@@ -84,7 +84,8 @@ void CornerBlender::release_front(path::Move& line) noexcept
 // a stop.
 bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
                                      float reach,
-                                     float feed) const noexcept
+                                     float feed,
+                                     float deviation) const noexcept
 {
     PathDerivatives bound{};
     for (const float u : {0.2F, 0.35F, 0.5F}) {
@@ -92,11 +93,12 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
         bound = larger(
             bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
     }
-    const float speed = std::sqrt(allowance(bound, limits_, filter_s_, kUnlimited, feed).cap);
-    const float travel = 2.0F * reach + speed * filter_s_;
+    const float centripetal = shaper_square_ > 0 ? 2.0F * deviation / shaper_square_ : kUnlimited;
+    const float speed = std::sqrt(allowance(bound, limits_, filter_s_, centripetal, feed).cap);
+    const float travel = 2.0F * reach + speed * (filter_s_ + 2.0F * shaper_length_);
     const float slowest =
         std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});
-    const float stop = filter_s_ + 2.0F * std::sqrt(travel / slowest);
+    const float stop = filter_s_ + shaper_length_ + 2.0F * std::sqrt(travel / slowest);
     return travel < kWorthIt * stop * speed;
 }
 
@@ -143,7 +145,7 @@ bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
         piece.weights[i] = 1.0F;
     }
     const float feed = curve.kind == path::MoveKind::kFeed ? curve.feed : norm(limits_.velocity);
-    if (!faster_than_stop(piece, static_cast<float>(reach), feed)) {
+    if (!faster_than_stop(piece, static_cast<float>(reach), feed, static_cast<float>(deviation))) {
         return false;
     }
     curve.path = piece;

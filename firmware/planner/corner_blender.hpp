@@ -25,6 +25,13 @@ public:
         filter_s_ = filter_s;
     }
 
+    // Of the input shaper: variance of its response, s^2, and length, s. 0 and 0 without.
+    void set_shaper(float square, float length) noexcept
+    {
+        shaper_square_ = square;
+        shaper_length_ = length;
+    }
+
     // Whether add() takes a move: all of its output was taken.
     bool ready() const noexcept { return made_.empty(); }
     bool empty() const noexcept { return made_.empty() && !held_; }
@@ -38,12 +45,17 @@ public:
     void clear() noexcept;
 
 private:
-    bool faster_than_stop(const path::BezierPiece& piece, float reach, float feed) const noexcept;
+    bool faster_than_stop(const path::BezierPiece& piece,
+                          float reach,
+                          float feed,
+                          float deviation) const noexcept;
     void release_front(path::Move& line) noexcept;
     bool blend(path::Move& before, path::Move& after) noexcept;
 
     MachineLimits limits_{};
     float filter_s_{1};
+    float shaper_square_{0};
+    float shaper_length_{0};
     std::optional<path::Move> held_;
     StaticVector<path::Move, 4> made_;  // last first
 };

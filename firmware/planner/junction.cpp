@@ -108,16 +108,24 @@ JunctionShare junction_share(const JunctionRun& run,
                              AxisFilter filter,
                              float max_share,
                              float max_speed,
-                             float deviation) noexcept
+                             const Blur& blur) noexcept
 {
     // A corner turned by the filters leaves the vertex by v turn/2 times the mean of |t| under
     // their kernel: at most t1/4 + t2/12.
     const float mean_time =
         (static_cast<float>(filter.first) / 4.0F + static_cast<float>(filter.second) / 12.0F) *
-        kServoTick;
+            kServoTick +
+        blur.mean_time;
     float fast = max_speed;
-    if (run.all.turn * fast * mean_time > 2.0F * deviation) {
-        fast = 2.0F * deviation / (run.all.turn * mean_time);
+    if (run.all.turn * fast * mean_time > 2.0F * blur.deviation) {
+        fast = 2.0F * blur.deviation / (run.all.turn * mean_time);
+    }
+    if (blur.square > 0) {
+        // Together with the bends around it: turn v mean_time/2 + bend v^2 square <= deviation.
+        const float half = 0.25F * run.all.turn * mean_time;
+        const float bend = norm(run.all.second) * blur.square;
+        const float root = std::sqrt(half * half + bend * blur.deviation);
+        fast = std::min(fast, blur.deviation / std::max(half + root, 1e-12F));
     }
     const auto share_at = [&](float v) {
         const Vec3f curvature = counted_curvature(run, limits, filter, v);

@@ -45,13 +45,21 @@ struct JunctionShare {
     float jerk;          // and at that speed, in [0, 1)
 };
 
+// What leaves the path.
+struct Blur {
+    float deviation;     // mm, > 0: how far the filters may leave it
+    float mean_time{0};  // s, of the input shaper: mean of |t| under its kernel
+    // s^2: deviation of a bend over its centripetal acceleration, shaper included; 0 without one.
+    float square{0};
+};
+
 // The limits used by a run of junctions. The axis filters turn a jump of direction into acceleration of at
 // most v jump/t1 and jerk of at most v jump/(t1 t2), and a jump of acceleration into jerk of at most
 // jump/t1. Jumps of acceleration to and fro cancel, but for what the speed changes between them.
 //
 //   max_share  greatest share of acceleration and jerk that the junction may take.
 //   max_speed  mm/s, of the path around it.
-//   deviation  mm, > 0: how far the filters may leave the corner.
+//   blur       how far the corner may be left.
 //
 // Returns the greatest speed, at most max_speed, and the shares taken.
 // Source: docs/numerics.md, "Junctions".
@@ -60,6 +68,6 @@ JunctionShare junction_share(const JunctionRun& run,
                              AxisFilter filter,
                              float max_share,
                              float max_speed,
-                             float deviation) noexcept;
+                             const Blur& blur) noexcept;
 
 }  // namespace cusp::planner

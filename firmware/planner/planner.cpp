@@ -55,12 +55,6 @@ float circle_factor(AxisFilter filter) noexcept
     return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
 }
 
-// Duration of the axis filters' response to a jump, s.
-float filter_window(AxisFilter filter) noexcept
-{
-    return static_cast<float>(filter.first + filter.second) * kServoTick;
-}
-
 // Whether the bounds that a junction was made with hold for the stretch too, within a hundredth.
 bool is_covered_by(const Junction& junction, const PathDerivatives& stretch) noexcept
 {
@@ -112,7 +106,8 @@ Planner::FilterChoice Planner::filter_for(float tolerance) const noexcept
     const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kLongestFilterTicks);
     const auto first = static_cast<std::uint8_t>(std::max(ticks, least_filter_));
     const AxisFilter filter{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}};
-    return {filter, deviation, deviation / std::max(circle_factor(filter), 1e-12F)};
+    const float factor = circle_factor(filter) + 0.5F * shaper_.square;
+    return {filter, deviation, deviation / std::max(factor, 1e-12F)};
 }
 
 void Planner::set_limits(const MachineLimits& limits) noexcept
@@ -201,7 +196,7 @@ void Planner::start(const path::Move& move) noexcept
     maker_.start(move, filter);
     // The path stops where the axis filters change: no limit is spread over that.
     const float half = queue_.half_filter() + 2.0F * kServoTick;
-    const float beyond = half + static_cast<float>(filter.first + filter.second) * kServoTick;
+    const float beyond = half + window_of(filter);
     builder_.set_reach({half, beyond, beyond});
 }
 
@@ -318,7 +313,7 @@ void Planner::join(const EndGeometry& after,
                    const Allowance& of_first) noexcept
 {
     const float fastest = std::min(end_speed_, greatest_speed(of_first, block.rapid));
-    const float window = filter_window(end_filter_);
+    const float window = window_of(end_filter_);
     const Junction junction =
         make_junction(*end_, after, larger(bounds_behind(fastest * window), first.derivatives));
     if (junction.turn > kCornerTurn || end_filter_ != block.filter) {
@@ -344,15 +339,16 @@ JunctionShare Planner::share_of(const Junction& junction,
                                 float fastest) const noexcept
 {
     JunctionRun run{junction};
+    const Blur blur{choice_.deviation, shaper_.mean_time,
+                    shaper_.on() ? choice_.deviation / choice_.centripetal : 0.0F};
     JunctionShare share =
-        junction_share(run, limits_, end_filter_, kLoneJunctionShare, fastest, choice_.deviation);
+        junction_share(run, limits_, end_filter_, kLoneJunctionShare, fastest, blur);
     // Junctions within one window of the axis filters act together.
-    const float window = filter_window(end_filter_);
+    const float window = window_of(end_filter_);
     for (std::size_t i = earlier;
          i-- > 0 && junctions_[i].distance - distance < share.speed * window;) {
         run.add(junctions_[i].junction);
-        share = junction_share(run, limits_, end_filter_, kDenseJunctionShare, share.speed,
-                               choice_.deviation);
+        share = junction_share(run, limits_, end_filter_, kDenseJunctionShare, share.speed, blur);
     }
     return share;
 }
@@ -360,6 +356,10 @@ JunctionShare Planner::share_of(const Junction& junction,
 void Planner::add_recent(const Junction& junction, float speed) noexcept
 {
     if (junctions_.full()) {
+        // A shaper may hold more of them: none of what they turn is forgotten.
+        if (shaper_.on()) {
+            junctions_[1].junction.turn += junctions_[0].junction.turn;
+        }
         for (std::size_t i = 1; i < junctions_.size(); ++i) {
             junctions_[i - 1] = junctions_[i];
         }
@@ -372,7 +372,7 @@ void Planner::add_recent(const Junction& junction, float speed) noexcept
 // axis filters before it, taken into account.
 void Planner::apply_junction_limits(const PathDerivatives& coming) noexcept
 {
-    const float window = filter_window(end_filter_);
+    const float window = window_of(end_filter_);
     for (std::size_t i = junctions_.size(); i-- > 0;) {
         RecentJunction& recent = junctions_[i];
         if (recent.distance >= recent.speed * window) {
@@ -458,18 +458,21 @@ void Planner::add_stretch() noexcept
         return;
     }
     apply_junction_limits(whole.derivatives);
+    spread_bend(whole.derivatives.second);
     builder_.append(whole.end - begin, allowed, block.rapid);
+    spread_bend(whole.derivatives.second);
     age_bounds(whole.derivatives, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
     end_speed_ = greatest_speed(allowed, block.rapid);
 }
 
-// Overlap in time at the corner at the end of the path so far.
+// Overlap in time at the corner at the end of the path so far. None with a shaper, which drains.
 CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
                                          const Block& block) const noexcept
 {
     const float deviation =
         std::min(end_left_, kCornerShareOfTolerance * move_.tolerance - move_.departure);
-    if (deviation <= 0 || end_filter_ != block.filter || block.shape == BlockShape::kCurve) {
+    if (deviation <= 0 || shaper_.on() || end_filter_ != block.filter ||
+        block.shape == BlockShape::kCurve) {
         return {};
     }
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;

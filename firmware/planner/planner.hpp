@@ -16,6 +16,7 @@
 #include "firmware/path/move.hpp"
 #include "firmware/planner/block_maker.hpp"
 #include "firmware/planner/corner_blender.hpp"
+#include "firmware/planner/input_shaper.hpp"
 #include "firmware/planner/interval_builder.hpp"
 #include "firmware/planner/junction.hpp"
 #include "firmware/planner/line_smoother.hpp"
@@ -36,6 +37,11 @@ public:
     // Precondition: empty().
     void set_limits(const MachineLimits& limits) noexcept;
     const MachineLimits& limits() const noexcept { return limits_; }
+
+    // The input shaper behind the axis filters; none by default. The interpolator must be reset.
+    // Precondition: empty(), shaper.ticks <= kMostShaperTicks.
+    void set_shaper(const InputShaper& shaper) noexcept;
+    const InputShaper& shaper() const noexcept { return shaper_; }
 
     // Discards all moves; the next starts at `at`. The interpolator must be reset with it.
     void reset(Position at) noexcept;
@@ -75,6 +81,8 @@ private:
         float centripetal;  // mm/s^2, most that leaves no more than the deviation
     };
     FilterChoice filter_for(float tolerance) const noexcept;
+    float window_of(AxisFilter filter) const noexcept;
+    void spread_bend(const Vec3f& curvature) noexcept;
     void work() noexcept;
     bool path_is_short() const noexcept;
     bool next_move() noexcept;
@@ -112,6 +120,7 @@ private:
     static constexpr std::size_t kRecentBends = 6;
 
     MachineLimits limits_{};
+    InputShaper shaper_{};
     float greatest_acceleration_{1};  // of any axis
     float least_filter_{1};           // ticks of the first axis filter
     std::uint32_t path_filter_{1};

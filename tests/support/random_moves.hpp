@@ -9,6 +9,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/path/move.hpp"
+#include "firmware/planner/input_shaper.hpp"
 
 namespace cusp::test {
 
@@ -168,6 +169,26 @@ inline MachineLimits random_limits(std::uint64_t seed)
         limits.jerk[axis] = limits.acceleration[axis] * between(5, 300);
     }
     return limits;
+}
+
+// A random input shaper, short enough for the interpolator: one to three axes, any types.
+inline planner::InputShaper random_shaper(std::uint64_t seed)
+{
+    std::mt19937_64 random{seed};
+    const auto between = [&random](double low, double high) {
+        return static_cast<float>(std::uniform_real_distribution<double>{low, high}(random));
+    };
+    for (;;) {
+        PerAxis<planner::AxisVibration> axes{};
+        for (planner::AxisVibration& axis : axes) {
+            axis = {static_cast<planner::ShaperType>(random() % 4), between(10, 200),
+                    between(0, 0.3)};
+        }
+        const planner::InputShaper shaper = planner::make_input_shaper(axes);
+        if (shaper.on() && shaper.ticks <= planner::kMostShaperTicks) {
+            return shaper;
+        }
+    }
 }
 
 }  // namespace cusp::test

@@ -53,6 +53,22 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
     }
 }
 
+TEST(MotionLimits, HoldBehindAnInputShaper)
+{
+    for (std::uint64_t i = 0; i < test::motion_program_count(); ++i) {
+        const auto moves = RandomMoves{kSeed + i}.program();
+        if (moves.empty()) {
+            continue;
+        }
+        const MachineLimits limits = test::random_limits(kSeed + i);
+        MotionRig rig{limits};
+        rig.planner->set_shaper(test::random_shaper(kSeed + i));
+        rig.start_at({});
+        const auto samples = i % 2 == 0 ? rig.run(moves) : rig.run_disturbed(moves, kSeed + i);
+        test::check_motion(samples, moves.back().end, limits, kSeed + i);
+    }
+}
+
 // Arcs of 6 um behind a line of 30 mm: their limits once split it into more pieces than the servo
 // reads in a tick.
 TEST(MotionLimits, HoldWhereTinyArcsReachIntoALine)

@@ -102,7 +102,7 @@ double distance_to_samples(Vec3d p, const std::vector<Position>& samples)
     return least;
 }
 
-void check_program(std::uint64_t seed, double tolerance)
+void check_program(std::uint64_t seed, double tolerance, bool shaped = false)
 {
     auto moves = RandomMoves{seed}.program();
     if (moves.empty()) {
@@ -114,6 +114,9 @@ void check_program(std::uint64_t seed, double tolerance)
         path.push_back(chords_of(move));
     }
     MotionRig rig;
+    if (shaped) {
+        rig.planner->set_shaper(test::random_shaper(seed));
+    }
     rig.start_at({});
     const auto samples = rig.run(moves);
     const double allowed = (tolerance > 0 ? tolerance : kExact) + kRounding;
@@ -140,6 +143,13 @@ TEST(PathDeviation, StaysWithinTheTolerance)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
         check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25));
+    }
+}
+
+TEST(PathDeviation, StaysWithinTheToleranceBehindAnInputShaper)
+{
+    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
+        check_program(kSeed + i, i % 3 == 0 ? 0.0 : 0.002 * static_cast<double>(1 + i % 25), true);
     }
 }
 

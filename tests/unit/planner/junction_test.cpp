@@ -58,7 +58,7 @@ TEST(Junctions, TheFiltersKeepTheSharesOfATurn)
         for (const float turn : {0.0002F, 0.001F, 0.004F, 0.008F}) {
             const Junction junction{{0, turn, 0}, {}, {}, {}, turn};
             const JunctionShare share =
-                junction_share(JunctionRun{junction}, limits, filter, 0.98F, 200.0F, 0.0045F);
+                junction_share(JunctionRun{junction}, limits, filter, 0.98F, 200.0F, {0.0045F});
             const Largest largest =
                 filtered(static_cast<double>(share.speed), static_cast<double>(turn), filter);
             CHECK(largest.acceleration <=
@@ -77,11 +77,11 @@ TEST(Junctions, TheLineOfSharesIsAboveTheShareAtLowerSpeeds)
     const Vec3f third = second * 0.05F;
     const Junction junction{{0, 0.001F, 0}, {0.02F, 0.03F, 0}, second, third, 0.001F};
     const JunctionShare fast =
-        junction_share(JunctionRun{junction}, limits, filter, 0.98F, 120.0F, 0.0045F);
+        junction_share(JunctionRun{junction}, limits, filter, 0.98F, 120.0F, {0.0045F});
     for (int k = 1; k < 10; ++k) {
         const float part = 0.1F * static_cast<float>(k);
         const JunctionShare slow = junction_share(JunctionRun{junction}, limits, filter, 0.98F,
-                                                  fast.speed * std::sqrt(part), 0.0045F);
+                                                  fast.speed * std::sqrt(part), {0.0045F});
         CHECK(slow.jerk <= fast.jerk_at_rest + (fast.jerk - fast.jerk_at_rest) * part + 1e-5F);
     }
 }
@@ -90,7 +90,7 @@ TEST(Junctions, ACornerWithinTheDeviationOnly)
 {
     const Junction junction{{0, 0.008F, 0}, {}, {}, {}, 0.008F};
     const JunctionShare share =
-        junction_share(JunctionRun{junction}, {}, {10, 2}, 0.98F, 200.0F, 1e-5F);
+        junction_share(JunctionRun{junction}, {}, {10, 2}, 0.98F, 200.0F, {1e-5F});
     // Half of v turn times the mean of |t| under the filters.
     const double off = 0.5 * static_cast<double>(share.speed) * 0.008 * (0.0025 + 0.002 / 12);
     CHECK(off <= 1.001e-5);
@@ -104,7 +104,7 @@ TEST(Junctions, ARoundedJointBesideATightBendIsPassedAtFullSpeed)
     const Vec3f third{8.0F, 8.0F, 0};
     const Junction junction{{1e-6F, 1e-6F, 0}, {1e-5F, 1e-5F, 0}, second, third, 1.4e-6F};
     const JunctionShare share =
-        junction_share(JunctionRun{junction}, {}, {10, 2}, 0.98F, 100.0F, 0.0045F);
+        junction_share(JunctionRun{junction}, {}, {10, 2}, 0.98F, 100.0F, {0.0045F});
     DOUBLES_EQUAL(100.0, static_cast<double>(share.speed), 0);
     CHECK(share.jerk < 1e-2F);
 }

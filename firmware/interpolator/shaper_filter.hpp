@@ -1,0 +1,87 @@
+// ShaperFilter: the stages of an input shaper, in exact integers. What goes in comes out to the last
+// unit once the filter is drained.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/base/path_units.hpp"
+#include "firmware/planner/input_shaper.hpp"
+
+namespace cusp::interpolator {
+
+// Context: servo tick, but for reset(): main loop.
+class ShaperFilter {
+public:
+    explicit ShaperFilter(const planner::InputShaper& shaper) noexcept : shaper_{shaper} {}
+
+    // The shaper has another form, or what is in it is discarded.
+    // Precondition: its length is at most planner::kMostShaperTicks.
+    void reset() noexcept
+    {
+        values_.fill({});
+        stages_ = {};
+        left_ = 0;
+    }
+
+    bool on() const noexcept { return shaper_.on(); }
+    // Whether nothing is in it: what comes out next is what goes in.
+    bool drained() const noexcept { return left_ <= 1; }
+
+    // The shaped value of this tick: each stage sums up its taps, the remainder of the
+    // division kept for the next tick.
+    PathOffset add(PathOffset value) noexcept
+    {
+        if (value == PathOffset{}) {
+            left_ -= left_ > 0 ? 1U : 0U;
+            if (left_ == 0) {
+                return {};
+            }
+        } else {
+            left_ = shaper_.ticks + 1;
+        }
+        std::uint32_t begin = 0;
+        for (std::size_t i = 0; i < shaper_.stages.size(); ++i) {
+            value = pass(shaper_.stages[i], stages_[i], begin, value);
+            begin += shaper_.stages[i].ticks + 1;
+        }
+        return value;
+    }
+
+private:
+    static constexpr std::int32_t kHalf = 1 << (planner::kShaperBits - 1);
+    struct Running {
+        std::uint32_t next{0};  // place of the oldest value, n + 1 ticks ago
+        PathOffset remainder{kHalf, kHalf, kHalf};
+    };
+
+    // The values of a stage lie from `begin` on: n + 1 of them, in a circle.
+    PathOffset pass(const planner::ShaperStage& stage,
+                    Running& running,
+                    std::uint32_t begin,
+                    PathOffset value) noexcept
+    {
+        const std::uint32_t after = running.next == stage.ticks ? 0 : running.next + 1;
+        PathOffset& oldest = values_[begin + running.next];
+        const PathOffset later = values_[begin + after];
+        PathOffset shaped;
+        for (unsigned i = 0; i < kAxisCount; ++i) {
+            const std::int64_t sum = std::int64_t{stage.now} * value[i] +
+                                     std::int64_t{stage.later} * later[i] +
+                                     std::int64_t{stage.last} * oldest[i] + running.remainder[i];
+            shaped[i] = static_cast<std::int32_t>(sum >> planner::kShaperBits);
+            constexpr std::int64_t kRest = (std::int64_t{1} << planner::kShaperBits) - 1;
+            running.remainder[i] = static_cast<std::int32_t>(sum & kRest);
+        }
+        oldest = value;
+        running.next = after;
+        return shaped;
+    }
+
+    const planner::InputShaper& shaper_;
+    std::array<PathOffset, planner::kMostShaperTicks> values_{};
+    std::array<Running, planner::kMostShaperStages> stages_{};
+    std::uint32_t left_{0};  // ticks until drained, if only zeros follow
+};
+
+}  // namespace cusp::interpolator
