@@ -3,7 +3,7 @@
 usage: rest_machining_test.py CUSP [--count POCKETS] [--first SEED]
 
 Each random pocket is cut by a 10 mm tool, then by a 3 mm tool that knows what the first left. The raster finds what is
-left with the second in full and with the second as planned for the rest, rapids in metal, and the cut in air.
+left with the second in full and with the second as planned for the rest, rapids in stock, and the cut in air.
 """
 import argparse
 import json
@@ -199,7 +199,7 @@ class RestMachining(unittest.TestCase):
             air = Cut(repeated, full, 1.5).air
             cut = Cut(rest, kept, 1.5)
             worst = float(numpy.max(rest.z - whole.z))
-            print(f"seed {seed}: left {worst:.4f}, rapid {cut.worst_rapid:.4f}, air {cut.air * STEP:.0f} of {air * STEP:.0f} mm, metal {(cut.feed - cut.air) * STEP:.0f} mm, "
+            print(f"seed {seed}: left {worst:.4f}, rapid {cut.worst_rapid:.4f}, air {cut.air * STEP:.0f} of {air * STEP:.0f} mm, stock {(cut.feed - cut.air) * STEP:.0f} mm, "
                   f"{full_stats['estimated_s']:.0f} s in full, {stats['estimated_s']:.0f} s")
             self.assertLessEqual(worst, FLOOR, f"seed {seed}")
             self.assertLessEqual(cut.worst_rapid, 0, f"seed {seed}")
