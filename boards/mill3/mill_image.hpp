@@ -17,6 +17,9 @@ class MillImage {
     static_assert(hal::is_board<Board>());
 
 public:
+    // The queue lies apart, where the linker script has core-coupled memory for it.
+    explicit MillImage(planner::PathQueue& queue) noexcept : application_{board_, queue} {}
+
     void servo_tick() noexcept
     {
         application_.tick();
@@ -54,7 +57,7 @@ private:
     static void finish_stores() noexcept { __asm volatile("dsb" ::: "memory"); }
 
     Board board_;
-    app::App<Board> application_{board_};
+    app::App<Board> application_;
 };
 
 }  // namespace cusp::boards

@@ -58,7 +58,7 @@ void SimulatedController::power_off()
 void SimulatedController::power_on()
 {
     if (!app_) {
-        app_.emplace(board_);
+        app_.emplace(board_, queue_.emplace());
         settled_ = false;
     }
 }

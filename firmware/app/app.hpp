@@ -1,7 +1,8 @@
 // App: the whole controller as one object over a Board; the only place where firmware meets a HAL.
 //
 //   Board board;
-//   App<Board> app{board};
+//   planner::PathQueue queue;
+//   App<Board> app{board, queue};
 //   main loop:   while (true) { app.poll(); }
 //   servo tick:  app.tick();          every time a pulse frame has been played, lower priority
 //
@@ -20,13 +21,15 @@ class App {
     static_assert(hal::is_board<Board>());
 
 public:
-    // Loads the settings and says hello on the line. The board must outlive the App.
+    // Loads the settings and says hello on the line. Board and queue must
+    // outlive the App.
     //
+    //   queue    the path ahead, in whatever memory the board has for it
     //   factory  the settings where the store holds none, and after `$RST=$`.
-    explicit App(Board& board, const machine::Settings& factory = {}) noexcept
+    App(Board& board, planner::PathQueue& queue, const machine::Settings& factory = {}) noexcept
         : board_{board},
           log_{board.settings_store},
-          machine_{factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
+          machine_{queue, factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
     {
         machine_.start(log_.load(machine_.stored().bytes()));
         set_outputs(machine_.outputs());

@@ -11,8 +11,10 @@ constexpr std::uint32_t kReplyRoom = 256;
 
 }  // namespace
 
-Machine::Machine(const Settings& factory, const BoardLimits& board) noexcept
-    : factory_{factory}, board_{board}, motion_{factory}
+Machine::Machine(planner::PathQueue& queue,
+                 const Settings& factory,
+                 const BoardLimits& board) noexcept
+    : factory_{factory}, board_{board}, motion_{queue, factory}
 {
     stored_.settings = factory;
     planner_blocks_ = motion_.free_blocks();

@@ -37,7 +37,9 @@ class Machine {
 public:
     //   factory  the settings where the store holds none, and after `$RST=$`
     //   board    its capabilities: settings beyond them are refused
-    explicit Machine(const Settings& factory, const BoardLimits& board = {}) noexcept;
+    Machine(planner::PathQueue& queue,
+            const Settings& factory,
+            const BoardLimits& board = {}) noexcept;
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
 

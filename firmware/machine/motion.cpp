@@ -29,8 +29,8 @@ unsigned control_inputs(unsigned mask) noexcept
 
 }  // namespace
 
-Motion::Motion(const Settings& settings) noexcept
-    : planner_{settings.limits()}, pulses_{settings.steps()}
+Motion::Motion(planner::PathQueue& queue, const Settings& settings) noexcept
+    : planner_{queue, settings.limits()}, pulses_{settings.steps()}
 {
     configure(settings);
 }

@@ -30,7 +30,8 @@ enum class Motors : std::uint8_t { kBoth, kFirst, kSecond };
 
 class Motion {
 public:
-    explicit Motion(const Settings& settings) noexcept;
+    // `queue` must outlive this.
+    Motion(planner::PathQueue& queue, const Settings& settings) noexcept;
 
     // Main loop.
 

@@ -27,7 +27,9 @@ namespace cusp::planner {
 // Context: main loop.
 class Planner {
 public:
-    explicit Planner(const MachineLimits& limits) noexcept : builder_{queue_}
+    // The queue must outlive the planner. It may lie in memory of its own: it is most of what the
+    // firmware keeps, and no DMA reads it.
+    Planner(PathQueue& queue, const MachineLimits& limits) noexcept : queue_{queue}, builder_{queue}
     {
         set_limits(limits);
     }
@@ -124,7 +126,7 @@ private:
     float greatest_acceleration_{1};  // of any axis
     float least_filter_{1};           // ticks of the first axis filter
     std::uint32_t path_filter_{1};
-    PathQueue queue_;
+    PathQueue& queue_;
     IntervalBuilder builder_;
     BlockMaker maker_;
     Position tail_{};

@@ -16,6 +16,7 @@ using Constructor = void (*)();
 extern "C" {
 extern std::uint32_t cusp_data_load, cusp_data_begin, cusp_data_end;
 extern std::uint32_t cusp_zero_begin, cusp_zero_end;
+extern std::uint32_t cusp_coupled_begin, cusp_coupled_end;
 extern const std::uint32_t cusp_vectors;
 extern Constructor cusp_constructors_begin, cusp_constructors_end;
 
@@ -33,6 +34,9 @@ void cusp_reset()
         *to = *from++;
     }
     for (std::uint32_t* to = &cusp_zero_begin; to < &cusp_zero_end; ++to) {
+        *to = 0;
+    }
+    for (std::uint32_t* to = &cusp_coupled_begin; to < &cusp_coupled_end; ++to) {
         *to = 0;
     }
     for (const Constructor* constructor = &cusp_constructors_begin;

@@ -13,7 +13,7 @@ class ControllerBench {
 public:
     explicit ControllerBench(const hal::MillGeometry& geometry = {},
                              const machine::Settings& factory = {})
-        : board{geometry}, app{board, factory}
+        : board{geometry}, app{board, queue, factory}
     {
     }
 
@@ -51,6 +51,7 @@ public:
     Vec3d position() const { return to_millimetres(app.machine().motion().position()); }
 
     hal::SimulatedBoard board;
+    planner::PathQueue queue;
     app::App<hal::SimulatedBoard> app;
 
 private:

@@ -14,7 +14,8 @@ namespace cusp::test {
 
 struct MotionRig {
     explicit MotionRig(const MachineLimits& limits = {})
-        : planner{std::make_unique<planner::Planner>(limits)},
+        : queue{std::make_unique<planner::PathQueue>()},
+          planner{std::make_unique<planner::Planner>(*queue, limits)},
           interpolator{std::make_unique<interpolator::Interpolator>(*planner)}
     {
     }
@@ -151,6 +152,7 @@ struct MotionRig {
     }
 
     static constexpr std::size_t kMostTicks = 4'000'000;
+    std::unique_ptr<planner::PathQueue> queue;
     std::unique_ptr<planner::Planner> planner;
     std::unique_ptr<interpolator::Interpolator> interpolator;
 };

@@ -92,17 +92,20 @@ class Types:
 
 
 def rows(image):
-    sections = {}
+    sections, places = {}, {}
     for line in run("arm-none-eabi-size", "-A", image).splitlines():
         words = line.split()
         if len(words) == 3 and words[0].startswith(".") and words[1].isdigit():
-            sections[words[0]] = int(words[1])
+            sections[words[0]], places[words[0]] = int(words[1]), int(words[2])
     flash = sum(sections.get(name, 0) for name in (".vectors", ".text", ".ARM.exidx", ".data"))
-    ram = [sections.get(name, 0) for name in (".stack", ".retained", ".data", ".bss")]
+    ram = {name: sections.get(name, 0) for name in (".stack", ".coupled", ".retained", ".data", ".bss")}
+    coupled = sum(size for name, size in ram.items() if places.get(name, 0) >> 28 == 1)
     yield flash, "flash, all of it"
-    yield sum(ram), "RAM, all of it"
-    yield ram[0], "stack"
-    types, named = Types(image), ram[0]
+    yield sum(ram.values()) - coupled, "RAM that DMA reaches"
+    if coupled:
+        yield coupled, "core-coupled memory: the stack and the path ahead"
+    yield ram[".stack"], "stack"
+    types, named = Types(image), ram[".stack"]
     for line in run("arm-none-eabi-nm", "-C", "-S", "--size-sort", "-r", image).splitlines():
         _, size, kind, name = line.split(maxsplit=3)
         bytes_ = int(size, 16)
@@ -111,7 +114,7 @@ def rows(image):
             entry = types.variable(name)
             yield from types.parts(name, entry, bytes_) if entry else [(bytes_, name)]
             named += bytes_
-    yield sum(ram) - named, "smaller statics, the last fault's record"
+    yield sum(ram.values()) - named, "smaller statics, the last fault's record"
 
 
 def table(image):

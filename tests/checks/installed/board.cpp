@@ -11,7 +11,8 @@
 
 int main()
 {
-    static cusp::machine::Machine machine{{}};
+    static cusp::planner::PathQueue queue;
+    static cusp::machine::Machine machine{queue, {}};
     machine.start(cusp::machine::LogState::kEmpty);
     return machine.replies().empty() ? 1 : 0;
 }

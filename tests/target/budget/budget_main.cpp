@@ -20,7 +20,8 @@ using hal::stm32f4::Gpio;
 using hal::stm32f4::Timer;
 using test::InstructionMeter;
 
-planner::Planner plan{MachineLimits{}};
+planner::PathQueue path_queue;
+planner::Planner plan{path_queue, MachineLimits{}};
 interpolator::Interpolator interpolator{plan};
 pulse::PulseMaker pulse_maker{pulse::StepSettings{}};
 gcode::Interpreter lines;

@@ -310,6 +310,7 @@ int main(int count, char** arguments)
         return cusp::cosim::run_commands(count, arguments);
     } catch (const std::exception& error) {
         std::cerr << "cosim: " << error.what() << "\n";
+        std::cout << "failed: " << error.what() << std::endl;  // the answer to the last command
         return 2;
     }
 }

@@ -9,9 +9,9 @@ namespace cusp::cosim {
 namespace {
 
 constexpr Picoseconds kNoTime = 1;  // an instruction, in picoseconds
-// A core that goes round in circles. The most that was seen between two ticks, while a NURBS is read
-// ahead, is over 20 million.
-constexpr std::uint64_t kMostInstructions = 80'000'000;
+// A core that goes round in circles: neither a tick nor an answer comes within so many. The most that
+// was seen, while NURBS are read ahead, is 99 million (program 2089 of on_chip.py).
+constexpr std::uint64_t kMostInstructions = 400'000'000;
 // Ticks without an edge after a refusal: slow moves step a few times a second.
 constexpr std::uint64_t kSilence = 2000;
 
@@ -79,8 +79,14 @@ int GoldenSender::run()
         const bool stands_still = chip_.exhausted() || (!done_ && tick_ == before);
         if (stands_still || tick_ > job_.most_ticks || !chip_.powered() ||
             chip_.core().locked_up()) {
-            throw std::runtime_error{"the program does not come to its end: line " +
-                                     std::to_string(next_line_) + ", heard: " + heard_};
+            const char* const why = chip_.exhausted()           ? "the core goes round in circles"
+                                    : stands_still              ? "no servo tick comes"
+                                    : !chip_.powered()          ? "the power is off"
+                                    : chip_.core().locked_up() ? "the core is locked up"
+                                                                : "it lasts too long";
+            throw std::runtime_error{"the program does not come to its end: " + std::string{why} +
+                                     ", line " + std::to_string(next_line_) + ", tick " +
+                                     std::to_string(tick_) + ", heard: " + heard_};
         }
     }
     // What is in flight.
@@ -140,6 +146,7 @@ void GoldenSender::take(const std::string& answer)
     ended_ = ended_ || answer == "[MSG:Pgm End]";
     if (answer == "ok" || error) {
         waiting_ = false;
+        chip_.limit_instructions(kMostInstructions);
         begin_line();
     }
     if (starts_with(answer, "<Hold:0") && job_.script.empty() && !refused_ && !resumed_) {
@@ -164,6 +171,10 @@ bool GoldenSender::on_settled()
             silent_since_ = tick_;
         }
         done_ = done_ || tick_ - silent_since_ > kSilence;
+        return done_;
+    }
+    // Asleep amid a line or an answer: there is more to do in this tick, and it may begin a hold.
+    if (!chip_.serial().quiet()) {
         return done_;
     }
     if (!asked_ && (may_hold_ || finished())) {

@@ -34,6 +34,8 @@ public:
     // What the chip has sent; called for each byte.
     void set_receiver(std::function<void(char)> receiver) { receiver_ = std::move(receiver); }
     std::size_t waiting() const { return incoming_.size(); }
+    // Whether no byte is on its way, to the chip or from it.
+    bool quiet() const { return incoming_.empty() && shift_due_ == kNever; }
     std::uint64_t lost() const { return lost_; }
     void unplug() { incoming_.clear(); }
 

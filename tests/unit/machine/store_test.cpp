@@ -22,7 +22,7 @@ struct PowerCycle {
     explicit PowerCycle(const SimulatedStore& store) : board{{}}
     {
         board.settings_store = store;
-        app.emplace(board);
+        app.emplace(board, queue);
         for (unsigned i = 0; i < 50; ++i) {
             while (app->poll()) {
             }
@@ -32,6 +32,7 @@ struct PowerCycle {
         greeting = board.byte_link.take_answers();
     }
     SimulatedBoard board;
+    cusp::planner::PathQueue queue;
     std::optional<cusp::app::App<SimulatedBoard>> app;
     std::string greeting;
 };
