@@ -302,13 +302,18 @@ void Planner::add_block(const Block& block) noexcept
         join(start_geometry(block), block, first, allowance_of(block, first));
     }
     within_move_ = true;
+    const Block& before = queue_.block(queue_.block_end() - 1);
     queue_.append_block(block);
     next_stretch_ = 0;
     stretches_ = static_cast<std::uint8_t>(stretch_count(block));
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    end_length_ = block.shape == BlockShape::kCurve ? 0.0F : end_length_ + length;
+    const bool is_bent =
+        block.shape == BlockShape::kQuintic || before.shape == BlockShape::kQuintic;
+    end_length_ = block.shape == BlockShape::kCurve ? 0.0F
+                  : is_bent                         ? length
+                                                    : end_length_ + length;
     end_left_ = kCornerShareOfTolerance * move_.tolerance - move_.departure;
 }
 
@@ -473,8 +478,9 @@ CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
         return {};
     }
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    return corner_overlap({*end_, end_length_}, {after, length}, limits_, path_filter_,
-                          block.filter, deviation);
+    const Block& last = queue_.block(queue_.block_end() - 1);
+    return corner_overlap(corner_side(last, *end_, end_length_), corner_side(block, after, length),
+                          limits_, path_filter_, block.filter, deviation);
 }
 
 void Planner::end_in_stop(const CornerOverlap& overlap) noexcept
