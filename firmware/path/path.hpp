@@ -48,6 +48,7 @@ struct BezierPiece {
 struct Quintic {
     std::array<Vec3f, 4> bulge;  // q0 to q3, mm
     float length;                // mm
+    bool is_transition;          // between a line and an arc, or two arcs
 };
 
 using Path = std::variant<Line, Arc, BezierPiece, Quintic>;

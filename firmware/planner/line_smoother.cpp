@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/assert.hpp"
+#include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
 namespace {
@@ -50,37 +51,6 @@ Vec3f unit(Vec3f a) noexcept
 {
     const float length = norm(a);
     return length > 0 ? a / length : a;
-}
-
-// Of a bulge over a chord: the point at x in [0, 1], and its derivative by x.
-Vec3f point_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
-{
-    const auto& q = piece.bulge;
-    return chord * x + (q[0] + (q[1] + (q[2] + q[3] * x) * x) * x) * (x * (1.0F - x));
-}
-
-Vec3f slope_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
-{
-    const auto& q = piece.bulge;
-    return chord + (q[0] + (q[1] + (q[2] + q[3] * x) * x) * x) * (1.0F - 2.0F * x) +
-           (q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x) * (x * (1.0F - x));
-}
-
-// The quintic with these tangents and curvatures at its ends.
-path::Quintic hermite(
-    Vec3f chord, Vec3f tangent0, Vec3f curvature0, Vec3f tangent1, Vec3f curvature1, float length)
-{
-    const Vec3f e0 = tangent0 * length - chord;
-    const Vec3f e1 = tangent1 * length - chord;
-    const Vec3f w0 = curvature0 * (0.5F * length * length);
-    const Vec3f w1 = curvature1 * (0.5F * length * length);
-    const Vec3f a3 = e0 * -6.0F - e1 * 4.0F - w0 * 3.0F + w1;
-    const Vec3f a4 = e0 * 8.0F + e1 * 7.0F + w0 * 3.0F - w1 * 2.0F;
-    const Vec3f a5 = (e0 + e1) * -3.0F - w0 + w1;
-    const Vec3f q3 = -a5;
-    const Vec3f q2 = q3 - a4;
-    const Vec3f q1 = q2 - a3;
-    return {{{e0, q1, q2, q3}}, length};
 }
 
 }  // namespace
@@ -218,9 +188,9 @@ float LineSmoother::fit_knot(std::size_t index,
         worst = std::max(worst, dot(left[i], left[i]));
     }
     const float speed = norm(slope);
-    knot.tangent = slope / std::max(speed, 1e-6F);
-    knot.curvature =
-        (bend - knot.tangent * dot(bend, knot.tangent)) / std::max(speed * speed, 1e-12F);
+    knot.end.tangent = slope / std::max(speed, 1e-6F);
+    knot.end.curvature =
+        (bend - knot.end.tangent * dot(bend, knot.end.tangent)) / std::max(speed * speed, 1e-12F);
     const bool at_end = index == 0 || index + 1 == vertices_.size();
     knot.at = at_end ? Vec3f{} : place;
     return std::sqrt(worst);
@@ -279,25 +249,7 @@ bool LineSmoother::fit(std::size_t last, Fit& fit) const noexcept
     }
     fit.end = knot_at(last);
     fit.chord = whole + fit.end.at - start.at;
-    const float chord = norm(fit.chord);
-    float length = chord;
-    // Rule of Boole: the mean speed is to be one.
-    float fastest = 0;
-    float slowest = 0;
-    for (unsigned i = 0; i < 3; ++i) {
-        fit.piece = hermite(fit.chord, start.tangent, start.curvature, fit.end.tangent,
-                            fit.end.curvature, length);
-        const float a = norm(slope_at(fit.piece, fit.chord, 0.25F));
-        const float m = norm(slope_at(fit.piece, fit.chord, 0.5F));
-        const float b = norm(slope_at(fit.piece, fit.chord, 0.75F));
-        fastest = std::max({a, m, b});
-        slowest = std::min({a, m, b});
-        if (fastest <= (1.0F + kSpeedError) * length && slowest >= (1.0F - kSpeedError) * length) {
-            break;
-        }
-        length = (14.0F * length + 32.0F * (a + b) + 12.0F * m) / 90.0F;
-    }
-    return fastest <= (1.0F + kSpeedError) * length && slowest >= (1.0F - kSpeedError) * length &&
+    return make_quintic(fit.chord, start.end, fit.end.end, kSpeedError, fit.piece) &&
            within_tolerance(fit, last);
 }
 
@@ -349,8 +301,8 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
         const Position off = to_position(to_double(best.end.at));
         piece.end = piece.end + off;
         // The chord of whole nanometres.
-        piece.path = hermite(millimetres(piece.end - piece.start), start_.tangent, start_.curvature,
-                             best.end.tangent, best.end.curvature, best.piece.length);
+        piece.path = hermite(millimetres(piece.end - piece.start), start_.end, best.end.end,
+                             best.piece.length);
         start_ = best.end;
     }
     at_ = piece.end;

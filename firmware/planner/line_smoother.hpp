@@ -11,6 +11,7 @@
 
 #include "firmware/base/static_vector.hpp"
 #include "firmware/path/move.hpp"
+#include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
 
@@ -61,9 +62,8 @@ private:
 
     // Where two pieces meet: the curve through the vertices around it.
     struct Knot {
-        Vec3f at;         // mm from its vertex
-        Vec3f tangent;    // unit vector
-        Vec3f curvature;  // 1/mm, square to the tangent
+        Vec3f at;  // mm from its vertex
+        PathEnd end;
     };
     struct Fit {
         Knot end;
