@@ -195,6 +195,9 @@ double length(const Move& move) noexcept
     if (const auto* piece = std::get_if<BezierPiece>(&move.path)) {
         return bezier_length(*piece);
     }
+    if (const auto* quintic = std::get_if<Quintic>(&move.path)) {
+        return static_cast<double>(quintic->length);
+    }
     return norm(to_millimetres(move.end - move.start));
 }
 

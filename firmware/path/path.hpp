@@ -1,6 +1,6 @@
-// The geometry of one move: a line, an arc or helix, or one rational Bezier piece.
+// The geometry of one move: a line, an arc or helix, one rational Bezier piece, or a quintic.
 //
-// All three are relative to the start of the move, in millimetres; start and end themselves are
+// All are relative to the start of the move, in millimetres; start and end themselves are
 // exact positions (Move). Parameters run over [0, length] by arc length where a name says `at`.
 //
 //   ArcWords words{start, end, Plane::kXY, true, 0, -10'000'000, 1};  // G2 I0 J-10
@@ -8,6 +8,7 @@
 //   if (arc) { Move move; move.path = *arc; move.start = start; move.end = end; }
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -41,7 +42,16 @@ struct BezierPiece {
     float weights[kMaxOrder];  // > 0
 };
 
-using Path = std::variant<Line, Arc, BezierPiece>;
+// A bulge over the chord, nearly by arc length. With x in [0, 1] and D from start to end of the move
+// the point is
+//   x D + x (1 - x) (q0 + q1 x + q2 x^2 + q3 x^3).
+struct Quintic {
+    std::array<Vec3f, 4> bulge;  // q0 to q3, mm
+    float length;                // mm
+    bool is_transition;          // between a line and an arc, or two arcs
+};
+
+using Path = std::variant<Line, Arc, BezierPiece, Quintic>;
 
 enum class Plane : std::uint8_t { kXY, kZX, kYZ };  // G17, G18, G19
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr unsigned kStretchesPerQuadrant = 24;
 constexpr unsigned kStretchesPerTableInterval = 4;
+constexpr unsigned kStretchesPerQuintic = 8;
 
 float length_mm(const Block& block) noexcept
 {
@@ -121,6 +122,13 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
             rounded(place.z * kPathUnitsPerMillimetre)};
 }
 
+// Bound of |f| between two places from both and the middle, with a part of their second difference.
+Vec3f largest_of(const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b, float part) noexcept
+{
+    const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);
+    return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * part;
+}
+
 // Bounds over [from, to] of the parameter, `length` mm long, from both ends and the middle.
 PathDerivatives curve_derivatives(const CurveBlock& curve,
                                   float from,
@@ -133,13 +141,9 @@ PathDerivatives curve_derivatives(const CurveBlock& curve,
     // A parabola through three places exceeds the greatest of them by at most an eighth of their
     // second difference. Twice that bounds other functions:
     // tests/unit/planner/stretch_test.cpp.
-    const auto bound = [](const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b) {
-        const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);
-        return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * 0.25F;
-    };
     PathDerivatives bounds{};
-    bounds.second = bound(a.curvature, m.curvature, b.curvature);
-    bounds.third = bound(a.change, m.change, b.change);
+    bounds.second = largest_of(a.curvature, m.curvature, b.curvature, 0.25F);
+    bounds.third = largest_of(a.change, m.change, b.change, 0.25F);
     // Between places h apart a function exceeds their larger by at most h^2/8 of its second
     // derivative.
     bounds.first =
@@ -172,6 +176,62 @@ EndGeometry curve_geometry(const CurveBlock& curve, float u) noexcept
 {
     const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
     return {state.tangent, state.curvature};
+}
+
+PathOffset quintic_position(const Block& block, std::uint32_t offset) noexcept
+{
+    const float x = static_cast<float>(fraction(block, offset)) * 0x1p-31F;
+    const auto& q = block.quintic.bulge;
+    const float scale = x * (1.0F - x) * kPathUnitsPerMillimetre;
+    const Vec3f bulge = (q[0] + (q[1] + (q[2] + q[3] * x) * x) * x) * scale;
+    return line_position(block, offset) +
+           PathOffset{rounded(bulge.x), rounded(bulge.y), rounded(bulge.z)};
+}
+
+// The first three derivatives by arc length.
+struct QuinticState {
+    Vec3f first;
+    Vec3f second;
+    Vec3f third;
+};
+
+QuinticState quintic_state(const Block& block, float x) noexcept
+{
+    const auto& q = block.quintic.bulge;
+    const float inverse = 1.0F / length_mm(block);
+    // Q and its derivatives, then those of x (1 - x) Q.
+    const Vec3f q0 = q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
+    const Vec3f q1 = q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x;
+    const Vec3f q2 = q[2] * 2.0F + q[3] * (6.0F * x);
+    const float bump = x * (1.0F - x);
+    const float slope = 1.0F - 2.0F * x;
+    const float square = inverse * inverse;
+    return {(displacement_mm(block) + q0 * slope + q1 * bump) * inverse,
+            (q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square,
+            (q1 * -6.0F + q2 * (3.0F * slope) + q[3] * (6.0F * bump)) * (square * inverse)};
+}
+
+// The third derivative is a parabola. The second is a cubic: it leaves the parabola through three
+// places by at most 1/(9 sqrt(3)) of its third derivative times the cube of half the length.
+PathDerivatives quintic_derivatives(const Block& block, float from, float to) noexcept
+{
+    const QuinticState a = quintic_state(block, from);
+    const QuinticState m = quintic_state(block, 0.5F * (from + to));
+    const QuinticState b = quintic_state(block, to);
+    PathDerivatives bounds{};
+    bounds.third = largest_of(a.third, m.third, b.third, 0.125F);
+    const float length = length_mm(block) * (to - from);
+    bounds.second = largest_of(a.second, m.second, b.second, 0.125F) +
+                    magnitude(a.third - m.third * 2.0F + b.third) * (0.0321F * length);
+    bounds.first = larger(larger(magnitude(a.first), magnitude(m.first)), magnitude(b.first)) +
+                   bounds.third * (0.03125F * length * length);
+    return bounds;
+}
+
+EndGeometry quintic_geometry(const Block& block, float x) noexcept
+{
+    const QuinticState state = quintic_state(block, x);
+    return {state.first, state.second};
 }
 
 PathDerivatives line_derivatives(const Block& block) noexcept
@@ -217,6 +277,8 @@ PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
             return arc_position(block.arc, offset);
         case BlockShape::kCurve:
             return curve_position(*block.curve, offset);
+        case BlockShape::kQuintic:
+            return quintic_position(block, offset);
         case BlockShape::kLine:
             break;
     }
@@ -230,6 +292,8 @@ EndGeometry start_geometry(const Block& block) noexcept
             return arc_geometry(block.arc, 0.0F);
         case BlockShape::kCurve:
             return curve_geometry(*block.curve, 0.0F);
+        case BlockShape::kQuintic:
+            return quintic_geometry(block, 0.0F);
         case BlockShape::kLine:
             break;
     }
@@ -243,6 +307,8 @@ EndGeometry end_geometry(const Block& block) noexcept
             return arc_geometry(block.arc, sweep(block));
         case BlockShape::kCurve:
             return curve_geometry(*block.curve, 1.0F);
+        case BlockShape::kQuintic:
+            return quintic_geometry(block, 1.0F);
         case BlockShape::kLine:
             break;
     }
@@ -256,6 +322,9 @@ unsigned stretch_count(const Block& block) noexcept
     }
     if (block.shape == BlockShape::kLine) {
         return 1;
+    }
+    if (block.shape == BlockShape::kQuintic) {
+        return kStretchesPerQuintic;
     }
     const float quadrants = sweep(block) * static_cast<float>(2.0 / kPi);
     return 1U + static_cast<unsigned>(quadrants * static_cast<float>(kStretchesPerQuadrant));
@@ -280,6 +349,9 @@ Stretch stretch(const Block& block, unsigned index) noexcept
     const std::uint32_t end = last ? block.length : units_at(to);
     if (block.shape == BlockShape::kLine) {
         return {end, line_derivatives(block)};
+    }
+    if (block.shape == BlockShape::kQuintic) {
+        return {end, quintic_derivatives(block, from, to)};
     }
     return {end, arc_derivatives(block.arc, from * sweep(block), to * sweep(block))};
 }

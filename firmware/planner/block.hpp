@@ -1,6 +1,7 @@
 // Block: a piece of path of at most 64 mm, in the form that the servo tick evaluates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "firmware/base/path_units.hpp"
@@ -10,7 +11,7 @@
 
 namespace cusp::planner {
 
-enum class BlockShape : std::uint8_t { kLine, kArc, kCurve };
+enum class BlockShape : std::uint8_t { kLine, kArc, kCurve, kQuintic };
 
 // The axis filters of a block: two box filters, their lengths in servo ticks.
 struct AxisFilter {
@@ -41,18 +42,28 @@ struct CurveBlock {
     unsigned interval;  // of the table, found last: the servo tick's
 };
 
+// What path::Quintic adds to the chord.
+struct QuinticBlock {
+    std::array<Vec3f, 4> bulge;  // mm
+};
+
 struct Block {
-    PathOffset displacement;   // from start to end
-    std::uint32_t length;      // path units, > 0, <= 64 mm
-    std::uint32_t reciprocal;  // of the length: see fraction()
-    std::uint8_t reciprocal_shift;
-    BlockShape shape;
-    bool rapid;
-    bool stops;  // the path stops at its end
-    AxisFilter filter;
-    std::uint32_t line;
-    ArcBlock arc;       // for kArc
-    CurveBlock* curve;  // for kCurve
+    Block() noexcept : arc{} {}
+
+    PathOffset displacement{};    // from start to end
+    std::uint32_t length{0};      // path units, > 0, <= 64 mm
+    std::uint32_t reciprocal{0};  // of the length: see fraction()
+    std::uint8_t reciprocal_shift{0};
+    BlockShape shape{BlockShape::kLine};
+    bool rapid{false};
+    bool stops{false};  // the path stops at its end
+    AxisFilter filter{};
+    std::uint32_t line{0};
+    CurveBlock* curve{nullptr};  // for kCurve
+    union {
+        ArcBlock arc;          // for kArc
+        QuinticBlock quintic;  // for kQuintic
+    };
 };
 
 // Sets length and what depends on it. Precondition: 0 < length <= 64 mm.

@@ -64,6 +64,7 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
     const double t = static_cast<double>(next_) / count_;
     const auto* arc = std::get_if<path::Arc>(&move.path);
     const auto* piece = std::get_if<path::BezierPiece>(&move.path);
+    const auto* quintic = std::get_if<path::Quintic>(&move.path);
     const Position from = at_;
     Position to = move.end;
     if (next_ != count_) {
@@ -88,6 +89,12 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
     }
     if (from == to) {
         return false;
+    }
+    if (quintic != nullptr) {
+        block.shape = BlockShape::kQuintic;
+        block.quintic = QuinticBlock{quintic->bulge};
+        set_length(block, std::max(units(length_), std::uint32_t{1}));
+        return true;
     }
     const Vec3d along = to_millimetres(to - from);
     set_length(block, std::max(units(norm(along)), std::uint32_t{1}));

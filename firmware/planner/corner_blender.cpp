@@ -6,6 +6,7 @@
 
 #include "firmware/nurbs/arc_length_table.hpp"
 #include "firmware/planner/speed_limit.hpp"
+#include "firmware/planner/transition.hpp"
 
 namespace cusp::planner {
 namespace {
@@ -25,9 +26,14 @@ constexpr double kApex = 3.0 / 16.0;
 // A blend must save this part of the time of a stop: acceleration around it takes longer.
 constexpr float kWorthIt = 0.5F;
 
+bool is_line(const path::Move& move) noexcept
+{
+    return std::holds_alternative<path::Line>(move.path);
+}
+
 bool may_blend(const path::Move& move) noexcept
 {
-    return move.tolerance > 0 && std::holds_alternative<path::Line>(move.path);
+    return move.tolerance > 0 && (is_line(move) || std::holds_alternative<path::Arc>(move.path));
 }
 
 }  // namespace
@@ -38,10 +44,10 @@ void CornerBlender::clear() noexcept
     made_.clear();
 }
 
-void CornerBlender::add(const path::Move& move) noexcept
+void CornerBlender::add(const path::Move& move, float jerk_time) noexcept
 {
     path::Move next = move;
-    if (held_ && !(may_blend(move) && blend(*held_, next))) {
+    if (held_ && !(may_blend(move) && (blend(*held_, next) || join(*held_, next, jerk_time)))) {
         (void)made_.try_push_back(*held_);
     }
     held_.reset();
@@ -58,24 +64,21 @@ void CornerBlender::add(const path::Move& move) noexcept
     }
 }
 
-// Releases all of a long line but the end that a blend may need, so that the tool need not slow down
+// Releases all of a long move but the end that a blend may need, so that the tool need not slow down
 // while the next move is not known.
-void CornerBlender::release_front(path::Move& line) noexcept
+void CornerBlender::release_front(path::Move& move) noexcept
 {
-    const Vec3d along = to_millimetres(line.end - line.start);
-    const double length = norm(along);
-    const double kept =
-        2.0 * static_cast<double>(kShareOfTolerance * line.tolerance) / (kApex * kLeastTurn);
+    const double length = path::length(move);
+    const double corner =
+        2.0 * static_cast<double>(kShareOfTolerance * move.tolerance) / (kApex * kLeastTurn);
+    const double kept = std::max(corner, static_cast<double>(kLongestReach) / kShareOfLine);
     if (length < 2.0 * kept) {
         return;
     }
-    path::Move front = line;
-    front.end = line.end + to_position(along * (-kept / length));
-    line.start = front.end;
     StaticVector<path::Move, 4> made;
-    (void)made.try_push_back(front);
-    for (const path::Move& move : made_) {
-        (void)made.try_push_back(move);
+    (void)made.try_push_back(take_front(move, length - kept));
+    for (const path::Move& other : made_) {
+        (void)made.try_push_back(other);
     }
     made_ = made;
 }
@@ -102,9 +105,28 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
     return travel < kWorthIt * stop * speed;
 }
 
+// A transition where the curvature jumps. False where there is none.
+bool CornerBlender::join(path::Move& before, path::Move& after, float jerk_time) noexcept
+{
+    const float deviation = kShareOfTolerance * std::min(before.tolerance, after.tolerance);
+    path::Move piece;
+    if ((is_line(before) && is_line(after)) ||
+        !make_transition(before, after, piece, limits_, jerk_time,
+                         static_cast<double>(deviation))) {
+        return false;
+    }
+    piece.departure = deviation;
+    (void)made_.try_push_back(piece);
+    (void)made_.try_push_back(before);
+    return true;
+}
+
 // Shortens both lines and makes the curve between them. False where the corner stays.
 bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
 {
+    if (!is_line(before) || !is_line(after)) {
+        return false;
+    }
     const Vec3d first = to_millimetres(before.end - before.start);
     const Vec3d second = to_millimetres(after.end - after.start);
     const double first_length = norm(first);

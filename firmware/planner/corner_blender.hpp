@@ -1,4 +1,5 @@
-// CornerBlender: a corner between two lines becomes a short curve within a share of the tolerance.
+// CornerBlender: a corner between two lines, and a joint of lines and arcs, becomes a short curve
+// within a share of the tolerance.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,7 @@
 
 namespace cusp::planner {
 
-// Holds back the last line until the next move is known. The blend is one symmetric Bezier curve of
+// Holds back the last line or arc until the next move is known. At a corner the blend is one symmetric Bezier curve of
 // degree 4 whose curvature is zero at both ends: it meets the lines with no jump of direction or
 // curvature, so the tool need not stop. A corner whose blend
 // would take longer than a stop stays a corner.
@@ -37,9 +38,11 @@ public:
     bool empty() const noexcept { return made_.empty() && !held_; }
 
     // Precondition: ready().
-    void add(const path::Move& move) noexcept;
+    //
+    //   jerk_time  s, over which the axis filters spread a jump of acceleration.
+    void add(const path::Move& move, float jerk_time) noexcept;
 
-    // The next move to play. With `ending`, the held line too.
+    // The next move to play. With `ending`, the held one too.
     bool next(bool ending, path::Move& move) noexcept;
 
     void clear() noexcept;
@@ -49,8 +52,9 @@ private:
                           float reach,
                           float feed,
                           float deviation) const noexcept;
-    void release_front(path::Move& line) noexcept;
+    void release_front(path::Move& move) noexcept;
     bool blend(path::Move& before, path::Move& after) noexcept;
+    bool join(path::Move& before, path::Move& after, float jerk_time) noexcept;
 
     MachineLimits limits_{};
     float filter_s_{1};

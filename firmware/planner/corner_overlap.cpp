@@ -24,12 +24,11 @@ float acceleration_along(Vec3f direction, const MachineLimits& limits) noexcept
 }
 
 // Jerk, of any axis, that the bend of a stretch adds while it is left or entered with u over time.
-float bend_jerk(const EndGeometry& end, float u, float time, float filter_s) noexcept
+float bend_jerk(const CornerSide& side, float u, float time, float filter_s) noexcept
 {
-    const float bend = norm(end.curvature);
     const float speed = u * time;
-    const float turn = bend * 0.5F * speed * time;
-    return 3.0F * bend * speed * u + bend * bend * speed * speed * speed + turn * u / filter_s;
+    const float turn = side.bend * 0.5F * speed * time;
+    return 3.0F * side.bend * speed * u + side.change * speed * speed * speed + turn * u / filter_s;
 }
 
 // Mean of (h + t)^3/6 under the axis filters, 0 where h + t < 0: h^3/6 + h (a^2 + b^2)/24, and what
@@ -50,8 +49,8 @@ float demand(const CornerSide& before,
              float time,
              float filter_s) noexcept
 {
-    const float bends = bend_jerk(before.end, overlap.braking, time, filter_s) +
-                        bend_jerk(after.end, overlap.speeding, time, filter_s);
+    const float bends = bend_jerk(before, overlap.braking, time, filter_s) +
+                        bend_jerk(after, overlap.speeding, time, filter_s);
     float most = 0;
     for (unsigned i = 0; i < 3; ++i) {
         const float both =
@@ -62,6 +61,19 @@ float demand(const CornerSide& before,
 }
 
 }  // namespace
+
+CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept
+{
+    const float curvature = norm(end.curvature);
+    if (block.shape != BlockShape::kQuintic) {
+        return {end, length, curvature, curvature * curvature};
+    }
+    PathDerivatives bounds{};
+    for (unsigned i = 0; i < stretch_count(block); ++i) {
+        bounds = larger(bounds, stretch(block, i).derivatives);
+    }
+    return {end, length, norm(bounds.second), norm(bounds.third)};
+}
 
 CornerOverlap corner_overlap(const CornerSide& before,
                              const CornerSide& after,

@@ -22,8 +22,13 @@ struct CornerOverlap {
 // One side of a corner.
 struct CornerSide {
     EndGeometry end;  // at the corner
-    float length;     // mm, of lines and arcs without a junction
+    float length;     // mm, of the path without a junction
+    float bend{0};    // largest |d2P/ds2| over it, 1/mm
+    float change{0};  // and |d3P/ds3|, 1/mm^2
 };
+
+// The side of which `block` is next to the corner.
+CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept;
 
 // The last ticks before a stop only brake and the first after it only speed up (PathServo). While
 // both move, an axis has the jerk of both, (t0 u0 + t1 u1)/filter with u0 the braking before

@@ -118,8 +118,9 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
 void IntervalBuilder::add_junction(const JunctionShare& junction, float distance) noexcept
 {
     Allowance allowance = kAllowsAll;
-    allowance.cap = junction.speed * junction.speed;
-    allowance.jerk_left = {1.0F - junction.jerk_at_rest, 1.0F - junction.jerk};
+    allowance.cap = junction.caps ? junction.speed * junction.speed : kUnlimited;
+    const float at_rest = junction.caps ? junction.jerk_at_rest : junction.jerk;
+    allowance.jerk_left = {1.0F - at_rest, 1.0F - junction.jerk};
     allowance.acceleration_left = 1.0F - junction.acceleration;
     spread_back(junction.speed * reach_.junction + distance, allowance);
     carry(junction.speed * reach_.junction - distance, allowance);

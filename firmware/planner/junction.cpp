@@ -55,7 +55,7 @@ Shares shares_at(const Junction& junction,
             std::max(limits.acceleration[i] - junction.second[i] * fastest_square,
                      (1.0F - kCentripetalShare) * limits.acceleration[i]);
         const float jerk_left = std::max(limits.jerk[i] - junction.third[i] * fastest_cube,
-                                         (1.0F - kCurvatureJerkShare) * limits.jerk[i]);
+                                         (1.0F - kTransitionJerkShare) * limits.jerk[i]);
         const float acceleration = jump / first;
         const float jerk =
             acceleration / second +

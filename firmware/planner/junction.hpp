@@ -43,6 +43,7 @@ struct JunctionShare {
     float acceleration;  // share taken at that speed, in [0, 1)
     float jerk_at_rest;  // share taken is at most a line over the squared speed: at rest,
     float jerk;          // and at that speed, in [0, 1)
+    bool caps{true};     // whether the speed is no more than this around it, too
 };
 
 // What leaves the path.

@@ -1,24 +1,25 @@
-// Biarcs through the vertices of dense lines.
+// Curves through the vertices of dense lines.
 #include "firmware/planner/line_smoother.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "firmware/base/assert.hpp"
-#include "firmware/base/math.hpp"
+#include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
 namespace {
 
 // A vertex that turns by more than this is a corner: 20 degrees.
 constexpr float kCornerTurnSquared = 0.1206F;  // (2 sin 10 degrees)^2
-// Flatter than this, in mm of height over the chord, an arc is a line.
-constexpr float kFlat = 2e-6F;
-// Neighbours at least this far away give a tangent that rounded decimals hardly turn, mm.
-constexpr float kTangentSpan = 0.2F;
-// The jumps of curvature between arcs grow with their length. Much shorter than the travel in one
-// window of the axis filters, 1.2 mm at 100 mm/s, they gain nothing.
-constexpr float kLongestBiarc = 2.0F;  // mm
+// The vertices around a knot may leave its cubic by this part of the tolerance; fewer are taken
+// where they do not.
+constexpr float kKnotShare = 0.1F;
+// Longer pieces, mm, gain nothing.
+constexpr float kLongestPiece = 4.0F;
+// The parameter is arc length within this, relative.
+constexpr float kSpeedError = 5e-4F;
 
 // For distances below 2 m: the target converts 32 bits in one instruction.
 Vec3f millimetres(Position p) noexcept
@@ -71,11 +72,12 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     if (count < 2) {
         return true;
     }
-    if (move.feed != model_.feed || move.tolerance != model_.tolerance ||
-        vertices_[count - 1].at != move.start) {
+    const Vec3<std::int32_t>& last = vertices_[count - 1].at;
+    const Position end = origin_ + Position{last.x, last.y, last.z};
+    if (move.feed != model_.feed || move.tolerance != model_.tolerance || end != move.start) {
         return false;
     }
-    const Vec3f before = unit(millimetres(vertices_[count - 1].at - vertices_[count - 2].at));
+    const Vec3f before = unit(between(count - 2, count - 1));
     const Vec3f turn = unit(millimetres(move.end - move.start)) - before;
     return dot(turn, turn) <= kCornerTurnSquared;
 }
@@ -85,167 +87,175 @@ void LineSmoother::add(const path::Move& move) noexcept
     if (vertices_.empty()) {
         model_ = move;
         at_ = move.start;
-        has_tangent_ = false;
-        (void)vertices_.try_push_back({move.start, move.line});
+        origin_ = move.start;
+        has_start_ = false;
+        (void)vertices_.try_push_back({{}, move.line});
     }
-    const bool added = vertices_.try_push_back({move.end, move.line});
+    const Position from = move.end - origin_;
+    const bool added = vertices_.try_push_back(
+        {{static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
+          static_cast<std::int32_t>(from.z)},
+         move.line});
     CUSP_ASSERT(added);
 }
 
 void LineSmoother::clear() noexcept
 {
     vertices_.clear();
-    has_tangent_ = false;
-    has_second_ = false;
+    has_start_ = false;
 }
 
-Vec3f LineSmoother::place(std::size_t index) const noexcept
+// mm
+Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 {
-    return millimetres(vertices_[index].at - vertices_[0].at);
+    constexpr float kScale = 1e-6F;
+    const Vec3<std::int32_t> a = vertices_[from].at;
+    const Vec3<std::int32_t> b = vertices_[to].at;
+    return Vec3f{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y),
+                 static_cast<float>(b.z - a.z)} *
+           kScale;
 }
 
-// Tangent of the parabola through the vertex and a neighbour on either side; at the ends of the
-// run, of the parabola through the three last.
-Vec3f LineSmoother::tangent_at(std::size_t index) const noexcept
+// Fits a cubic over the lengths of the chords, or less where vertices are few. Returns by how much
+// a vertex leaves it at most, mm.
+float LineSmoother::fit_knot(std::size_t index,
+                             std::size_t from,
+                             std::size_t to,
+                             Knot& knot) const noexcept
 {
-    const std::size_t count = vertices_.size();
-    const Vec3f here = place(index);
-    std::size_t before = index;
-    std::size_t after = index;
-    while (before > 0 && index - before < kBeyond && norm(place(before) - here) < kTangentSpan) {
-        --before;
+    constexpr std::size_t kMost = 2 * kBeyond + 1;
+    constexpr unsigned kTerms = 4;
+    std::array<float, kMost> x;
+    std::array<Vec3f, kMost> left;  // what the terms so far leave
+    std::array<float, kMost> value;
+    std::array<float, kMost> before;
+    const std::size_t count = to - from + 1;
+    const std::size_t here = index - from;
+    for (std::size_t i = 0; i < count; ++i) {
+        left[i] = between(index, from + i);
+        value[i] = 1.0F;
+        before[i] = 0.0F;
     }
-    while (after + 1 < count && after - index < kBeyond &&
-           norm(place(after) - here) < kTangentSpan) {
-        ++after;
+    x[here] = 0;
+    for (std::size_t i = here; i-- > 0;) {
+        x[i] = x[i + 1] - norm(left[i + 1] - left[i]);
     }
-    if (before == index || after == index) {
-        const bool at_start = before == index;
-        const std::size_t middle = at_start ? after : before;
-        const std::size_t far = at_start ? std::min(2 * after - index, count - 1)
-                                         : (2 * before >= index ? 2 * before - index : 0);
-        const Vec3f chord = place(middle) - here;
-        const float length = norm(chord);
-        const Vec3f beyond = place(far) - place(middle);
-        const float rest = norm(beyond);
-        Vec3f slope = chord / length;
-        if (rest > 0) {
-            slope = slope + (slope - beyond / rest) * (length / (length + rest));
+    for (std::size_t i = here + 1; i < count; ++i) {
+        x[i] = x[i - 1] + norm(left[i] - left[i - 1]);
+    }
+    const bool one_sided = index == from || index == to;
+    const std::size_t terms = std::min<std::size_t>(count, one_sided ? kTerms - 1 : kTerms);
+    Vec3f place{};
+    Vec3f slope{};
+    Vec3f bend{};
+    // Value, first and second derivative at the knot, of this polynomial and the one before.
+    float now[3] = {1, 0, 0};
+    float last[3] = {0, 0, 0};
+    float square_before = 1;
+    for (std::size_t k = 0; k < terms; ++k) {
+        float square = 0;
+        float moment = 0;
+        Vec3f product{};
+        for (std::size_t i = 0; i < count; ++i) {
+            const float v = value[i];
+            square += v * v;
+            moment += x[i] * v * v;
+            product = product + left[i] * v;
         }
-        return unit(at_start ? slope : -slope);
+        const Vec3f part = product / square;
+        place = place + part * now[0];
+        slope = slope + part * now[1];
+        bend = bend + part * now[2];
+        const float shift = moment / square;
+        const float back = k == 0 ? 0.0F : square / square_before;
+        for (std::size_t i = 0; i < count; ++i) {
+            left[i] = left[i] - part * value[i];
+            const float next = (x[i] - shift) * value[i] - back * before[i];
+            before[i] = value[i];
+            value[i] = next;
+        }
+        const float next[3] = {-shift * now[0] - back * last[0],
+                               now[0] - shift * now[1] - back * last[1],
+                               2.0F * now[1] - shift * now[2] - back * last[2]};
+        for (unsigned n = 0; n < 3; ++n) {
+            last[n] = now[n];
+            now[n] = next[n];
+        }
+        square_before = square;
     }
-    const Vec3f back = here - place(before);
-    const Vec3f ahead = place(after) - here;
-    const float first = norm(back);
-    const float second = norm(ahead);
-    return unit(back * (second / first) + ahead * (first / second));
+    float worst = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        worst = std::max(worst, dot(left[i], left[i]));
+    }
+    const float speed = norm(slope);
+    knot.end.tangent = slope / std::max(speed, 1e-6F);
+    knot.end.curvature =
+        (bend - knot.end.tangent * dot(bend, knot.end.tangent)) / std::max(speed * speed, 1e-12F);
+    const bool at_end = index == 0 || index + 1 == vertices_.size();
+    knot.at = at_end ? Vec3f{} : place;
+    return std::sqrt(worst);
 }
 
-LineSmoother::Arc LineSmoother::tangent_arc(Vec3f start, Vec3f tangent, Vec3f end) noexcept
+// By as many vertices on either side as one cubic passes.
+LineSmoother::Knot LineSmoother::knot_at(std::size_t index) const noexcept
 {
-    const Vec3f chord = end - start;
-    const float along = dot(chord, tangent);
-    const Vec3f across = chord - tangent * along;
-    const float height = norm(across);
-    Arc arc{start, end, tangent, {}, 0};
-    if (height < kFlat || along <= 0) {
-        return arc;
+    const float allowed = kKnotShare * model_.tolerance;
+    const std::size_t last = vertices_.size() - 1;
+    Knot knot;
+    std::size_t reach = kBeyond;
+    while (fit_knot(index, index - std::min(reach, index), std::min(index + reach, last), knot) >
+               allowed &&
+           reach > 1) {
+        reach /= 2;
     }
-    arc.normal = across / height;
-    arc.radius = dot(chord, chord) / (2.0F * height);
-    return arc;
+    return knot;
 }
 
-float LineSmoother::distance(const Arc& arc, Vec3f point) noexcept
-{
-    const Vec3f from = point - arc.start;
-    if (arc.radius <= 0) {
-        const Vec3f direction = unit(arc.end - arc.start);
-        return norm(from - direction * dot(from, direction));
-    }
-    // In the arc's plane: t along the tangent, n towards the centre; the rest is out of it.
-    const float t = dot(from, arc.tangent);
-    const float n = dot(from, arc.normal);
-    const Vec3f off = from - arc.tangent * t - arc.normal * n;
-    // |sqrt(t^2 + (r - n)^2) - r| without cancellation.
-    const float square = t * t + n * n - 2.0F * arc.radius * n;
-    const float radial = square / (std::sqrt(arc.radius * arc.radius + square) + arc.radius);
-    return std::sqrt(radial * radial + dot(off, off));
-}
-
-bool LineSmoother::within_tolerance(const Biarc& biarc, std::size_t last) const noexcept
+bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noexcept
 {
     const float tolerance = kShareOfTolerance * model_.tolerance;
-    const Vec3f joint = biarc.first.end;
-    const Vec3f direction = unit(biarc.second.end - biarc.first.start);
-    Vec3f before = place(0);
+    const float square = tolerance * tolerance;
+    float along = 0;
+    float whole = 0;
+    for (std::size_t i = 0; i < last; ++i) {
+        whole += norm(between(i, i + 1));
+    }
+    Vec3f before = -start_.at;
     for (std::size_t i = 1; i <= last; ++i) {
-        const Vec3f here = place(i);
-        for (const Vec3f point : {(before + here) * 0.5F, here}) {
-            const bool first = dot(point - joint, direction) < 0;
-            if (distance(first ? biarc.first : biarc.second, point) > tolerance) {
+        const Vec3f here = between(0, i) - start_.at;
+        const float length = norm(here - before);
+        for (const float part : {0.5F, 1.0F}) {
+            const Vec3f point = before + (here - before) * part;
+            const float x = (along + length * part) / whole;
+            const Vec3f off = point - point_at(fit.piece, fit.chord, x);
+            const Vec3f slope = slope_at(fit.piece, fit.chord, x);
+            const float ahead = dot(off, slope);
+            if (dot(off, off) - ahead * ahead / dot(slope, slope) > square) {
                 return false;
             }
         }
+        along += length;
         before = here;
     }
     return true;
 }
 
-bool LineSmoother::fit(std::size_t last, Biarc& biarc) const noexcept
+bool LineSmoother::fit(std::size_t last, Fit& fit) const noexcept
 {
-    const Vec3f t0 = has_tangent_ ? tangent_ : tangent_at(0);
-    const Vec3f t1 = tangent_at(last);
-    const Vec3f chord = place(last);
-    // Equal control lengths d: chord^2 - 2 d chord.(t0 + t1) - 2 d^2 (1 - t0.t1) = 0.
-    const Vec3f difference = t1 - t0;
-    const float bend = dot(difference, difference);  // 2 (1 - t0.t1)
-    const float along = dot(chord, t0 + t1);
-    const float square = dot(chord, chord);
-    if (along <= 0 || (last > 2 && square > kLongestBiarc * kLongestBiarc)) {
+    const Knot& start = start_;
+    const Vec3f whole = between(0, last);
+    if (last > 1 && dot(whole, whole) > kLongestPiece * kLongestPiece) {
         return false;
     }
-    const float d = square / (along + std::sqrt(along * along + bend * square));
-    const Vec3f joint = (t0 * d + (chord - t1 * d)) * 0.5F;
-    biarc.first = tangent_arc({}, t0, joint);
-    biarc.second = tangent_arc(joint, unit(chord - t1 * d - t0 * d), chord);
-    return within_tolerance(biarc, last);
-}
-
-path::Move LineSmoother::as_move(const Arc& arc, Position end) const noexcept
-{
-    path::Move move = model_;
-    move.departure = kShareOfTolerance * model_.tolerance;
-    move.start = at_;
-    move.end = end;
-    move.path = path::Line{};
-    if (arc.radius > 0) {
-        path::Arc shape{};
-        const Vec3d normal = to_double(arc.normal);
-        shape.radius = static_cast<double>(arc.radius);
-        shape.centre = normal * shape.radius;
-        shape.u = -normal;
-        shape.v = to_double(arc.tangent);
-        // The height over the tangent from the radius: a product with the normal would have the
-        // rounding of the whole chord.
-        const Vec3f chord = arc.end - arc.start;
-        const float height = dot(chord, chord) / (2.0F * arc.radius);
-        shape.sweep =
-            2.0 * atan2(static_cast<double>(height), static_cast<double>(dot(chord, arc.tangent)));
-        move.path = shape;
-    }
-    return move;
+    fit.end = knot_at(last);
+    fit.chord = whole + fit.end.at - start.at;
+    return make_quintic(fit.chord, start.end, fit.end.end, kSpeedError, fit.piece) &&
+           within_tolerance(fit, last);
 }
 
 bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
     const bool ending = patience == Patience::kNone;
-    if (has_second_) {
-        piece = second_;
-        at_ = piece.end;
-        has_second_ = false;
-        return true;
-    }
     const std::size_t lines = vertices_.empty() ? 0 : vertices_.size() - 1;
     const bool waits = patience == Patience::kShort ? lines <= kBeyond : !vertices_.full();
     if (lines == 0 || (!ending && waits)) {
@@ -254,12 +264,16 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
         }
         return false;
     }
+    if (!has_start_) {
+        start_ = knot_at(0);
+        has_start_ = true;
+    }
     const std::size_t most =
         ending ? std::min(lines, kMostLines) : std::min(lines - kBeyond, kMostLines);
     // The longest that fits, by doubling and then halving the step.
     std::size_t good = 0;
-    Biarc best{};
-    Biarc tried{};
+    Fit best{};
+    Fit tried{};
     std::size_t step = 1;
     while (good + step <= most && fit(good + step, tried)) {
         good += step;
@@ -274,35 +288,37 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     }
     // The number of the first line: a reported line is never ahead of the tool.
     model_.line = vertices_[1].line;
-    if (good == 0) {
-        // Not even one line can be rounded: it stays, and its ends are corners.
-        piece = as_move(Arc{}, vertices_[1].at);
-        at_ = piece.end;
-        has_tangent_ = false;
-        drop(1);
-        return true;
+    piece = model_;
+    piece.departure = kShareOfTolerance * model_.tolerance;
+    piece.start = at_;
+    const std::size_t passed = std::max<std::size_t>(good, 1);
+    const Vec3<std::int32_t> vertex = vertices_[passed].at;
+    piece.end = origin_ + Position{vertex.x, vertex.y, vertex.z};
+    piece.path = path::Line{};
+    // Where not even one line can be rounded it stays, and its ends are corners.
+    has_start_ = good != 0;
+    if (good != 0) {
+        const Position off = to_position(to_double(best.end.at));
+        piece.end = piece.end + off;
+        // The chord of whole nanometres.
+        piece.path = hermite(millimetres(piece.end - piece.start), start_.end, best.end.end,
+                             best.piece.length);
+        start_ = best.end;
     }
-    const Position middle = vertices_[0].at + to_position(to_double(best.first.end));
-    const Vec3f end_tangent = tangent_at(good);
-    piece = as_move(best.first, middle);
-    at_ = middle;
-    second_ = as_move(best.second, vertices_[good].at);
-    has_second_ = true;
-    tangent_ = end_tangent;
-    has_tangent_ = true;
-    drop(good);
+    at_ = piece.end;
+    drop(passed);
     return true;
 }
 
 void LineSmoother::drop(std::size_t count) noexcept
 {
     const std::size_t left = vertices_.size() - count;
+    const Vec3<std::int32_t> first = vertices_[count].at;
+    origin_ = origin_ + Position{first.x, first.y, first.z};
     for (std::size_t i = 0; i < left; ++i) {
-        vertices_[i] = vertices_[i + count];
+        vertices_[i] = {vertices_[i + count].at - first, vertices_[i + count].line};
     }
-    while (vertices_.size() > left) {
-        vertices_.pop_back();
-    }
+    vertices_.shrink(left);
 }
 
 }  // namespace cusp::planner

@@ -1,21 +1,23 @@
-// LineSmoother: runs of short lines become arcs that pass their ends with the same direction.
+// LineSmoother: runs of short lines become curves that meet with the same direction and curvature.
 //
 // Dense programs describe smooth curves by short lines; taken literally each vertex is a jump of
-// direction that costs speed. Within its share of the path tolerance a run is replaced by biarcs
-// (two arcs with a common tangent; Bolton, 1975) between vertices chosen as far apart as the
-// tolerance allows, with tangents estimated from the neighbours. Streaming, fixed memory.
+// direction that costs speed. Within its share of the path tolerance a run is replaced by quintic
+// Hermite pieces between vertices as far apart as the tolerance allows. Where they meet, place,
+// direction and curvature are those of a cubic by least squares through the vertices around
+// (orthogonal polynomials; Forsythe, 1957). Streaming, fixed memory.
 #pragma once
 
 #include <cstdint>
 
 #include "firmware/base/static_vector.hpp"
 #include "firmware/path/move.hpp"
+#include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
 
 class LineSmoother {
 public:
-    // Part of a move's tolerance that the arcs may leave the lines by.
+    // Part of a move's tolerance that the curve may leave the lines by.
     static constexpr float kShareOfTolerance = 0.45F;
 
     // Lines longer than this, mm, are no part of a curve.
@@ -28,16 +30,16 @@ public:
     // any.
     bool continues(const path::Move& move) const noexcept;
 
-    bool empty() const noexcept { return vertices_.size() < 2 && !has_second_; }
+    bool empty() const noexcept { return vertices_.size() < 2; }
     bool full() const noexcept { return vertices_.full(); }
 
     // Precondition: accepts(move), continues(move), !full().
     void add(const path::Move& move) noexcept;
 
-    // How long next() may wait for more vertices: the longer, the longer the arcs.
+    // How long next() may wait for more vertices: the longer, the longer the pieces.
     enum class Patience : std::uint8_t {
         kFull,   // until the vertices fill the memory
-        kShort,  // the tool comes near: take what is known, but for what the tangents need
+        kShort,  // the tool comes near: take what is known, but for what the knots need
         kNone,   // the run ends with its last vertex
     };
 
@@ -50,41 +52,38 @@ public:
 
 private:
     struct Vertex {
-        Position at;
+        Vec3<std::int32_t> at;  // nm from origin_
         std::uint32_t line;
     };
-    static constexpr std::size_t kVertices = 40;
-    // A piece replaces at most this many lines; tangents need a few vertices beyond.
-    static constexpr std::size_t kMostLines = 24;
-    static constexpr std::size_t kBeyond = 8;
+    static constexpr std::size_t kVertices = 80;
+    // A piece replaces at most this many lines; knots need a few vertices beyond.
+    static constexpr std::size_t kMostLines = 48;
+    static constexpr std::size_t kBeyond = 16;
 
-    // One arc of a biarc, relative to the first vertex.
-    struct Arc {
-        Vec3f start, end;
-        Vec3f tangent;  // unit, at the start
-        Vec3f normal;   // unit, to the centre; zero for a line
-        float radius;
+    // Where two pieces meet: the curve through the vertices around it.
+    struct Knot {
+        Vec3f at;  // mm from its vertex
+        PathEnd end;
     };
-    struct Biarc {
-        Arc first, second;
+    struct Fit {
+        Knot end;
+        path::Quintic piece;
+        Vec3f chord;  // mm
     };
 
-    Vec3f place(std::size_t index) const noexcept;
-    Vec3f tangent_at(std::size_t index) const noexcept;
-    bool fit(std::size_t last, Biarc& biarc) const noexcept;
-    bool within_tolerance(const Biarc& biarc, std::size_t last) const noexcept;
-    static Arc tangent_arc(Vec3f start, Vec3f tangent, Vec3f end) noexcept;
-    static float distance(const Arc& arc, Vec3f point) noexcept;
-    path::Move as_move(const Arc& arc, Position end) const noexcept;
+    Vec3f between(std::size_t from, std::size_t to) const noexcept;
+    Knot knot_at(std::size_t index) const noexcept;
+    float fit_knot(std::size_t index, std::size_t from, std::size_t to, Knot& knot) const noexcept;
+    bool fit(std::size_t last, Fit& fit) const noexcept;
+    bool within_tolerance(const Fit& fit, std::size_t last) const noexcept;
     void drop(std::size_t count) noexcept;
 
+    Position origin_{};
     StaticVector<Vertex, kVertices> vertices_;
     path::Move model_{};  // feed, tolerance and kind of the run
-    Vec3f tangent_{};     // at the first vertex, where a piece ended there
-    bool has_tangent_{false};
-    Position at_{};        // where the next piece starts
-    path::Move second_{};  // the other half of the last biarc
-    bool has_second_{false};
+    Knot start_{};        // at the first vertex, where a piece ended there
+    bool has_start_{false};
+    Position at_{};  // where the next piece starts
 };
 
 }  // namespace cusp::planner

@@ -67,20 +67,6 @@ bool is_covered_by(const Junction& junction, const PathDerivatives& stretch) noe
     return all;
 }
 
-// Whether one interval may stand for both.
-bool are_alike(const Allowance& a, const Allowance& b) noexcept
-{
-    constexpr float kDifference = 0.03F;
-    const auto differ = [](float x, float y, float scale) {
-        return std::fabs(x - y) > kDifference * scale;
-    };
-    const auto lines_differ = [&differ](const Line& x, const Line& y) {
-        return differ(x.at_rest, y.at_rest, x.at_rest) || differ(x.at_cap, y.at_cap, x.at_rest);
-    };
-    return !differ(a.cap, b.cap, a.cap) && !lines_differ(a.by_acceleration, b.by_acceleration) &&
-           !lines_differ(a.by_jerk, b.by_jerk);
-}
-
 // Share of the limits for the motion before rounding.
 MachineLimits with_margin(const MachineLimits& limits, std::uint32_t path_filter) noexcept
 {
@@ -242,7 +228,8 @@ bool Planner::next_move() noexcept
     path::Move move;
     while (!blender_.next(false, move)) {
         if (next_smoothed(move)) {
-            blender_.add(move);
+            const AxisFilter filter = filter_for(move.tolerance).filter;
+            blender_.add(move, static_cast<float>(filter.first) * kServoTick);
             continue;
         }
         const bool ending = close_requested_ && !waiting_ && smoother_.empty();
@@ -297,13 +284,19 @@ void Planner::add_block(const Block& block) noexcept
         join(start_geometry(block), block, first, allowance_of(block, first));
     }
     within_move_ = true;
+    const BlockShape before = queue_.block(queue_.block_end() - 1).shape;
     queue_.append_block(block);
     next_stretch_ = 0;
     stretches_ = static_cast<std::uint8_t>(stretch_count(block));
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    end_length_ = block.shape == BlockShape::kCurve ? 0.0F : end_length_ + length;
+    if (block.shape == BlockShape::kCurve) {
+        end_length_ = 0;
+    } else {
+        const bool bends = BlockShape::kQuintic == block.shape || BlockShape::kQuintic == before;
+        end_length_ = (bends ? 0.0F : end_length_) + length;
+    }
     end_left_ = kCornerShareOfTolerance * move_.tolerance - move_.departure;
 }
 
@@ -320,11 +313,13 @@ void Planner::join(const EndGeometry& after,
         end_in_stop(overlap_at_corner(after, block));
         return;
     }
-    const JunctionShare share = share_of(junction, junctions_.size(), 0.0F, fastest);
+    JunctionShare share = share_of(junction, junctions_.size(), 0.0F, fastest);
     if (share.speed < kLeastJunctionSpeed) {
         end_in_stop({});
         return;
     }
+    // What takes next to nothing is passed as fast as the stretches on both sides allow.
+    share.caps = std::max(share.jerk, share.acceleration) >= kNegligible || share.speed < fastest;
     if (share.jerk >= kNegligible) {
         end_length_ = 0;
         add_recent(junction, share.speed);
@@ -427,8 +422,11 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
+    const auto* quintic = std::get_if<path::Quintic>(&move_.path);
+    const bool is_transition = quintic != nullptr && quintic->is_transition;
     Allowance of_part =
-        allowance(part.derivatives, limits_, filter_s, choice_.centripetal, kGreatestSpeed);
+        allowance(part.derivatives, limits_, filter_s, choice_.centripetal, kGreatestSpeed,
+                  is_transition ? kTransitionJerkShare : kCurvatureJerkShare);
     of_part.feed = feed * feed;
     return of_part;
 }
@@ -476,8 +474,9 @@ CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
         return {};
     }
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    return corner_overlap({*end_, end_length_}, {after, length}, limits_, path_filter_,
-                          block.filter, deviation);
+    const Block& last = queue_.block(queue_.block_end() - 1);
+    return corner_overlap(corner_side(last, *end_, end_length_), corner_side(block, after, length),
+                          limits_, path_filter_, block.filter, deviation);
 }
 
 void Planner::end_in_stop(const CornerOverlap& overlap) noexcept

@@ -74,6 +74,19 @@ bool binds(const Allowance& a, const Allowance& b) noexcept
            lower(a.jerk_left, b.jerk_left);
 }
 
+bool are_alike(const Allowance& a, const Allowance& b) noexcept
+{
+    constexpr float kDifference = 0.03F;
+    const auto differ = [](float x, float y, float scale) {
+        return std::fabs(x - y) > kDifference * scale;
+    };
+    const auto lines_differ = [&differ](const Line& x, const Line& y) {
+        return differ(x.at_rest, y.at_rest, x.at_rest) || differ(x.at_cap, y.at_cap, x.at_rest);
+    };
+    return !differ(a.cap, b.cap, a.cap) && !lines_differ(a.by_acceleration, b.by_acceleration) &&
+           !lines_differ(a.by_jerk, b.by_jerk);
+}
+
 SpeedLimit speed_limit(const Allowance& allowance) noexcept
 {
     // The product of two falling lines is convex: above its tangent at the cap.
@@ -97,7 +110,8 @@ Allowance allowance(const PathDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,
-                    float max_speed) noexcept
+                    float max_speed,
+                    float jerk_share) noexcept
 {
     float cap = max_speed * max_speed;
     float jerk_speed = kUnlimited;
@@ -107,7 +121,7 @@ Allowance allowance(const PathDerivatives& derivatives,
         const float second = std::max(derivatives.second[i], kTiny);
         cap = std::min(cap, kCentripetalShare * limits.acceleration[i] / second);
         const float third = std::max(derivatives.third[i], kTiny);
-        const float cube = kCurvatureJerkShare * limits.jerk[i] / third;
+        const float cube = jerk_share * limits.jerk[i] / third;
         if (cube < 1e15F) {
             jerk_speed = std::min(jerk_speed, cube_root(cube));
         }

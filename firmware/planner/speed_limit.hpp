@@ -70,6 +70,9 @@ Allowance stricter(const Allowance& a, const Allowance& b) noexcept;
 // Whether b allows something that a does not.
 bool binds(const Allowance& a, const Allowance& b) noexcept;
 
+// Whether one interval may stand for both: they differ by at most 3 %.
+bool are_alike(const Allowance& a, const Allowance& b) noexcept;
+
 // All parts together.
 SpeedLimit speed_limit(const Allowance& allowance) noexcept;
 
@@ -84,6 +87,8 @@ float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
 inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
 inline constexpr float kCurvatureJerkShare = 0.5F;
+// Of a transition, towards which nothing brakes.
+inline constexpr float kTransitionJerkShare = 0.9F;
 
 // The limits of a stretch with such derivatives.
 //
@@ -99,6 +104,7 @@ Allowance allowance(const PathDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,
-                    float max_speed) noexcept;
+                    float max_speed,
+                    float jerk_share = kCurvatureJerkShare) noexcept;
 
 }  // namespace cusp::planner

@@ -89,3 +89,42 @@ TEST(Stretches, BoundTheDerivativesBetweenTheirPlaces)
     CHECK_TEXT(worst.first.x < 1e-4F && worst.second.x < 1e-4F && worst.third.x < 1e-3F,
                found.c_str());
 }
+
+TEST(Stretches, BoundTheDerivativesOfQuintics)
+{
+    std::mt19937_64 random{7302};
+    std::uniform_real_distribution<float> coordinate{-1, 1};
+    PathDerivatives worst{};
+    for (int k = 0; k < 2000; ++k) {
+        Block block;
+        block.shape = BlockShape::kQuintic;
+        block.displacement = {16'000'000, 0, 0};
+        set_length(block, 16'000'000);
+        for (Vec3f& q : block.quintic.bulge) {
+            q = Vec3f{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
+        }
+        const auto& q = block.quintic.bulge;
+        const Vec3f a[] = {{}, Vec3f{1, 0, 0} + q[0], q[1] - q[0], q[2] - q[1], q[3] - q[2], -q[3]};
+        float from = 0;
+        for (unsigned i = 0; i < stretch_count(block); ++i) {
+            const Stretch part = stretch(block, i);
+            const float to = static_cast<float>(part.end) / kPathUnitsPerMillimetre;
+            for (int n = 0; n <= 32; ++n) {
+                const float x = from + (to - from) * static_cast<float>(n) / 32.0F;
+                const Vec3f first =
+                    a[1] + (a[2] * 2 + (a[3] * 3 + (a[4] * 4 + a[5] * (5 * x)) * x) * x) * x;
+                const Vec3f second = a[2] * 2 + (a[3] * 6 + (a[4] * 12 + a[5] * (20 * x)) * x) * x;
+                const Vec3f third = a[3] * 6 + (a[4] * 24 + a[5] * (60 * x)) * x;
+                const PathDerivatives& bound = part.derivatives;
+                worst.first.x = std::max(worst.first.x, excess_over(first, bound.first));
+                worst.second.x = std::max(worst.second.x, excess_over(second, bound.second));
+                worst.third.x = std::max(worst.third.x, excess_over(third, bound.third));
+            }
+            from = to;
+        }
+    }
+    const std::string found = std::to_string(worst.first.x) + " " + std::to_string(worst.second.x) +
+                              " " + std::to_string(worst.third.x);
+    CHECK_TEXT(worst.first.x < 1e-5F && worst.second.x < 1e-5F && worst.third.x < 1e-5F,
+               found.c_str());
+}

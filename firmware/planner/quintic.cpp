@@ -1,0 +1,66 @@
+// Hermite quintics over a chord.
+#include "firmware/planner/quintic.hpp"
+
+#include <algorithm>
+
+namespace cusp::planner {
+namespace {
+
+Vec3f bulge_at(const path::Quintic& piece, float x) noexcept
+{
+    const auto& q = piece.bulge;
+    return q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
+}
+
+}  // namespace
+
+Vec3f point_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
+{
+    return chord * x + bulge_at(piece, x) * (x * (1.0F - x));
+}
+
+Vec3f slope_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
+{
+    const auto& q = piece.bulge;
+    return chord + bulge_at(piece, x) * (1.0F - 2.0F * x) +
+           (q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x) * (x * (1.0F - x));
+}
+
+path::Quintic hermite(Vec3f chord, const PathEnd& from, const PathEnd& to, float length) noexcept
+{
+    // What the ends add to a straight line, so that it need not cancel.
+    const Vec3f e0 = from.tangent * length - chord;
+    const Vec3f e1 = to.tangent * length - chord;
+    const Vec3f w0 = from.curvature * (0.5F * length * length);
+    const Vec3f w1 = to.curvature * (0.5F * length * length);
+    const Vec3f a3 = e0 * -6.0F - e1 * 4.0F - w0 * 3.0F + w1;
+    const Vec3f a4 = e0 * 8.0F + e1 * 7.0F + w0 * 3.0F - w1 * 2.0F;
+    const Vec3f a5 = (e0 + e1) * -3.0F - w0 + w1;
+    const Vec3f q3 = -a5;
+    const Vec3f q2 = q3 - a4;
+    const Vec3f q1 = q2 - a3;
+    return {{{e0, q1, q2, q3}}, length, false};
+}
+
+bool make_quintic(
+    Vec3f chord, const PathEnd& from, const PathEnd& to, float error, path::Quintic& piece) noexcept
+{
+    constexpr unsigned kTries = 3;
+    float length = norm(chord);
+    for (unsigned i = 0; i < kTries; ++i) {
+        piece = hermite(chord, from, to, length);
+        const float a = norm(slope_at(piece, chord, 0.25F));
+        const float m = norm(slope_at(piece, chord, 0.5F));
+        const float b = norm(slope_at(piece, chord, 0.75F));
+        const float fastest = std::max({a, m, b});
+        const float slowest = std::min({a, m, b});
+        if (fastest <= (1.0F + error) * length && slowest >= (1.0F - error) * length) {
+            return true;
+        }
+        // Boole's rule.
+        length = (14.0F * length + 32.0F * (a + b) + 12.0F * m) / 90.0F;
+    }
+    return false;
+}
+
+}  // namespace cusp::planner
