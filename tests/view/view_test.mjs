@@ -147,6 +147,28 @@ test("the keyboard alone works the page", async () => {
   await close();
 });
 
+test("figures below zero have a true minus, and no line of the program is cut off at the top", async () => {
+  const lines = Array.from({ length: 300 }, (_, k) => `G1 X${k / 10} Y-${k % 7} Z-${k % 3}`).join("\n");
+  const { page, close } = await openPage(browser, pageOf(write("below.ngc", `G21 G90 F1000\n${lines}\n`)).file);
+  await page.evaluate(() => window.cusp.show("height"));
+  assert.match(await page.locator(".legend").innerText(), /−2/);
+  const end = await page.evaluate(() => window.cusp.facts.duration_s);
+  for (const share of [0.3, 0.51, 0.77]) {
+    await seek(page, end * share);
+    assert.equal(await page.locator(".program").evaluate((list) => list.scrollTop % 18), 0);
+  }
+  assert.doesNotMatch(await page.locator(".legend, .readout").allInnerTexts().then((texts) => texts.join("\n")), /-\d/);
+  await close();
+});
+
+test("the pages are less than 3000 lines of our own TypeScript", () => {
+  const view = path.join(top, "host_tools", "view");
+  const files = ["web/src", "npm"].flatMap((name) => fs.readdirSync(path.join(view, name), { recursive: true }).map((file) => path.join(view, name, file)));
+  const lines = files.filter((file) => file.endsWith(".ts")).flatMap((file) => fs.readFileSync(file, "utf8").split("\n"));
+  const code = lines.filter((line) => !/^\s*($|\/\/|\/?\*)/.test(line));
+  assert.ok(code.length > 2000 && code.length < 3000, `${code.length} lines`);
+});
+
 const attack = '<img src=x onerror="window.hacked=1">', closing = "</script><script>window.hacked=1</script>";
 
 test("hostile text is data", async () => {

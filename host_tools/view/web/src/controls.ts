@@ -1,5 +1,5 @@
 // Controls of the page: play and scrubber, keys, and the visibility of objects.
-import { button, duration, element, figure } from "./elements";
+import { button, duration, element, figure, fixed } from "./elements";
 import { colouringNames, colourings } from "./colouring";
 import type { Colouring } from "./colouring";
 import { viewNames } from "./scene";
@@ -45,7 +45,7 @@ export function readout(timeline: Timeline): HTMLElement {
   });
   const show = () => {
     const state = timeline.state();
-    state.position_mm.forEach((value, k) => { cells[k].textContent = `${value.toFixed(3)} mm`; });
+    state.position_mm.forEach((value, k) => { cells[k].textContent = `${fixed(value, 3)} mm`; });
     cells[3].textContent = `${figure(60 * Math.hypot(...state.velocity), 4)} mm/min`;
     cells[4].textContent = state.line > 0 ? String(state.line) : "–";
     cells[5].textContent = state.tool > 0 ? `T${state.tool}` : "–";

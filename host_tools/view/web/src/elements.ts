@@ -30,11 +30,14 @@ export function legendBar(background: string, title: string, marks: string[]): H
     element("div", { class: "legend-marks" }, ...marks.map((mark) => element("span", {}, mark)))];
 }
 
+// A true minus sign, as wide as a digit.
+export const fixed = (value: number, decimals: number): string => value.toFixed(decimals).replace("-", "−");
+
 // At most 4 significant digits below 1000, no exponent.
 export function figure(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";
   const size = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
-  return value.toFixed(Math.min(Math.max(digits - 1 - size, 0), 6)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+  return fixed(value, Math.min(Math.max(digits - 1 - size, 0), 6)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
 }
 
 // "1 h 02 min 03.4 s"

@@ -1,5 +1,5 @@
 // The figures of a run: time, maxima and limits, bounds, the worst points, tools, warnings.
-import { button, duration, element, figure, metres } from "./elements";
+import { button, duration, element, figure, fixed, metres } from "./elements";
 import type { Content } from "./elements";
 import type { PageFacts, Triple, WorstPlace } from "./run_data";
 
@@ -106,7 +106,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
       const label = element("span", { class: "kind kind-" + place.kind }, { gouge: "gouge", left: "left", uncut: "uncut" }[place.kind]);
       const item = button("", "Show this place", () => actions.toPlace(place));
       item.append(label, element("span", { class: "number" }, `${figure(place.mm, 3)} mm`),
-        element("span", { class: "number at" }, place.at.map((c) => c.toFixed(1)).join("  ")));
+        element("span", { class: "number at" }, place.at.map((c) => fixed(c, 1)).join("  ")));
       return element("li", {}, item);
     });
     out.push(section("Worst places", worst.length > 0 ? element("ol", { class: "worst" }, ...places) : element("p", {}, "None: nothing is gouged or left.")));

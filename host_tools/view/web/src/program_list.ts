@@ -55,8 +55,9 @@ export class ProgramList {
     this.ask();
   }
 
+  // No row is cut off at the top.
   scrollTo(line: number): void {
-    const first = Math.max(line - 1 - this.seen / 2, 0), span = Math.max(this.lines - this.host.clientHeight / kRow, 1);
+    const first = Math.max(line - 1 - Math.floor(this.seen / 2), 0), span = Math.max(this.lines - this.host.clientHeight / kRow, 1);
     this.host.scrollTop = Math.min(first / span, 1) * Math.max(this.height - this.host.clientHeight, 0);
     this.ask();
   }
