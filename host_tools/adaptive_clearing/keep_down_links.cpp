@@ -22,8 +22,8 @@ namespace {
 
 // In radii.
 constexpr double kMargin = 0.03;
-constexpr double kLook = 0.06;  // between places that are looked at: half of it and the margin are
-                                // SweptArea::kMaxShrink
+constexpr double kRoom = 0.06;  // the margin and half of kLook
+constexpr double kLook = 0.06;  // between places that are looked at
 constexpr double kLattice = 0.5;
 constexpr double kLongest = 60.0;
 constexpr double kBeside[] = {0.1, 0.2, 0.4, 0.8};
@@ -56,7 +56,7 @@ bool KeepDownLinks::is_room(Vec2d place) const
             return false;
         }
     }
-    return swept_.engagement(place, {1.0, 0.0}, SweptArea::kMaxShrink * radius_, kPi) < kNone &&
+    return swept_.engagement(place, {1.0, 0.0}, kRoom * radius_, kPi) < kNone &&
            !walls_.any_nearer(place, wall_clearance_ + kMargin * radius_);
 }
 
@@ -68,7 +68,7 @@ bool KeepDownLinks::is_free(Vec2d from, Vec2d to) const
     const int n = static_cast<int>(std::ceil(size / (kLook * radius_)));
     for (int i = 0; i < n; ++i) {
         const Vec2d place = from + (to - from) * ((i + 0.5) / n);
-        if (swept_.engagement(place, heading, SweptArea::kMaxShrink * radius_) >= kNone) {
+        if (swept_.engagement(place, heading, kRoom * radius_) >= kNone) {
             return false;
         }
     }

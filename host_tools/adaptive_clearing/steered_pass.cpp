@@ -174,9 +174,7 @@ private:
     // SweptArea::engagement_bound() for the half of the edge around its point at `share`.
     double bound_of_half(const Edge& edge, double share) const
     {
-        return space_.swept.engagement(
-            point_on(edge, share), tangent_on(edge, share),
-            0.25 * length(edge) + (edge.turn != 0 ? space_.tolerance : 0.0), 0.25 * sweep(edge));
+        return space_.swept.engagement_of_piece(edge, share - 0.25, share + 0.25, space_.tolerance);
     }
 
     const SteeringSpace& space_;

@@ -22,7 +22,6 @@ constexpr int kArcs = 128;           // of the circle
 constexpr double kGrown = 0.025;     // radii: over half of such an arc
 constexpr double kPitch = 1.0 / 12;  // radii: of cells
 constexpr double kDiscSpacing = 0.05;
-constexpr double kLongestPiece = 0.1;  // radii: its half is within kMaxShrink with a tolerance
 constexpr double kShortestPiece = 0.001;
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
@@ -166,7 +165,17 @@ void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, doubl
 
 double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double widened) const
 {
-    const double most = std::min(0.5 * kPi + widened, kPi);
+    return open_angle({centre, heading}, std::min(0.5 * kPi + widened, kPi),
+                      [&](const Disc& disc) { add_covered(disc, centre, heading, shrink); });
+}
+
+// The angle up to `most` from the heading that is neither in swept cells nor covered; `cover` adds
+// to covered_ what a disc covers.
+template <typename Cover>
+double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover) const
+{
+    const Vec2d centre = pose.at;
+    const Vec2d heading = pose.heading;
     ++query_;
     covered_.clear();
     const double arc = 2 * kPi / kArcs;
@@ -195,7 +204,7 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double 
         for (const std::uint32_t k : cells_[cell]) {
             if (last_query_[k] != query_) {
                 last_query_[k] = query_;
-                add_covered(discs_[k], centre, heading, shrink);
+                cover(discs_[k]);
             }
         }
     }
@@ -214,25 +223,98 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double 
     return open + std::max(0.0, most - reached);
 }
 
+// A point of the circle keeps its angle from the heading, so it moves along an arc about the edge's
+// centre. Where both of its ends lie in a disc made smaller by the height of that arc, all of it
+// lies in the disc: what a disc covers at both ends it covers in between.
+double SweptArea::engagement_of_piece(const Edge& edge,
+                                      double from,
+                                      double to,
+                                      double tolerance) const
+{
+    const double turn = (to - from) * sweep(edge);
+    const double height =
+        edge.turn != 0 ? (edge.radius + radius_) * (1.0 - std::cos(0.5 * turn)) : 0.0;
+    const double shrink = height + (edge.turn != 0 ? tolerance : 0.0);
+    const double middle = 0.5 * (from + to);
+    const Pose2d poses[2] = {{point_on(edge, from), tangent_on(edge, from)},
+                             {point_on(edge, to), tangent_on(edge, to)}};
+    const Pose2d at{point_on(edge, middle), tangent_on(edge, middle)};
+    return open_angle(at, 0.5 * kPi,
+                      [&](const Disc& disc) { add_covered_at_both(disc, poses, shrink); });
+}
+
+// The parts of the front half that lie in the disc, as angles from the heading; their number.
+int SweptArea::covered_front(const Disc& disc,
+                             const Pose2d& pose,
+                             double shrink,
+                             Interval* parts) const
+{
+    constexpr double kFront = 0.5 * kPi;
+    const double r = disc.radius - shrink;
+    const Vec2d to = disc.centre - pose.at;
+    const double d = norm(to);
+    if (d + radius_ <= r) {
+        parts[0] = {-kFront, kFront};
+        return 1;
+    }
+    const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
+    if (cosine >= 1.0) {
+        return 0;
+    }
+    const double half = std::acos(std::max(cosine, -1.0));
+    const double middle = std::atan2(cross(pose.heading, to), dot(pose.heading, to));
+    int n = 0;
+    for (const double turn : {-2 * kPi, 0.0, 2 * kPi}) {
+        const Interval part{std::max(middle - half + turn, -kFront),
+                            std::min(middle + half + turn, kFront)};
+        if (part.from < part.to) {
+            parts[n++] = part;
+        }
+    }
+    return n;
+}
+
+void SweptArea::add_covered_at_both(const Disc& disc, const Pose2d* poses, double shrink) const
+{
+    Interval first[3];
+    Interval last[3];
+    const int n = covered_front(disc, poses[0], shrink, first);
+    const int m = n > 0 ? covered_front(disc, poses[1], shrink, last) : 0;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < m; ++j) {
+            const Interval both{std::max(first[i].from, last[j].from),
+                                std::min(first[i].to, last[j].to)};
+            if (both.from < both.to) {
+                covered_.push_back(both);
+            }
+        }
+    }
+}
+
 double SweptArea::bound_of_piece(
     const Edge& edge, double from, double to, double limit, double tolerance) const
 {
-    const double middle = 0.5 * (from + to);
-    const double size = (to - from) * length(edge);
-    const double shrink = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
-    const double turn = 0.5 * (to - from) * sweep(edge);
-    const double most = engagement(point_on(edge, middle), tangent_on(edge, middle), shrink, turn);
-    if (most <= limit || size < 2.0 * kShortestPiece * radius_) {
+    const double most = engagement_of_piece(edge, from, to, tolerance);
+    if (most <= limit || (to - from) * length(edge) < 2.0 * kShortestPiece * radius_) {
         return most;
     }
+    const double middle = 0.5 * (from + to);
     return std::max(bound_of_piece(edge, from, middle, limit, tolerance),
                     bound_of_piece(edge, middle, to, limit, tolerance));
 }
 
+// How many equal pieces of the edge have no point of the circle move by more than kMaxShrink from
+// its place in the middle.
+int SweptArea::pieces_of(const Edge& edge, double tolerance) const
+{
+    const double way = edge.turn != 0 ? (edge.radius + radius_) * sweep(edge) : length(edge);
+    const double most = kMaxShrink * radius_ - (edge.turn != 0 ? tolerance : 0.0);
+    return std::max(1, static_cast<int>(std::ceil(0.5 * way / most)));
+}
+
 double SweptArea::engagement_bound(const Edge& edge, double limit, double tolerance) const
 {
-    const int n =
-        std::max(1, static_cast<int>(std::ceil(length(edge) / (kLongestPiece * radius_))));
+    const int n = pieces_of(edge, tolerance);
     double most = 0.0;
     for (int i = 0; i < n; ++i) {
         most = std::max(most, bound_of_piece(edge, static_cast<double>(i) / n,

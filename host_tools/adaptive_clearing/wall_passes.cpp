@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/clearing/clear_path.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
+using clearing::is_path_clear;
 using offset::arc_edge;
 using offset::between;
 using offset::Box2d;
@@ -32,7 +34,8 @@ constexpr double kBarelyOpen = 0.03;  // radians: less is no stock
 constexpr double kBeyond = 0.1;       // radii before and behind the stock
 constexpr double kJoined = 0.4;       // radii: nearer stretches are one
 constexpr double kLeadAngle = kPi / 5;
-constexpr double kShortest = 1e-6;  // mm
+constexpr double kShortest = 1e-6;   // mm
+constexpr double kOnContour = 5e-5;  // mm: a lead ends on the contour, which is that exact
 
 bool is_inside(const Box2d& box, Vec2d p)
 {
@@ -65,11 +68,6 @@ std::vector<Edge> part_of(const Contour& contour, Stretch stretch)
     return part;
 }
 
-bool is_clear(const WallSpace& space, Vec2d centre, double max_error)
-{
-    return !space.walls.any_nearer(centre, space.wall_clearance - max_error);
-}
-
 // The tool can not be there before a pass.
 bool is_in_stock(Vec2d place, const WallSpace& space)
 {
@@ -89,9 +87,9 @@ std::optional<Edge> lead_in(const Edge& first, const WallSpace& space)
         const Vec2d centre = first.start + n * r;
         const Vec2d start = centre - (n * std::cos(kLeadAngle) + t * std::sin(kLeadAngle)) * r;
         const Edge arc = arc_edge(start, first.start, centre, 1);
-        const bool clear = is_clear(space, start, 0.0) && is_clear(space, point_on(arc, 0.5), 1e-6);
-        if (clear && space.swept.engagement(start, tangent_at_start(arc), -space.sliver,
-                                            0.5 * kPi) < kBarelyOpen) {
+        if (is_path_clear(space.walls, arc, space.wall_clearance - kOnContour) &&
+            space.swept.engagement(start, tangent_at_start(arc), -space.sliver, 0.5 * kPi) <
+                kBarelyOpen) {
             return arc;
         }
     }
@@ -107,7 +105,7 @@ std::optional<Edge> lead_out(const Edge& last, const WallSpace& space)
         const Vec2d centre = last.end + n * r;
         const Vec2d end = centre - (n * std::cos(kLeadAngle) - t * std::sin(kLeadAngle)) * r;
         const Edge arc = arc_edge(last.end, end, centre, 1);
-        if (is_clear(space, end, 0.0) && is_clear(space, point_on(arc, 0.5), 1e-6)) {
+        if (is_path_clear(space.walls, arc, space.wall_clearance - kOnContour)) {
             return arc;
         }
     }
@@ -242,7 +240,7 @@ WallPasses uncut_stretches(const Contour& contour, const WallSpace& space)
         }
         result.paths.push_back(std::move(path));
     }
-    result.left = finder.has_barrier();
+    result.left = result.left || finder.has_barrier();
     return result;
 }
 

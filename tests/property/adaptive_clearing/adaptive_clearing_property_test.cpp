@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/adaptive_clearing/steered_pass.hpp"
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
@@ -55,11 +56,30 @@ double rapid_in_stock(
         const int n = static_cast<int>(std::ceil(size / step));
         for (int i = 0; leg.free && i <= n; ++i) {
             const Vec2d place = at + (leg.end - at) * (static_cast<double>(i) / std::max(n, 1));
-            found += cutter.engagement(place, unit(leg.end - at)) > 0.0 ? step : 0.0;
+            const Vec2d heading = unit(leg.end - at);
+            found +=
+                cutter.engagement(place, heading, place + heading * cutter.ahead(), heading) > 0.0
+                    ? step
+                    : 0.0;
         }
         at = leg.end;
     }
     return link.empty() || distance(at, to) < 1e-9 ? found : kUnbounded;
+}
+
+// Where the tool is after some way on the edge, which continues beyond its end.
+Pose ahead(const Edge& edge, double share, double way)
+{
+    const Vec2d at = point_on(edge, share);
+    const Vec2d heading = tangent_on(edge, share);
+    if (edge.turn == 0) {
+        return {at + heading * way, heading};
+    }
+    const double angle = edge.turn * way / edge.radius;
+    const auto turned = [&](Vec2d v) {
+        return v * std::cos(angle) + left_normal(v) * std::sin(angle);
+    };
+    return {edge.centre + turned(at - edge.centre), turned(heading)};
 }
 
 bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
@@ -94,8 +114,9 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
             for (int i = 0; i < n; ++i) {
                 const double share = (i + 1.0) / n;
                 const Vec2d at = point_on(edge, static_cast<double>(i) / n);
-                const double angle =
-                    cutter.engagement(at, tangent_on(edge, static_cast<double>(i) / n));
+                const Pose next = ahead(edge, static_cast<double>(i) / n, cutter.ahead());
+                const double angle = cutter.engagement(
+                    at, tangent_on(edge, static_cast<double>(i) / n), next.at, next.heading);
                 cutter.cut(point_on(edge, share));
                 if (const double clearance = walls.clearance(at); clearance < found.nearest) {
                     found.nearest = clearance;

@@ -54,18 +54,22 @@ public:
 
     void cut(Vec2d at) { remove_disc(at, radius_); }
 
+    double ahead() const { return 2.0 * pitch_; }
+
     // Degrees of the front half of the circle just outside of the tool that are in stock which the
-    // tool meets within two cells of travel: slivers along a wall just cut do not count.
-    double engagement(Vec2d at, Vec2d heading) const
+    // tool meets within ahead() of travel: slivers along a wall just cut do not count.
+    //
+    // next, next_heading  the tool after that way
+    double engagement(Vec2d at, Vec2d heading, Vec2d next, Vec2d next_heading) const
     {
         const double out = radius_ + 0.75 * pitch_;
         int count = 0;
         for (int k = -90; k <= 90; ++k) {
             const double angle = std::atan2(heading.y, heading.x) + k * 0.017453292519943295;
             const Vec2d u{std::cos(angle), std::sin(angle)};
-            count += is_stock(at + u * out) && is_stock(at + heading * (2.0 * pitch_) + u * radius_)
-                         ? 1
-                         : 0;
+            const Vec2d v = next_heading * dot(heading, u) +
+                            Vec2d{-next_heading.y, next_heading.x} * cross(heading, u);
+            count += is_stock(at + u * out) && is_stock(next + v * radius_) ? 1 : 0;
         }
         return count * 180.0 / 181.0;
     }
