@@ -83,6 +83,11 @@ void check_tool(const JobTable& table, const Operation& operation)
     }
     if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
         table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
+    if (flank && tool.corner_radius > 0) {
+        table.refuse("tool",
+                     fmt::format("tool {} has a ball at its tip: {} needs a sharp or a flat one",
+                                 tool.number, operation.strategy));
+    }
                                          "sideways",
                                          tool.number, operation.strategy));
     }
