@@ -16,7 +16,14 @@ name=$1
 cusp=$top/build/release/bin/cusp
 out=$top/out/examples/$name
 mkdir -p "$out"
+rm -f "$out"/program*.ngc
 "$cusp" plan "$top/examples/$name.toml" -o "$out/program.ngc" --stats "$out/plan.json"
-"$cusp" verify "$top/examples/$name.toml" "$out/program.ngc" --stats "$out/verify.json" \
-    --path-picture "$out/path.svg" --left-picture "$out/left.svg"
-echo "in $out: program.ngc plan.json verify.json path.svg left.svg"
+after=
+# a program for each set-up, in the order in which they were written
+for program in $(ls -tr "$out"/program*.ngc); do
+    of=$(basename "$program" .ngc | sed s/program//)
+    "$cusp" verify "$top/examples/$name.toml" "$program" ${after:+--after $after} --stats "$out/verify$of.json" \
+        --path-picture "$out/path$of.svg" --left-picture "$out/left$of.svg"
+    after="$after $program"
+done
+echo "in $out: program.ngc plan.json verify.json path.svg left.svg, of each set-up"

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/cli.hpp"
@@ -9,6 +10,7 @@
 #include "host_tools/cli/plan_program.hpp"
 #include "host_tools/cli/plan_statistics.hpp"
 #include "host_tools/cli/resource_options.hpp"
+#include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/post_reader.hpp"
@@ -24,6 +26,7 @@ using import::OneLineJob;
 using import::PartFiles;
 using import::read_job;
 using import::read_post;
+using import::read_setups;
 using job::Job;
 
 namespace {
@@ -49,6 +52,31 @@ Job one_line_job_of(const PlanOptions& options)
     return read_job({job.toml, options.call.job_name(), ""}, parts);
 }
 
+// A program for each; those before it have made the stock of the later ones.
+void plan_setups(std::vector<Job>& setups, const std::string& title, const PlanOutput& output)
+{
+    std::vector<std::string> programs;
+    for (std::size_t k = 0; k < setups.size(); ++k) {
+        Job& job = setups[k];
+        PlanOutput own = output;
+        std::string own_title = title;
+        if (job.setup) {
+            own.program =
+                setups.size() > 1 ? file_of_setup(output.program, *job.setup) : output.program;
+            own.stats = setups.size() > 1 ? file_of_setup(output.stats, *job.setup) : output.stats;
+            own_title += ", " + description_of(*job.setup);
+            fmt::print(output.said, "{}\n", description_of(*job.setup));
+        }
+        for (std::size_t before = 0; before < k; ++before) {
+            add_earlier_program(job, *setups[before].setup, programs[before]);
+        }
+        const Plan plan = plan_program(job, own_title, own);
+        print_summary(plan, job.notes, own.program, own.said);
+        programs.push_back(own.program);
+        job.operations.clear();  // meshes are large
+    }
+}
+
 int run_plan(PlanOptions& options)
 {
     const PlanCall& call = options.call;
@@ -59,16 +87,20 @@ int run_plan(PlanOptions& options)
     cancellation::set_work("reading " + call.job_name());
     // the standard output of --print-job is the job alone
     options.output.said = call.print_job ? stderr : stdout;
-    Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());
-    if (!options.call.request.post.empty()) {
-        job.post = read_post(options.call.request.post, "");
+    std::vector<Job> setups;
+    if (call.is_one_line()) {
+        setups.push_back(one_line_job_of(options));
+    } else {
+        setups = read_setups(call.files.front());
     }
-    if (options.output.program.empty()) {
-        return kDone;
+    for (Job& job : setups) {
+        if (!call.request.post.empty()) {
+            job.post = read_post(call.request.post, "");
+        }
     }
-    const std::string title = (call.is_one_line() ? "" : "job ") + call.job_name();
-    const Plan plan = plan_program(job, title, options.output);
-    print_summary(plan, job.notes, options.output.program, options.output.said);
+    if (!options.output.program.empty()) {
+        plan_setups(setups, (call.is_one_line() ? "" : "job ") + call.job_name(), options.output);
+    }
     return kDone;
 }
 
@@ -88,7 +120,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "plan: ... --print-job > part.toml\n\n"
         "Strategies: contour_pocket, adaptive_isocurve, grid_pocket, hull_rough; for comparison\n"
         "complete_isocurves and parallel_planes; from a drawing: pocket, profile, drill, face,\n"
-        "engrave, chamfer. Statistics are in mm and s, whatever the job's units.\n\n"
+        "engrave, v_carve, chamfer. Statistics are in mm and s, whatever the job's units.\n\n"
         "A job (keys: docs/job_file.md, choice of a strategy: docs/strategies.md):\n"
         "  units = \"mm\"\n"
         "  [tool]\n"
@@ -105,7 +137,8 @@ void add_plan_command(CLI::App& app, Work& work)
         "  floor_tolerance = 0.01\n"
         "  output = \"arcs\"                 # \"lines\", \"nurbs\"\n"
         "Pockets (contour_pocket, grid_pocket) add boundary = \"outline.dxf\", islands = [...];\n"
-        "max_depth makes layers.");
+        "max_depth makes layers.\n"
+        "A job with several set-ups gives a program for each: part-NAME.ngc.");
     auto options = std::make_shared<PlanOptions>();
     command->add_option("JOB", options->call.files,
                         "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf");

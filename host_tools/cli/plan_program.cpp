@@ -19,6 +19,7 @@
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/fixture_clearance.hpp"
+#include "host_tools/job/overlap_warnings.hpp"
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/post.hpp"
@@ -35,6 +36,7 @@ using files::write_text;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;
+using job::overlap_warnings;
 using job::PocketRefusal;
 using strategies::plan_operation;
 using toolpath::MachineRates;
@@ -180,6 +182,9 @@ std::string program_of(const Job& job, const std::string& title, double blend, P
 {
     ProgramForm form{
         "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
+    if (job.setup) {
+        form.work_offset = job.setup->offset;
+    }
     if (blend > 0) {
         form.blend_tolerance = blend * (job.inch ? kMillimetresPerInch : 1.0);
     }
@@ -200,6 +205,10 @@ void write_plan(const Job& job,
     if (!output.stats.empty()) {
         nlohmann::ordered_json about{
             {"job", job.file}, {"units", job.inch ? "inch" : "mm"}, {"bytes", program.size()}};
+        if (job.setup) {
+            about["setup"] = job.setup->name;
+            about["offset"] = fmt::format("G{}", job.setup->offset);
+        }
         if (!job.notes.empty()) {
             about["notes"] = job.notes;
         }
@@ -225,8 +234,10 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);
     }
-    const std::vector<std::string> reach = reach_warnings(job, plan);
-    plan.warnings.insert(plan.warnings.end(), reach.begin(), reach.end());
+    for (const std::vector<std::string>& more :
+         {overlap_warnings(job), reach_warnings(job, plan)}) {
+        plan.warnings.insert(plan.warnings.end(), more.begin(), more.end());
+    }
     write_plan(job, program_of(job, title, output.blend, plan), output, plan);
     return plan;
 }

@@ -1,6 +1,8 @@
 // Words first, then decimals.
 #include "host_tools/cli/post_fit.hpp"
 
+#include <algorithm>
+
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/post.hpp"
 
@@ -19,6 +21,8 @@ using toolpath::Tool;
 
 namespace {
 
+constexpr int kFirstOffset = 54;  // G54, which a post without the field may write
+
 void check_coolant(const Job& job, const Operation& operation, const Tool& tool)
 {
     const bool mist = tool.coolant == Coolant::kMist;
@@ -27,6 +31,21 @@ void check_coolant(const Job& job, const Operation& operation, const Tool& tool)
         throw InputError(fmt::format(
             "{}: operation {}: coolant = \"{}\" of tool {}, but the post \"{}\" has no word for it",
             job.file, operation.number, mist ? "mist" : "flood", tool.number, job.post.name));
+    }
+}
+
+// A post of one's own may have no field for it.
+void check_offset(const Job& job)
+{
+    const auto has_field = [](const std::string& line) {
+        return line.find("{offset}") != std::string::npos;
+    };
+    if (job.setup && job.setup->offset != kFirstOffset &&
+        std::none_of(job.post.modes.begin(), job.post.modes.end(), has_field)) {
+        throw InputError(
+            fmt::format("{}: the set-up \"{}\" has the offset G{}, but the post \"{}\" has no "
+                        "{{offset}} in its modes",
+                        job.file, job.setup->name, job.setup->offset, job.post.name));
     }
 }
 
@@ -40,6 +59,7 @@ void check_post(const Job& job, double blend)
             fmt::format("--blend {:g}: the post \"{}\" has no word for the tolerance of corners",
                         blend, post.name));
     }
+    check_offset(job);
     for (const Operation& operation : job.operations) {
         if (operation.output == OutputForm::kNurbs && !post.nurbs) {
             throw InputError(fmt::format(
@@ -72,6 +92,12 @@ void leave_room_for_rounding(Job& job)
         value -= by;
     };
     for (Operation& operation : job.operations) {
+        if (operation.default_floor_tolerance) {
+            operation.floor_tolerance = std::max(operation.floor_tolerance, 3 * added);
+        }
+        if (operation.default_scallop) {
+            operation.scallop = std::max(*operation.scallop, 2 * operation.floor_tolerance);
+        }
         // twice: half of a floor tolerance has been spent on the height field of a mesh
         reduce(operation, "floor_tolerance", operation.floor_tolerance, 2 * added);
         reduce(operation, "plan_tolerance", operation.plan_tolerance, added);

@@ -26,17 +26,6 @@ using verify::EarlierCut;
 
 namespace {
 
-std::vector<std::string> programs_before(const Job& job, const Operation& operation)
-{
-    std::vector<std::string> files = job.stock_programs;
-    for (const std::string& file : operation.after) {
-        if (std::find(files.begin(), files.end(), file) == files.end()) {
-            files.push_back(file);
-        }
-    }
-    return files;
-}
-
 void cut_from(const std::vector<EarlierCut>& cuts, SweptStock& stock)
 {
     constexpr double kChord = 2e-4;  // mm
@@ -47,10 +36,34 @@ void cut_from(const std::vector<EarlierCut>& cuts, SweptStock& stock)
 
 }  // namespace
 
+// Those of other set-ups only where they cut through.
+std::vector<std::string> RestOfJob::programs_before(const Job& job,
+                                                    const Operation& operation) const
+{
+    std::vector<std::string> files = job.stock_programs;
+    for (const job::SetupProgram& program : job.turned_programs) {
+        if (cuts_.count(program.file) > 0) {
+            files.push_back(program.file);
+        }
+    }
+    for (const std::string& file : operation.after) {
+        if (std::find(files.begin(), files.end(), file) == files.end()) {
+            files.push_back(file);
+        }
+    }
+    return files;
+}
+
 RestOfJob::RestOfJob(Job& job)
 {
     for (const std::string& file : earlier_programs(job)) {
         cuts_.emplace(file, earlier_cuts(job, file));
+    }
+    for (const job::SetupProgram& program : job.turned_programs) {
+        std::vector<EarlierCut> cuts = earlier_cuts(job, program);
+        if (!cuts.empty()) {
+            cuts_.emplace(program.file, std::move(cuts));
+        }
     }
     for (Operation& operation : job.operations) {
         if (programs_before(job, operation).empty()) {

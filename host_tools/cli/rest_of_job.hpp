@@ -27,6 +27,9 @@ public:
               std::vector<toolpath::PlannedOperation>& results);
 
 private:
+    std::vector<std::string> programs_before(const job::Job& job,
+                                             const job::Operation& operation) const;
+
     std::map<std::string, std::vector<verify::EarlierCut>> cuts_;  // by program
     std::map<int, rest_machining::RestTolerance> tolerances_;      // by the number of the operation
     std::vector<toolpath::Toolpath> paths_;                        // of the job so far

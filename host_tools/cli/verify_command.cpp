@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/resource_options.hpp"
+#include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/cli/verify_program.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
@@ -15,7 +18,7 @@
 
 namespace cusp::cli {
 
-using import::read_job;
+using import::read_setups;
 using job::Job;
 using verify::Verification;
 using verify::VerifySettings;
@@ -25,6 +28,7 @@ namespace {
 struct VerifyOptions {
     std::string job;
     std::string program;
+    std::vector<std::string> after;
     VerifyOutput output;
     double pitch{};
     double spacing{};
@@ -67,7 +71,7 @@ int run_verify(const VerifyOptions& options)
     if (options.spacing > 0) {
         settings.spacing = options.spacing;
     }
-    const Job job = read_job(options.job);
+    const Job job = job_of_program(read_setups(options.job), options.program, options.after);
     settings.max_engagement = options.max_engagement;
     settings.engagement = asks_for_engagement(options, job);
     const Verification result = verify_program(job, options.program, settings, options.output);
@@ -93,6 +97,7 @@ void add_verify_command(CLI::App& app, Work& work)
     auto options = std::make_shared<VerifyOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("PROGRAM", options->program, "G-code")->required();
+    add_after_option(*command, options->after);
     command->add_option("--stats", options->output.stats, "figures to write (JSON)");
     command
         ->add_option("--grid", options->pitch,

@@ -1,8 +1,11 @@
 // cusp view: a run as one page for any browser.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/import.hpp"
@@ -19,7 +22,7 @@
 namespace cusp::cli {
 
 using files::write_text;
-using import::read_job;
+using import::read_setups;
 using job::Job;
 using simulate::read_settings_file;
 using simulate::SimulationProgress;
@@ -37,6 +40,7 @@ namespace {
 struct ViewArguments {
     std::string program;
     std::string job_file;
+    std::vector<std::string> after;
     std::string settings_file;
     std::string page;
     bool playground{false};
@@ -52,7 +56,7 @@ RunPage page_of(const ViewArguments& arguments)
     }
     std::optional<Job> job;
     if (!arguments.job_file.empty()) {
-        job = read_job(arguments.job_file);
+        job = job_of_program(read_setups(arguments.job_file), arguments.program, arguments.after);
         options.job = &*job;
     }
     constexpr double kQuiet = 2.0;
@@ -126,6 +130,7 @@ void add_view_command(CLI::App& app, Work& work)
     command->add_option("PROGRAM", arguments->program, "G-code, of cusp or any other source");
     command->add_option("--job", arguments->job_file,
                         "job file (TOML): part, stock, tools and bounds");
+    add_after_option(*command, arguments->after);
     command->add_option("--settings", arguments->settings_file, "settings of the machine");
     command->add_flag("--playground", arguments->playground,
                       "write a page that runs any program opened in it on the firmware's core");

@@ -41,14 +41,11 @@ Vec2d centre_of(JobTable& keys, double unit)
     return {(*values)[0] * unit, (*values)[1] * unit};
 }
 
-}  // namespace
-
 Fixture read_fixture(const toml::table& table,
-                     const std::string& file,
+                     JobTable& keys,
                      std::size_t index,
                      double millimetres)
 {
-    JobTable keys{table, file, fmt::format("fixture {}", index), fixture_keys()};
     Fixture fixture;
     fixture.name = keys.text("name").value_or(fmt::format("fixture {}", index));
     const auto diameter = keys.number("diameter", kPositive);
@@ -72,6 +69,40 @@ Fixture read_fixture(const toml::table& table,
     fixture.top = keys.required_number("top", kAnyNumber) * millimetres;
     fixture.margin = keys.length("margin", kNotNegative, millimetres).value_or(kDefaultMargin);
     return fixture;
+}
+
+}  // namespace
+
+std::vector<Fixture> read_fixtures(JobTable& top,
+                                   const std::string& file,
+                                   const SetupTables& setups,
+                                   std::size_t setup,
+                                   double millimetres)
+{
+    std::vector<Fixture> fixtures;
+    const auto tables = top.tables("fixture");
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        JobTable keys{*tables[i], file, fmt::format("fixture {}", i + 1), fixture_keys()};
+        const std::size_t place = setups.place_of(keys);
+        const Fixture fixture = read_fixture(*tables[i], keys, i + 1, millimetres);
+        if (place == setup || !keys.has("setup")) {
+            fixtures.push_back(fixture);
+        }
+    }
+    return fixtures;
+}
+
+void rise_over_fixtures(job::Job& job)
+{
+    for (const Fixture& fixture : job.fixtures) {
+        const double over = fixture.top + fixture.margin - job.stock_top;
+        if (over > job.clearance) {
+            job.notes.push_back(fmt::format(
+                "clearance: {:g} mm above the stock's top in place of {:g}, to be over {}", over,
+                job.clearance, fixture.name));
+            job.clearance = over;
+        }
+    }
 }
 
 }  // namespace cusp::import

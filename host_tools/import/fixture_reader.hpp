@@ -2,20 +2,29 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host_tools/import/job_table.hpp"
+#include "host_tools/import/setup_reader.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::import {
 
+// Those that are in the set-up, or in all.
+//
+// top          of the job
 // file         of the job, for messages
-// index        the fixture's place among the tables, from 1
+// setup        place of the set-up among all
 // millimetres  of one unit of the job
 //
 // Errors: InputError with line and key.
-job::Fixture read_fixture(const toml::table& table,
-                          const std::string& file,
-                          std::size_t index,
-                          double millimetres);
+std::vector<job::Fixture> read_fixtures(JobTable& top,
+                                        const std::string& file,
+                                        const SetupTables& setups,
+                                        std::size_t setup,
+                                        double millimetres);
+
+// Raises the job's clearance over the highest fixture, with a note. Rapid moves go over every fixture.
+void rise_over_fixtures(job::Job& job);
 
 }  // namespace cusp::import

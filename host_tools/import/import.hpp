@@ -22,8 +22,11 @@
 
 namespace cusp::import {
 
-// Reads a TOML job and the parts it names. Throws InputError.
+// Reads a TOML job and the parts it names. Throws InputError, also where it has several set-ups.
 job::Job read_job(const std::string& file);
+// A job for each set-up, in order: its operations, fixtures, and parts as they lie in it. One for a job
+// without set-ups. Throws InputError.
+std::vector<job::Job> read_setups(const std::string& file);
 
 // A job given as text.
 struct JobText {

@@ -20,6 +20,7 @@
 #include "host_tools/import/placing_reader.hpp"
 #include "host_tools/import/post_reader.hpp"
 #include "host_tools/import/prismatic_reader.hpp"
+#include "host_tools/import/setup_reader.hpp"
 #include "host_tools/import/stock_table.hpp"
 #include "host_tools/import/tool_reader.hpp"
 #include "host_tools/import/trim_loops.hpp"
@@ -48,20 +49,6 @@ constexpr double kDefaultTolerance = 0.02;   // mm
 constexpr double kDefaultEngagement = 60.0;  // degrees
 constexpr double kDefaultLargestArcRadius = 1000.0;
 
-const std::vector<std::string> kStrategies{"contour_pocket",
-                                           "adaptive_isocurve",
-                                           "grid_pocket",
-                                           "hull_rough",
-                                           "complete_isocurves",
-                                           "parallel_planes",
-                                           "pocket",
-                                           "profile",
-                                           "drill",
-                                           "face",
-                                           "engrave",
-                                           "v_carve",
-                                           "chamfer"};
-
 class JobReader {
 public:
     // folder  base of relative paths
@@ -71,13 +58,12 @@ public:
         job_.file = file;
     }
 
-    Job read(const std::string& text);
+    // setup  the place among the set-ups of the one to read; counts them
+    Job read(const std::string& text, std::size_t setup, std::size_t& setups);
 
 private:
     void read_units(JobTable& top);
     void read_cutting(JobTable& top);
-    void read_fixtures(JobTable& top);
-    void rise_over_fixtures();
     void read_operation(const toml::table& table, std::size_t index);
     std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
@@ -92,6 +78,7 @@ private:
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     void place_files(JobTable& top, const std::vector<const toml::table*>& operations);
+    void use_tools(const toml::table& table, std::size_t index);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
     std::optional<double> length(JobTable& table, const char* key, Range range) const
@@ -136,28 +123,6 @@ void JobReader::read_cutting(JobTable& top)
     job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
     keys.check_all_read();
-}
-
-void JobReader::read_fixtures(JobTable& top)
-{
-    const auto tables = top.tables("fixture");
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        job_.fixtures.push_back(read_fixture(*tables[i], file_, i + 1, unit_));
-    }
-}
-
-// Rapid moves go over every fixture.
-void JobReader::rise_over_fixtures()
-{
-    for (const job::Fixture& fixture : job_.fixtures) {
-        const double over = fixture.top + fixture.margin - job_.stock_top;
-        if (over > job_.clearance) {
-            job_.notes.push_back(fmt::format(
-                "clearance: {:g} mm above the stock's top in place of {:g}, to be over {}", over,
-                job_.clearance, fixture.name));
-            job_.clearance = over;
-        }
-    }
 }
 
 void JobReader::read_tool_choice(JobTable& table, Operation& operation)
@@ -214,8 +179,9 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
     constexpr Range kRestTolerance{0.001, 1};
     operation.after = read_programs(table, "after", folder_);
     operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
-    if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty()) {
-        table.refuse("rest_tolerance", "needs after, or program in [stock]");
+    if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
+        !job_.setup) {
+        table.refuse("rest_tolerance", "needs after, or program in [stock], or a set-up");
     }
 }
 
@@ -412,11 +378,19 @@ void JobReader::place_files(JobTable& top, const std::vector<const toml::table*>
     }
 }
 
+// Tools of other set-ups' operations: their programs may name them by their numbers alone.
+void JobReader::use_tools(const toml::table& table, std::size_t index)
+{
+    JobTable keys{table, file_, fmt::format("operation {}", index), operation_keys()};
+    tools_->tool(keys);
+    tools_->tools(keys);
+}
+
 void JobReader::read_operation(const toml::table& entry, std::size_t index)
 {
     JobTable table{entry, file_, fmt::format("operation {}", index), operation_keys()};
     Operation operation;
-    const auto strategy = table.one_of("strategy", kStrategies);
+    const auto strategy = table.one_of("strategy", strategy_names());
     if (!strategy) {
         table.refuse("strategy", "is missing");
     }
@@ -444,10 +418,11 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
             job_.operations.push_back(std::move(pocket));
         }
     }
+    table.leave({"setup"});
     table.check_all_read();
 }
 
-Job JobReader::read(const std::string& text)
+Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& setups)
 {
     const toml::table document = parsed_toml(text, file_);
     JobTable top{document, file_, "", job_keys()};
@@ -455,7 +430,9 @@ Job JobReader::read(const std::string& text)
     tools_.emplace(top, file_, folder_, unit_);
     read_cutting(top);
     const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
-    read_fixtures(top);
+    const SetupTables tables{top, file_};
+    setups = tables.all().size();
+    job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
     job_.post = read_post(top.text("post").value_or("cusp"), folder_);
     job_.group_by_tool = top.flag("group_by_tool").value_or(true);
     const auto operations = top.tables("operation");
@@ -464,29 +441,56 @@ Job JobReader::read(const std::string& text)
     if (operations.empty()) {
         top.refuse("operation", "is missing: at least one [[operation]]");
     }
+    tables.check_used(operations);
+    if (setups > 0) {
+        job_.setup = tables.all()[setup];
+        parts_.turn_all(tables.turn_of(*job_.setup, job_, stock.has_top()));
+    }
     for (std::size_t i = 0; i < operations.size(); ++i) {
-        read_operation(*operations[i], i + 1);
+        if (tables.place_of(*operations[i], i + 1) == setup) {
+            read_operation(*operations[i], i + 1);
+        } else {
+            use_tools(*operations[i], i + 1);
+        }
     }
     tools_->store(job_);
     stock.settle(job_);
+    check_sheet(job_);
     settle_levels(job_);
     job_.notes = parts_.notes();
-    rise_over_fixtures();
+    rise_over_fixtures(job_);
     return std::move(job_);  // meshes are large
 }
 
 }  // namespace
 
+std::vector<Job> read_setups(const std::string& file)
+{
+    const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
+    const std::string text = files::text_of_file(file);
+    std::vector<Job> jobs;
+    std::size_t setups = 1;
+    for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
+        PartFiles parts;
+        jobs.push_back(JobReader{file, folder, parts}.read(text, place, setups));
+    }
+    return jobs;
+}
+
 Job read_job(const std::string& file)
 {
-    PartFiles parts;
-    const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
-    return JobReader{file, folder, parts}.read(files::text_of_file(file));
+    std::vector<Job> jobs = read_setups(file);
+    if (jobs.size() > 1) {
+        throw InputError(
+            fmt::format("{}: has {} set-ups, only one can be read here", file, jobs.size()));
+    }
+    return std::move(jobs.front());  // meshes are large
 }
 
 Job read_job(const JobText& job, PartFiles& parts)
 {
-    return JobReader{job.name, job.folder, parts}.read(job.text);
+    std::size_t setups = 1;
+    return JobReader{job.name, job.folder, parts}.read(job.text, 0, setups);
 }
 
 }  // namespace cusp::import

@@ -66,6 +66,7 @@ constexpr OperationKey kOperationKeys[]{
     {"diameter", "drill"},
     {"peck", "drill"},
     {"overhang", "face"},
+    {"setup", ""},
     {"after", ""},
     {"rest_tolerance", ""},
     {"width", "chamfer"}};
@@ -85,10 +86,27 @@ bool lists(std::string_view list, std::string_view word)
 
 }  // namespace
 
+std::vector<std::string> strategy_names()
+{
+    return std::vector<std::string>{"contour_pocket",
+                                    "adaptive_isocurve",
+                                    "grid_pocket",
+                                    "hull_rough",
+                                    "complete_isocurves",
+                                    "parallel_planes",
+                                    "pocket",
+                                    "profile",
+                                    "drill",
+                                    "face",
+                                    "engrave",
+                                    "v_carve",
+                                    "chamfer"};
+}
+
 std::vector<std::string> job_keys()
 {
-    return {"units",   "tool",    "library", "cutting",   "stock",
-            "placing", "fixture", "post",    "operation", "group_by_tool"};
+    return {"units",   "tool", "library",   "cutting",       "stock", "placing",
+            "fixture", "post", "operation", "group_by_tool", "setup"};
 }
 
 std::vector<std::string> library_keys() { return {"units", "tool"}; }
@@ -116,8 +134,10 @@ std::vector<std::string> placing_keys()
 
 std::vector<std::string> fixture_keys()
 {
-    return {"name", "x", "y", "centre", "diameter", "top", "margin"};
+    return {"name", "x", "y", "centre", "diameter", "top", "margin", "setup"};
 }
+std::vector<std::string> setup_keys() { return {"name", "offset", "flip"}; }
+
 std::vector<std::string> tabs_keys() { return {"count", "places", "width", "height", "shape"}; }
 
 std::vector<std::string> operation_keys()

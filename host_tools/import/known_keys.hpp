@@ -8,10 +8,12 @@
 
 namespace cusp::import {
 
+std::vector<std::string> strategy_names();
 std::vector<std::string> job_keys();
 std::vector<std::string> library_keys();
 std::vector<std::string> tool_keys();
 std::vector<std::string> fixture_keys();
+std::vector<std::string> setup_keys();
 std::vector<std::string> cutting_keys();
 std::vector<std::string> stock_keys();
 std::vector<std::string> placing_keys();

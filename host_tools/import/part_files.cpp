@@ -7,6 +7,7 @@
 #include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -30,8 +31,13 @@ void move_curves(const Similarity& placed, std::vector<Curve>& curves)
 
 void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
 {
+    // seen from below, a loop goes the other way round
+    const bool mirrors = placed.axes[0].x * placed.axes[1].y < placed.axes[0].y * placed.axes[1].x;
     for (FileLoop& found : loops) {
         move_curves(placed, found.loop);
+        if (mirrors) {
+            found.loop = job::reversed(found.loop);
+        }
     }
 }
 
@@ -42,7 +48,7 @@ std::string without_layer(const std::string& name) { return name.substr(0, name.
 Similarity PartFiles::placed(const std::string& file) const
 {
     const auto found = placed_.find(file);
-    return found == placed_.end() ? Similarity{} : found->second;
+    return found == placed_.end() ? turn_ : found->second.then(turn_);
 }
 
 const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
@@ -81,8 +87,8 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
 
 Similarity PartFiles::placed_drawing(const std::string& name) const
 {
-    const auto layer = placed_.find(without_layer(name));
-    return layer == placed_.end() ? placed(name) : layer->second;
+    const std::string file = without_layer(name);
+    return placed(placed_.count(file) > 0 ? file : name);
 }
 
 std::vector<job::Hole> PartFiles::holes(const std::string& file,
@@ -142,6 +148,16 @@ std::vector<job::Chain> PartFiles::chains(const std::string& file, double millim
 }
 
 void PartFiles::place(const std::string& file, const Similarity& placed) { placed_[file] = placed; }
+
+void PartFiles::turn_all(const Similarity& turn)
+{
+    turn_ = turn;
+    surfaces_.clear();
+    meshes_.clear();
+    loops_.clear();
+    cad_holes_.clear();
+    notes_.clear();
+}
 
 void PartFiles::shift(const std::string& file, Vec3d by)
 {

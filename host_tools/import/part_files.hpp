@@ -46,6 +46,8 @@ public:
     void place(const std::string& file, const Similarity& placed);
     // Moves what was read of the file, and what will be. mm
     void shift(const std::string& file, Vec3d by);
+    // Turns all files that lie as the above say, in space; what was read is forgotten.
+    void turn_all(const Similarity& turn);
     // After the last of both: a job that finds its files placed leaves them there.
     void finish_placing() { is_placed_ = true; }
     bool is_placed() const { return is_placed_; }
@@ -65,6 +67,7 @@ private:
     std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // keys: file, join
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
+    Similarity turn_;                           // of all files, last
     bool is_placed_{false};
     std::vector<std::string> notes_;
 };

@@ -45,7 +45,7 @@ const std::vector<LineKey>& line_keys()
     static const std::vector<std::string> kOfTool{"tool", "comment", "clearance"};
     static const std::vector<LineKey> kKeys{
         {"begin", &Post::begin, {}},
-        {"modes", &Post::modes, {"units", "clearance"}},
+        {"modes", &Post::modes, {"units", "offset", "clearance"}},
         {"exact_path", &Post::exact_path, {}},
         {"blend", &Post::blend, {"tolerance"}},
         {"header", &Post::header, {}},

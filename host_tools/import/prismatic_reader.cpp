@@ -64,8 +64,10 @@ void choose_pocket_tolerances(const JobTable& table, Operation& operation)
     constexpr double kRidges = 0.04;           // mm
     if (!table.has("floor_tolerance")) {
         operation.floor_tolerance = kFloorTolerance;
+        operation.default_floor_tolerance = true;
     }
     if (!operation.scallop) {
+        operation.default_scallop = true;
         operation.scallop =
             operation.tool.corner_radius > 0 ? kRidges : 2 * operation.floor_tolerance;
     }
@@ -80,6 +82,11 @@ void check_tool(const JobTable& table, const Operation& operation)
         tool.shape != toolpath::ToolShape::kTaper) {
         table.refuse("tool", fmt::format("{} needs a vee or a taper, tool {} is {}",
                                          operation.strategy, tool.number, name_of(tool.shape)));
+    }
+    if (flank && tool.corner_radius > 0) {
+        table.refuse("tool",
+                     fmt::format("tool {} has a ball at its tip: {} needs a sharp or a flat one",
+                                 tool.number, operation.strategy));
     }
     if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
         table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
@@ -274,6 +281,30 @@ void read_drawing(const JobTable& table,
         cut.chains = parts.chains(file, unit);
     } else if (!file.empty()) {
         cut.loops = nested(parts.loops(file, unit, operation.plan_tolerance));
+    }
+}
+
+void check_sheet(const Job& job)
+{
+    if (job.stock_x && job.stock_y) {
+        return;
+    }
+    const auto is_open = [](const Operation& o) {
+        return !o.prismatic && !o.boundary;
+    };
+    const auto is_beside = [](const Operation& o) {
+        return o.strategy == "profile" && o.prismatic->side != ProfileSide::kInside;
+    };
+    const auto& all = job.operations;
+    const auto open = std::find_if(all.begin(), all.end(), is_open);
+    const auto beside = std::find_if(all.begin(), all.end(), is_beside);
+    if (open != all.end() && beside != all.end()) {
+        throw InputError(
+            fmt::format("{}: operation {}: profile: there is stock around the part, but operation "
+                        "{} ({}) takes the "
+                        "part's box for the stock and would move in rapids through it: give x and "
+                        "y, or margin, in [stock]",
+                        job.file, beside->number, open->number, open->strategy));
     }
 }
 

@@ -30,6 +30,12 @@ void read_drawing(const JobTable& table,
                   PartFiles& parts,
                   job::Operation& operation);
 
+// When the stock's sides are known: refuses a profile beside the part in a job whose stock, for an operation
+// on a floor without a boundary, would be the part's box.
+//
+// Errors: InputError.
+void check_sheet(const job::Job& job);
+
 // When the stock's top is known: the level at which each operation begins, its own `top` or what
 // the last face left, and the flat floors of pockets.
 //

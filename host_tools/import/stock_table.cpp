@@ -44,6 +44,7 @@ StockTable::StockTable(const toml::table* table,
     : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_keys()}, unit_{millimetres}
 {
     top_ = keys_.length("top", kAnyNumber, unit_);
+    job.stock_top = top_.value_or(0.0);
     job.clearance = keys_.length("clearance", kPositive, unit_).value_or(kDefaultClearance);
     job.stock_bottom = keys_.length("bottom", kAnyNumber, unit_);
     job.stock_x = keys_.extent("x", unit_);

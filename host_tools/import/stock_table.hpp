@@ -41,6 +41,9 @@ public:
     // job  with all its operations
     void settle(job::Job& job) const;
 
+    // Whether the table has the top.
+    bool has_top() const { return top_.has_value(); }
+
 private:
     void read_margin();
     void settle_sides(job::Job& job) const;

@@ -85,8 +85,13 @@ void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool
         keys.refuse("tip_diameter",
                     fmt::format("belongs to a vee or a taper, this one is {}", shape));
     }
-    if (tapers && !flat) {
-        keys.refuse("tip_diameter", "is missing: a taper needs the diameter of its flat end");
+    if (tapers && !flat && tool.corner_radius <= 0) {
+        keys.refuse("tip_diameter",
+                    "is missing: a taper needs the diameter of its flat end, or "
+                    "corner_radius, that of its ball");
+    }
+    if (tapers && flat && tool.corner_radius > 0) {
+        keys.refuse("corner_radius", "is given beside tip_diameter: the end is a ball or flat");
     }
     if (is_conical(tool)) {
         tool.tip_angle = (tapers ? 2 * *taper : angle.value_or(kTwistDrill)) * kPi / 180;
@@ -146,11 +151,13 @@ ReadTool read_tool(const toml::table& table,
     if (tool.shape == ToolShape::kBull && !corner) {
         keys.refuse("corner_radius", "is missing: a bull tool needs it");
     }
-    if (tool.shape != ToolShape::kBull && corner) {
-        keys.refuse("corner_radius", fmt::format("belongs to a bull tool, this one is {}", shape));
+    if (tool.shape != ToolShape::kBull && tool.shape != ToolShape::kTaper && corner) {
+        keys.refuse("corner_radius",
+                    fmt::format("belongs to a bull tool or a taper, this one is {}", shape));
     }
     tool.corner_radius = tool.shape == ToolShape::kBall ? tool.radius : corner.value_or(0);
-    if (tool.corner_radius > tool.radius) {
+    if (tool.corner_radius > tool.radius ||
+        (tool.shape == ToolShape::kTaper && tool.corner_radius >= tool.radius)) {
         keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
                                                  tool.corner_radius, tool.radius));
     }

@@ -24,6 +24,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/prismatic_keys.hpp"
+#include "host_tools/job/setup.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/entry_kind.hpp"
 #include "host_tools/toolpath/post.hpp"
@@ -66,6 +67,9 @@ struct Operation {
     OutputForm output{OutputForm::kLines};
     double plan_tolerance{};
     double floor_tolerance{};
+    // Of a level floor, where the job gives none: a post with fewer decimals may raise them.
+    bool default_floor_tolerance{false};
+    bool default_scallop{false};
     ToleranceSide tolerance_side{ToleranceSide::kOutside};
     std::optional<double> scallop;
     CutDirection direction_of_cut{CutDirection::kClimb};
@@ -149,6 +153,9 @@ struct Job {
     std::optional<std::array<double, 2>> stock_y;
     // Programs that have been cut before: the stock is what they leave.
     std::vector<std::string> stock_programs;
+    // Likewise, in set-ups whose stock lay otherwise. Where there are any, the stock has a box.
+    std::vector<SetupProgram> turned_programs;
+    std::optional<Setup> setup;  // none: the job has no table of them
     std::vector<Fixture> fixtures;
     bool group_by_tool{true};
     std::vector<Operation> operations;
@@ -165,6 +172,11 @@ struct Job {
         }
     }
 };
+
+// Adds a program that was cut before, in the set-up `of` of the same job, to those of the stock.
+//
+// Precondition: the stock has a box where the two set-ups differ in their flip.
+void add_earlier_program(Job& job, const Setup& of, const std::string& file);
 
 // The rates of a tool, the job's where it has none of its own.
 toolpath::CuttingRates rates_of(const Job& job, const toolpath::Tool& tool);

@@ -25,9 +25,17 @@ EndProfile::EndProfile(const Tool& tool, double shrink)
         flat = std::max(0.0, radius - corner);
         return;
     }
-    corner = 0;
     const double half = tool.tip_angle / 2;
     rise = 1 / std::tan(half);
+    if (corner > 0) {
+        join = corner * std::cos(half);
+        joined = corner * (1 - std::sin(half));
+        return;
+    }
+    if (tool.corner_radius > 0) {  // of its ball nothing is left
+        raised = tool.corner_radius + (shrink - tool.corner_radius) / std::sin(half);
+        return;
+    }
     // the flank moves inward by `shrink` square to itself
     flat = tool.tip_radius - shrink * (1 - std::sin(half)) / std::cos(half);
     if (flat < 0) {
@@ -42,8 +50,8 @@ double EndProfile::height(double distance) const
     if (beyond <= 0) {
         return 0;
     }
-    if (rise > 0) {
-        return rise * beyond;
+    if (rise > 0 && beyond >= join) {
+        return joined + rise * (beyond - join);
     }
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
 }
@@ -54,7 +62,7 @@ double EndProfile::slope(double distance) const
     if (beyond <= 0) {
         return 0;
     }
-    if (rise > 0 || corner <= 0) {
+    if ((rise > 0 && beyond >= join) || corner <= 0) {
         return rise;
     }
     return beyond / std::sqrt(std::max(1e-12, corner * corner - beyond * beyond));
@@ -128,7 +136,7 @@ double ToolSweep::lowest_place(Vec2d p) const
     if (end_.corner <= 0 && end_.rise <= 0) {
         return slope_ > 0 ? low : high;
     }
-    if (end_.corner > 0 && end_.flat <= 0) {
+    if (end_.corner > 0 && end_.flat <= 0 && end_.rise <= 0) {
         return std::clamp(along - slope_ * half / std::sqrt(1 + slope_ * slope_), low, high);
     }
     return numeric_place(along, away, low, high);

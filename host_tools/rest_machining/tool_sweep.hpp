@@ -13,6 +13,8 @@ struct EndProfile {
     double flat{};    // mm: of the level bottom
     double corner{};  // mm: of the corner
     double rise{};    // slope of a flank, mm per mm outward; 0: none
+    double join{};    // mm: from the flat bottom to where the flank leaves the corner
+    double joined{};  // mm: its height there
     double raised{};  // mm: height of a shrunk tool's tip over the tool's tip
 
     // The profile of what lies deeper than `shrink` inside the tool; 0: the tool.

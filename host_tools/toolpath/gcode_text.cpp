@@ -71,6 +71,9 @@ std::string tool_text(const Toolpath& path, double unit, const char* name)
         text +=
             fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
     }
+    if (is_conical(tool) && tool.corner_radius > 0) {
+        text += fmt::format(" ball radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
+    }
     if (is_conical(tool)) {
         text += fmt::format(" tip angle {}", fixed_point(tool.tip_angle * 180 / kPi, 2));
     }

@@ -156,7 +156,9 @@ void ProgramWriter::begin(const std::vector<PlannedOperation>& operations)
             put_comment(text);
         }
     }
-    put_all(post_.modes, {{"units", form_.inch ? "G20" : "G21"}, {"clearance", clearance()}});
+    put_all(post_.modes, {{"units", form_.inch ? "G20" : "G21"},
+                          {"offset", fmt::format("G{}", form_.work_offset)},
+                          {"clearance", clearance()}});
     if (form_.blend_tolerance) {
         put_all(post_.blend,
                 {{"tolerance", fixed_point(*form_.blend_tolerance / unit_, decimals_ + 1)}});

@@ -18,6 +18,7 @@ struct ProgramForm {
     double clearance_z{};  // mm: the height of rapid moves, at the start and the end
     std::optional<double> blend_tolerance;  // mm: G64 P; without it G61, the exact path
     Post post{};
+    int work_offset{54};  // 54 to 59: G54 to G59
 };
 
 // Positions are rounded to the post's decimals, 0.0001 mm or 0.00001 inch by default, each by

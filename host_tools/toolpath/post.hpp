@@ -27,8 +27,8 @@ struct Post {
     CommentForm comments{CommentForm::kParentheses};
     int line_numbers{0};             // from one N to the next; 0: none
     std::vector<std::string> begin;  // first of all
-    // {units}, {clearance}
-    std::vector<std::string> modes{"G17 {units} G40 G49 G54 G80 G90 G94", "G0 Z{clearance}"};
+    // {units}, {offset}, {clearance}
+    std::vector<std::string> modes{"G17 {units} G40 G49 {offset} G80 G90 G94", "G0 Z{clearance}"};
     std::vector<std::string> exact_path{"G61"};
     std::vector<std::string> blend{"G64 P{tolerance}"};  // empty: the controller can't
     std::vector<std::string> header;

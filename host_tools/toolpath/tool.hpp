@@ -24,8 +24,9 @@ const char* name_of(ToolShape shape);
 struct Tool {
     int number{1};
     ToolShape shape{ToolShape::kBall};
-    double radius{};         // mm
-    double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
+    double radius{};  // mm
+    double
+        corner_radius{};  // mm: radius for a ball, 0 for a flat end mill; of a taper that of its ball
     // Vee, drill and taper: the whole angle between the flanks, radians.
     double tip_angle{};
     double tip_radius{};  // mm: of the flat at the tip of a vee or a taper

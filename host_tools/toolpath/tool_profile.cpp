@@ -55,10 +55,14 @@ double profile_height(const Tool& tool, double d)
     if (beyond_flat <= 0) {
         return 0.0;
     }
-    if (is_conical(tool)) {
-        return beyond_flat / std::tan(tool.tip_angle / 2);
-    }
     const double corner = tool.corner_radius;
+    if (is_conical(tool)) {
+        const double half = tool.tip_angle / 2;
+        const double on_flank = beyond_flat - corner * std::cos(half);
+        if (on_flank >= 0) {
+            return corner * (1 - std::sin(half)) + on_flank / std::tan(half);
+        }
+    }
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond_flat * beyond_flat));
 }
 

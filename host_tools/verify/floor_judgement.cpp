@@ -311,7 +311,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     std::size_t cells = 0;
     double wall_left = -kInfinite;
     for (std::size_t k = 0; k < q.grid.size(); ++k) {
-        if (!std::isfinite(part.z[k])) {
+        if (!std::isfinite(part.z[k]) || std::isnan(q.cut[k])) {
             continue;
         }
         ++sums.part;

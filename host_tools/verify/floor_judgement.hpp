@@ -20,7 +20,7 @@ struct FloorQuestion {
     const std::vector<toolpath::Tool>& tools;  // those that the program uses
     const std::vector<WallDistance>& walls;
     const HeightGrid& grid;
-    const std::vector<double>& cut;  // heights of the stock after cutting
+    const std::vector<double>& cut;  // heights of the stock after cutting; NaN: no stock to judge
     double top;                      // of the uncut stock
     std::optional<double> scallop;
     double path_clearance;  // mm: largest distance that the path may keep from the floor

@@ -78,7 +78,7 @@ private:
                         maps_.part[k] = std::min(maps_.part[k], here[n].floor);
                     }
                 }
-                if (q_.cut[k] >= q_.job.stock_top) {
+                if (!(q_.cut[k] < q_.job.stock_top)) {
                     continue;
                 }
                 const Cuts cuts = cuts_at(here, q_.cut[k], q_.job.stock_top, q_.floor_tolerance);
@@ -158,7 +158,7 @@ private:
         const std::vector<char> here = required(region);
         std::size_t cells = 0;
         for (std::size_t k = 0; k < here.size(); ++k) {
-            if (here[k] == 0) {
+            if (here[k] == 0 || std::isnan(q_.cut[k])) {
                 continue;
             }
             ++cells;

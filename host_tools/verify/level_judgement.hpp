@@ -15,7 +15,7 @@ namespace cusp::verify {
 struct LevelQuestion {
     const job::Job& job;
     const HeightGrid& grid;
-    const std::vector<double>& cut;  // heights of the stock after cutting
+    const std::vector<double>& cut;  // heights of the stock after cutting; NaN: no stock to judge
     double floor_tolerance;          // mm, with the error of the judgement
     double plan_tolerance;           // likewise
 };

@@ -22,9 +22,16 @@ struct Profile {
     double corner;  // radius of the corner
     double reach;   // squared radius of the whole tool
     double rise;    // of a cone, mm a mm outward; 0: none
+    double join;    // mm: from the flat to where the corner ends
+    double joined;  // mm: the height there
 
     explicit Profile(const Tool& tool, double shrink)
-        : flat{}, corner{std::max(0.0, tool.corner_radius - shrink)}, reach{}, rise{}
+        : flat{},
+          corner{std::max(0.0, tool.corner_radius - shrink)},
+          reach{},
+          rise{},
+          join{corner},
+          joined{corner}
     {
         const double radius = std::max(0.0, tool.radius - shrink);
         flat = std::max(0.0, radius - corner);
@@ -32,15 +39,21 @@ struct Profile {
         if (is_conical(tool)) {
             flat = std::max(0.0, tool.tip_radius - shrink);
             rise = 1 / std::tan(tool.tip_angle / 2);
+            join = corner * std::cos(tool.tip_angle / 2);
+            joined = corner * (1 - std::sin(tool.tip_angle / 2));
         }
     }
     double at(double squared) const
     {
         const double beyond = std::max(0.0, std::sqrt(squared) - flat);
-        return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond)) + rise * beyond;
+        const double round = corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
+        return beyond <= join ? round : joined + rise * (beyond - join);
     }
     // A lower bound of at(squared) is steepness() * squared: a ball lies above its parabola.
-    double steepness() const { return flat > 0 || corner <= 0 ? 0.0 : 1 / (2 * corner); }
+    double steepness() const
+    {
+        return flat > 0 || corner <= 0 || rise > 0 ? 0.0 : 1 / (2 * corner);
+    }
 };
 
 // Half of the chord that a line cuts from a circle at a distance from its middle; 0 outside.
@@ -227,8 +240,8 @@ void MachinedStock::sweep_cone(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double rise = 1 / std::tan(tool.tip_angle / 2);
-    const double reach =
-        std::min(tool.radius, tool.tip_radius + (top_ - std::min(from.z, to.z)) / rise);
+    const double reach = std::min(
+        tool.radius, tool.tip_radius + tool.corner_radius + (top_ - std::min(from.z, to.z)) / rise);
     const Vec2d a = in_plan(from);
     const Vec2d along = in_plan(to) - a;
     const double squared = dot(along, along);
@@ -243,8 +256,10 @@ void MachinedStock::sweep_cone(
             const double away = norm(p - share * along);
             if (away <= tool.radius) {
                 double& height = heights_[grid_.index(i, j)];
-                height = std::min(height, from.z + share * (to.z - from.z) +
-                                              rise * std::max(0.0, away - tool.tip_radius));
+                const double up = tool.corner_radius > 0
+                                      ? profile_height(tool, away)
+                                      : rise * std::max(0.0, away - tool.tip_radius);
+                height = std::min(height, from.z + share * (to.z - from.z) + up);
             }
         }
     }

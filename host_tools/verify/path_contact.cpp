@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/stock_grid.hpp"
 
 namespace cusp::verify {
@@ -128,6 +129,7 @@ std::vector<PathContact> path_contacts(const Job& job,
     const HeightGrid grid = stock_grid(job, floors_box(job), std::nullopt);
     const StockExtent around = stock_around(job, grid);
     MachinedStock stock{grid, job.stock_top};
+    cut_earlier_programs(job, spacing, stock);
     for (std::size_t k = 0; k < count; ++k) {
         const ToolPositions positions = positions_on(*paths[k], spacing);
         ContactTrace contact{grid, positions, tool_discs(job, paths[k]->tool), around};

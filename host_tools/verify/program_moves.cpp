@@ -24,6 +24,9 @@ using toolpath::Tool;
 
 namespace {
 
+constexpr int kFirstOffset = 54;
+constexpr int kOtherOffset = 60;
+
 Vec3d point_on(const path::Arc& arc, double t)
 {
     const double angle = t * arc.sweep;
@@ -141,6 +144,8 @@ public:
                 const int tool = interpreter_.modal().tool;
                 program_.moves.push_back({of_the_tip(*move), tool != 0 ? tool : commented_tool_});
                 count(*move, program_.counts);
+                program_.offsets.insert(
+                    std::min(kFirstOffset + interpreter_.modal().coordinate_system, kOtherOffset));
             } else if (std::holds_alternative<gcode::ProgramEnd>(action)) {
                 return false;
             }

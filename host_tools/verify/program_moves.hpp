@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ProgramMove {
 
 struct Program {
     std::vector<ProgramMove> moves;
+    std::set<int> offsets;                // of its moves: 54 for G54, to 59; 60 for G59.1 to G59.3
     std::map<int, toolpath::Tool> tools;  // that comments describe: tool_comment.hpp
     toolpath::MoveCounts counts;          // a NURBS of many pieces counts once
 };

@@ -112,6 +112,10 @@ std::optional<Tool> tool_of_comment(std::string_view line)
             return std::nullopt;
         }
         tool.tip_angle = *angle;
+        tool.corner_radius = length_after(words, "radius").value_or(0.0);
+        if (!(tool.corner_radius < tool.radius)) {
+            return std::nullopt;
+        }
     }
     return tool;
 }

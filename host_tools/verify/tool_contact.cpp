@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_tools/nurbs/plan_vector.hpp"
+#include "host_tools/toolpath/tool_tip.hpp"
 
 namespace cusp::verify {
 
@@ -17,24 +18,6 @@ namespace {
 
 constexpr std::size_t kTile = 16;  // points a side
 constexpr double kTouch = 1e-3;    // mm: less is no contact
-
-// mm of the cutter at a height over its tip.
-double radius_at(const Tool& tool, double above)
-{
-    if (is_conical(tool)) {
-        return std::min(tool.radius, tool.tip_radius + above * std::tan(tool.tip_angle / 2));
-    }
-    const double below = std::max(0.0, tool.corner_radius - above);
-    return tool.radius - tool.corner_radius +
-           std::sqrt(std::max(0.0, tool.corner_radius * tool.corner_radius - below * below));
-}
-
-// mm over the tip, at which the cutter has its whole radius.
-double end_height(const Tool& tool)
-{
-    return is_conical(tool) ? (tool.radius - tool.tip_radius) / std::tan(tool.tip_angle / 2)
-                            : tool.corner_radius;
-}
 
 // mm: what passes at several heights along a wall may differ by.
 double flute_slack(const Job& job)
@@ -70,11 +53,11 @@ std::vector<ToolDisc> tool_discs(const Job& job, const Tool& tool, double slack)
     if (facts.flute_length) {
         const double least = flute_slack(job);
         const double above = *facts.flute_length;
-        add(BodyPart::kBeyondFlutes, radius_at(tool, above) - least, above, least);
+        add(BodyPart::kBeyondFlutes, radius_at_height(tool, above) - least, above, least);
         constexpr int kSteps = 4;  // up the cutter's round or sloping part beyond the flutes
         const double more = std::max(0.0, end_height(tool) - above) / kSteps;
         for (int k = 1; k <= kSteps && more > 0; ++k) {
-            add(BodyPart::kBeyondFlutes, radius_at(tool, above + k * more) - least, above,
+            add(BodyPart::kBeyondFlutes, radius_at_height(tool, above + k * more) - least, above,
                 k * more + least);
         }
     }

@@ -379,7 +379,7 @@ void judge_surfaces(const Job& job,
                     const std::vector<WallDistance>& walls,
                     const std::vector<Tool>& tools,
                     double spacing,
-                    const MachinedStock& stock,
+                    const std::vector<double>& heights,
                     Verification& result)
 {
     VerifyFigures& figures = result.figures;
@@ -387,10 +387,10 @@ void judge_surfaces(const Job& job,
         figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
-    FloorMaps maps = judge_floor(
-        {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
-         scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
-        figures);
+    FloorMaps maps =
+        judge_floor({scene.surfaces, scene.mesh, tools, walls, result.grid, heights, job.stock_top,
+                     scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
+                    figures);
     result.left = std::move(maps.left);
     result.gouge = std::move(maps.gouge);
     result.part = std::move(maps.part);
@@ -400,14 +400,13 @@ void judge_surfaces(const Job& job,
 // these figures of gouges replace those of the surfaces.
 void add_levels(const Job& job,
                 const Scene& scene,
-                const MachinedStock& stock,
+                const std::vector<double>& heights,
                 Verification& result)
 {
     result.figures.ball_gouge_max.reset();
-    LevelMaps maps =
-        judge_levels({job, result.grid, stock.heights(), scene.floor_tolerance + kJudgement,
-                      scene.plan_tolerance + kJudgement},
-                     result.figures);
+    LevelMaps maps = judge_levels({job, result.grid, heights, scene.floor_tolerance + kJudgement,
+                                   scene.plan_tolerance + kJudgement},
+                                  result.figures);
     for (std::size_t k = 0; k < result.left.size(); ++k) {
         if (std::isnan(maps.left[k])) {
             maps.left[k] = result.left[k];
@@ -458,11 +457,12 @@ Verification verify(const Job& job,
     for (const auto& [loop, outer] : scene.loops) {
         walls.emplace_back(loop, outer, widest + 2 * result.grid.pitch);
     }
+    const std::vector<double> heights = heights_to_judge(job, stock);
     if (scene.has_floor() || !scene.has_levels) {
-        judge_surfaces(job, scene, runs, walls, tools, spacing, stock, result);
+        judge_surfaces(job, scene, runs, walls, tools, spacing, heights, result);
     }
     if (scene.has_levels) {
-        add_levels(job, scene, stock, result);
+        add_levels(job, scene, heights, result);
     }
     find_fixture_hits(job, runs, figures);
     judge(scene, result);

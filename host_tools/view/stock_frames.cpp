@@ -48,7 +48,8 @@ double lowest_tip(const CuttingPath& path, const Job& job, double top)
     double low = top;
     for (const ToolPositions& run : earlier_positions(job, kUnbounded)) {
         for (const Vec3d tip : run.tips) {
-            low = std::min(low, tip.z);
+            // holes that another set-up has cut end at the bottom
+            low = std::min(low, std::max(tip.z, job.stock_bottom.value_or(-kUnbounded)));
         }
     }
     for (const CuttingPath::Run& run : path.runs()) {

@@ -28,17 +28,22 @@ WHOLE = 600  # s: longer than any correct call takes
 def results(cusp, job, folder, threads):
     """The results of a job: exit status, bytes of the program, figures of plan and of verify."""
     program, stats, check = (folder / name for name in ("out.ngc", "plan.json", "verify.json"))
-    for path in (program, stats, check):
-        path.unlink(missing_ok=True)
+    for old in ("out*.ngc", "plan*.json", "verify.json"):
+        for path in folder.glob(old):
+            path.unlink()
     number = ["--threads", str(threads)]
     plan = subprocess.run([cusp, "plan", job, "-o", program, "--stats", stats, *number], cwd=job.parent,
                           capture_output=True, timeout=WHOLE)
     if plan.returncode != 0:
         # a job that can't be planned is refused in the same words
         return plan.returncode, plan.stderr.splitlines()[-1:], b"", b"", b""
+    # of several set-ups each has its own
+    programs, all_stats = sorted(folder.glob("out*.ngc")), sorted(folder.glob("plan*.json"))
+    program = programs[0]
     verify = subprocess.run([cusp, "verify", job, program, "--stats", check, "--grid", "0.4", *number], cwd=job.parent,
                             capture_output=True, timeout=WHOLE)
-    return plan.returncode, program.read_bytes(), figures(stats), verify.returncode, figures(check)
+    return (plan.returncode, b"".join(p.read_bytes() for p in programs), [figures(s) for s in all_stats],
+            verify.returncode, figures(check))
 
 
 def differs(cusp, job, folder, name):

@@ -66,9 +66,9 @@ def outputs(program, job, folder, out, plan_limit, options):
     name = lambda file: os.path.relpath(out / file, folder)
     status, said = call(program, ["plan", job, "-o", name("p.ngc"), "--stats", name("plan.json")], folder, plan_limit)
     found = {"exit status of plan": str(status).encode(), "messages of plan": said,
-             "G-code": VERSION.sub(b"cusp VERSION", content(out / "p.ngc"), 1),
+             "G-code": b"".join(VERSION.sub(b"cusp VERSION", content(p), 1) for p in sorted(out.glob("p*.ngc"))),
              "statistics of plan": figures(out / "plan.json")}
-    if status == 0:
+    if status == 0 and (out / "p.ngc").exists():  # not of several set-ups
         add_verdict(found, program, job, folder, out)
         motion = json.loads((out / "plan.json").read_text())["estimated_s"]
         if options.simulation(motion):

@@ -16,11 +16,10 @@ using namespace cusp::toolpath;
 
 namespace {
 
-const std::vector<Tool> kTools{{1, ToolShape::kFlat, 3, 0},
-                               {2, ToolShape::kBall, 3, 3},
-                               {3, ToolShape::kBull, 3, 1},
-                               {4, ToolShape::kVee, 3, 0, kPi / 3, 0.2},
-                               {5, ToolShape::kDrill, 2, 0, 2.06}};
+const std::vector<Tool> kTools{
+    {1, ToolShape::kFlat, 3, 0},        {2, ToolShape::kBall, 3, 3},
+    {3, ToolShape::kBull, 3, 1},        {4, ToolShape::kVee, 3, 0, kPi / 3, 0.2},
+    {5, ToolShape::kDrill, 2, 0, 2.06}, {6, ToolShape::kTaper, 3, 0.5, kPi / 6}};
 
 class RandomPlaces {
 public:

@@ -1,11 +1,17 @@
 // Tools of comments, and programs as straight cuts.
 #include "host_tools/verify/earlier_programs.hpp"
 
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/toolpath/gcode_text.hpp"
+#include "host_tools/toolpath/tool.hpp"
 #include "host_tools/verify/tool_comment.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,11 +26,10 @@ TEST_GROUP(ToolComment){};
 TEST(ToolComment, describes_each_tool_as_it_was_written)
 {
     constexpr double kHalfTurn = 3.14159265358979323846;
-    const Tool tools[]{{1, ToolShape::kFlat, 5, 0},
-                       {2, ToolShape::kBall, 3, 3},
-                       {3, ToolShape::kBull, 3.175, 0.5},
-                       {255, ToolShape::kVee, 3, 0, kHalfTurn / 3},
-                       {5, ToolShape::kDrill, 2.5, 0, 2}};
+    const Tool tools[]{
+        {1, ToolShape::kFlat, 5, 0},       {2, ToolShape::kBall, 3, 3},
+        {3, ToolShape::kBull, 3.175, 0.5}, {255, ToolShape::kVee, 3, 0, kHalfTurn / 3},
+        {5, ToolShape::kDrill, 2.5, 0, 2}, {6, ToolShape::kTaper, 3, 0.5, kHalfTurn / 6}};
     for (const Tool& tool : tools) {
         Toolpath path;
         path.tool = tool;
@@ -135,4 +140,90 @@ TEST(EarlierPrograms, leave_the_stock_of_the_judge)
     // half of a stadium's straight sides, and half of its ends
     const double area = 10 * 4;
     DOUBLES_EQUAL(area, cut_earlier_programs(job, 0.05, stock), 0.5);
+}
+
+namespace {
+
+// z to which a tool on a straight move cuts at a place.
+double cut_height(const Tool& tool, Vec3d from, Vec3d to, Vec2d p)
+{
+    constexpr int kPlaces = 400;
+    double z = kInfinite;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const Vec3d tip = from + (static_cast<double>(i) / kPlaces) * (to - from);
+        z = std::min(z, tip.z + profile_height(tool, norm(p - in_plan(tip))));
+    }
+    return z;
+}
+
+}  // namespace
+
+// Random moves of random tools in a block of 8 mm: a place that counts as gone on the other side was cut
+// down to the bottom, and one that a level move has cut so counts.
+TEST(EarlierPrograms, of_the_other_side_are_what_they_cut_through)
+{
+    constexpr unsigned kSeed = 28;
+    std::printf("flips: seed %u\n", kSeed);
+    std::mt19937 engine{kSeed};
+    const auto draw = [&](double low, double high) {
+        return std::uniform_real_distribution<double>{low, high}(engine);
+    };
+    const Tool shapes[]{{1, ToolShape::kFlat, 2, 0},     {1, ToolShape::kBall, 2, 2},
+                        {1, ToolShape::kBull, 2, 0.5},   {1, ToolShape::kVee, 3, 0, 1.2},
+                        {1, ToolShape::kDrill, 2, 0, 2}, {1, ToolShape::kTaper, 3, 0.5, 0.5}};
+    job.stock_top = 2;
+    job.stock_bottom = -6;
+    job.stock_x = {0, 40};
+    job.stock_y = {-10, 30};
+    job.setup = Setup{"back", 55, Flip::kX};
+    int gone = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Tool& tool = shapes[i % 6];
+        job.tools = {tool};
+        const bool level = i % 2 == 0;
+        const Vec3d from{draw(5, 35), draw(-5, 25), std::round(draw(-9, -4) * 100) / 100};
+        const Vec3d to{draw(5, 35), draw(-5, 25),
+                       level ? from.z : std::round(draw(-9, -4) * 100) / 100};
+        char text[200];
+        std::snprintf(text, sizeof text, "G0 X%.4f Y%.4f Z5\nG1 Z%.4f F100\nX%.4f Y%.4f Z%.4f\n",
+                      from.x, from.y, from.z, to.x, to.y, to.z);
+        job.turned_programs.clear();
+        add_earlier_program(job, {"front", 54, Flip::kNone}, folder.with("p.ngc", text));
+        const auto cuts = earlier_cuts(job, job.turned_programs.front());
+        for (int k = 0; k < 40; ++k) {
+            const double along = draw(0, 1);
+            const Vec2d p{from.x + along * (to.x - from.x) + draw(-3, 3),
+                          from.y + along * (to.y - from.y) + draw(-3, 3)};
+            const Vec2d turned{p.x, 20 - p.y};
+            bool counts = false;
+            for (const EarlierCut& cut : cuts) {
+                counts =
+                    counts || cut_height(cut.tool, cut.from, cut.to, turned) <= *job.stock_bottom;
+            }
+            const double cut = cut_height(tool, from, to, p);
+            CHECK(!counts || cut <= *job.stock_bottom + 1e-3);
+            CHECK(counts || !level || cut > *job.stock_bottom - 1e-2);
+            gone += counts ? 1 : 0;
+        }
+    }
+    CHECK(gone > 1000);
+}
+
+TEST(EarlierPrograms, of_a_set_up_turned_round_twice_are_turned_about_z)
+{
+    job.stock_top = 2;
+    job.stock_bottom = -6;
+    job.stock_x = {0, 40};
+    job.stock_y = {-10, 30};
+    job.setup = Setup{"c", 56, Flip::kY};
+    add_earlier_program(job, {"b", 55, Flip::kX},
+                        folder.with("p.ngc", "G0 X1 Y2 Z5\nG1 Z-1 F100\nX4\n"));
+    const auto cuts = earlier_cuts(job, job.turned_programs.front());
+    LONGS_EQUAL(2, cuts.size());
+    DOUBLES_EQUAL(39, cuts[1].from.x, 1e-9);
+    DOUBLES_EQUAL(18, cuts[1].from.y, 1e-9);
+    DOUBLES_EQUAL(36, cuts[1].to.x, 1e-9);
+    DOUBLES_EQUAL(-1, cuts[1].to.z, 1e-9);
+    add_earlier_program(job, {"d", 57, Flip::kY}, "same.ngc");
+    CHECK(job.stock_programs == std::vector<std::string>{"same.ngc"});
 }

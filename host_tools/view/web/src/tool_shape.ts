@@ -16,8 +16,9 @@ export function toolAt(timeline: Timeline, tick: number): Cutter | null {
 
 // Height of the lower side above the tip, at the distance `away` from the axis.
 export function profileOf(tool: Cutter, away: number): number {
-  if (tool.tip_angle) return Math.max(0, away - (tool.tip_radius ?? 0)) / Math.tan(tool.tip_angle / 2);
-  const corner = tool.corner_radius, beyond = Math.max(0, away - (tool.radius - corner));
+  const corner = tool.corner_radius, half = (tool.tip_angle ?? 0) / 2;
+  const beyond = Math.max(0, away - (half ? tool.tip_radius ?? 0 : tool.radius - corner));
+  if (half && beyond >= corner * Math.cos(half)) return corner * (1 - Math.sin(half)) + (beyond - corner * Math.cos(half)) / Math.tan(half);
   return corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
 }
 
@@ -29,7 +30,9 @@ export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeo
     const end = profileOf(tool, radius);
     points.push(new THREE.Vector2(0, 0));
     if (tool.tip_angle) {
-      points.push(new THREE.Vector2(tool.tip_radius ?? 0, 0), new THREE.Vector2(radius, end));
+      const ball = corner * Math.cos(tool.tip_angle / 2);
+      for (let k = 0; corner && k <= 8; ++k) points.push(new THREE.Vector2(ball * k / 8, profileOf(tool, ball * k / 8)));
+      points.push(new THREE.Vector2(tool.tip_radius || ball, profileOf(tool, tool.tip_radius || ball)), new THREE.Vector2(radius, end));
     } else {
       for (let k = 0; k <= 16; ++k) {
         const angle = k / 16 * Math.PI / 2;

@@ -1,0 +1,110 @@
+// A program says by its work offset which set-up it is for.
+#include "host_tools/cli/setup_choice.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/verify/program_moves.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::cli {
+
+using job::Flip;
+using job::Job;
+using job::Setup;
+using verify::read_program;
+
+namespace {
+
+constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start
+
+std::size_t place_of_program(const std::vector<Job>& setups, const std::string& program)
+{
+    const auto offsets = read_program(program, setups.front().stock_top + kStartHigh).offsets;
+    if (offsets.size() > 1) {
+        throw InputError(
+            fmt::format("{}: has moves in {} work offsets, but {} has a program for each "
+                        "set-up",
+                        program, offsets.size(), setups.front().file));
+    }
+    const int offset = *offsets.begin();
+    const auto found = std::find_if(setups.begin(), setups.end(),
+                                    [&](const Job& job) { return job.setup->offset == offset; });
+    if (found == setups.end()) {
+        std::vector<std::string> known;
+        std::transform(setups.begin(), setups.end(), std::back_inserter(known), [](const Job& job) {
+            return fmt::format("{} has G{}", job.setup->name, job.setup->offset);
+        });
+        const std::string name =
+            offset > 59 ? "a work offset over G59" : fmt::format("G{}", offset);
+        throw InputError(fmt::format("{}: moves in {}, which is that of no set-up of {}: {}",
+                                     program, name, setups.front().file, fmt::join(known, ", ")));
+    }
+    return static_cast<std::size_t>(found - setups.begin());
+}
+
+}  // namespace
+
+std::string description_of(const Setup& setup)
+{
+    const std::string flip = setup.flip == Flip::kX   ? ", turned over about x"
+                             : setup.flip == Flip::kY ? ", turned over about y"
+                                                      : "";
+    return fmt::format("set-up {}, G{}{}", setup.name, setup.offset, flip);
+}
+
+std::string file_of_setup(const std::string& file, const Setup& setup)
+{
+    if (file.empty()) {
+        return file;
+    }
+    const std::filesystem::path path{file};
+    return (path.parent_path() /
+            (path.stem().string() + "-" + setup.name + path.extension().string()))
+        .string();
+}
+
+void add_after_option(CLI::App& command, std::vector<std::string>& after)
+{
+    command
+        .add_option(
+            "--after", after,
+            "programs that were cut before, in other set-ups of the job: the stock is what they "
+            "leave")
+        ->type_name("PROGRAM");
+}
+
+Job job_of_program(std::vector<Job> setups,
+                   const std::string& program,
+                   const std::vector<std::string>& after)
+{
+    if (!setups.front().setup) {
+        Job job = std::move(setups.front());
+        job.stock_programs.insert(job.stock_programs.end(), after.begin(), after.end());
+        return job;
+    }
+    const std::size_t place = place_of_program(setups, program);
+    Job job = std::move(setups[place]);
+    setups[place].setup = job.setup;
+    setups[place].file = job.file;
+    fmt::print("{}\n", description_of(*job.setup));
+    for (const std::string& file : after) {
+        const std::size_t before = place_of_program(setups, file);
+        if (before > place) {
+            throw InputError(fmt::format("--after {}: the set-up {} comes after {}", file,
+                                         setups[before].setup->name, job.setup->name));
+        }
+        add_earlier_program(job, *setups[before].setup, file);
+    }
+    if (place > 0 && after.empty()) {
+        fmt::print("the stock is uncut: --after PROGRAM names what earlier set-ups have cut\n");
+    }
+    return job;
+}
+
+}  // namespace cusp::cli
