@@ -158,7 +158,7 @@ double cut_height(const Tool& tool, Vec3d from, Vec3d to, Vec2d p)
 
 }  // namespace
 
-// Random moves of random tools in a block of 8 mm: a place that counts as gone on the other side was cut
+// Random moves of random tools in a block of 8 mm: a place that counts as absent on the other side was cut
 // down to the bottom, and one that a level move has cut so counts.
 TEST(EarlierPrograms, of_the_other_side_are_what_they_cut_through)
 {
