@@ -94,7 +94,6 @@ private:
     bool trail_drained_{true};    // that of the trailing track, before the last tick
     RunningSum<PathOffset, kMaxAxisFilter> first_;
     RunningSum<PathOffset, kMaxSecondFilter> second_;
-    ShaperFilter shaper_;
     PerAxis<ExactDivision> axis_division_{};
     planner::AxisFilter axis_filter_{};
     Position position_{};
@@ -103,6 +102,7 @@ private:
     OverrideFactors factors_{};
     bool holding_{false};
     bool at_rest_{true};
+    ShaperFilter shaper_;  // last, and large: what the tick reads stays within reach of an offset
 };
 
 }  // namespace cusp::interpolator
