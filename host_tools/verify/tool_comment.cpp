@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
 #include "host_tools/toolpath/post.hpp"
 
@@ -51,7 +52,7 @@ std::optional<double> length_after(const std::vector<std::string>& words, const 
     for (std::size_t i = 0; i + 2 < words.size(); ++i) {
         const auto value = words[i] == name ? positive_number(words[i + 1]) : std::nullopt;
         if (value && (words[i + 2] == "mm" || words[i + 2] == "inch")) {
-            return *value * (words[i + 2] == "inch" ? toolpath::kInch : 1.0);
+            return *value * (words[i + 2] == "inch" ? kMillimetresPerInch : 1.0);
         }
     }
     return std::nullopt;
