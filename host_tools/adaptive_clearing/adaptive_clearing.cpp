@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/open_places.hpp"
 #include "host_tools/adaptive_clearing/pass_starts.hpp"
 #include "host_tools/adaptive_clearing/steered_pass.hpp"
 #include "host_tools/adaptive_clearing/swept_area.hpp"
@@ -82,6 +83,13 @@ double distance_to(const Box2d& box, Vec2d p)
                       std::max({box.y0 - p.y, 0.0, p.y - box.y1}));
 }
 
+bool is_inside(const Region2d& region, const RegionPart& part, Vec2d point)
+{
+    return surrounds(region.contours[part.outer], point) &&
+           std::none_of(part.holes.begin(), part.holes.end(),
+                        [&](std::size_t k) { return surrounds(region.contours[k], point); });
+}
+
 class Planner {
 public:
     Planner(const Region2d& region, const AdaptiveSettings& settings)
@@ -92,7 +100,9 @@ public:
           swept_{box_, settings.tool_radius},
           links_{swept_, walls_, settings.wall_clearance},
           expected_{kMoreLength * area(region) /
-                    (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))}
+                    (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))},
+          open_{sweep_open(swept_, settings.open)},
+          places_{open_}
     {
     }
 
@@ -169,11 +179,13 @@ private:
         }
     }
 
-    // Enters the part by a helix, unless a hole is swept there already.
+    // Enters the part by a helix, unless a hole is swept there already, or it is open.
     void enter(const Region2d& centres, const RegionPart& part, PassStarts& starts)
     {
         const Vec2d pole = deepest_place(centres, part);
-        if (swept_.contains(pole)) {
+        if (swept_.contains(pole) || std::any_of(open_.begin(), open_.end(), [&](Vec2d place) {
+                return is_inside(centres, part, place);
+            })) {
             return;
         }
         const double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
@@ -204,11 +216,7 @@ private:
                 const Vec2d p{box.x0 + (box.x1 - box.x0) * (i + 0.5) / kPoleGrid,
                               box.y0 + (box.y1 - box.y0) * (j + 0.5) / kPoleGrid};
                 const double d = walls_.nearest(p, kUnbounded);
-                const auto in_hole = [&](std::size_t k) {
-                    return surrounds(centres.contours[k], p);
-                };
-                if (d > most && surrounds(outer, p) &&
-                    std::none_of(part.holes.begin(), part.holes.end(), in_hole)) {
+                if (d > most && is_inside(centres, part, p)) {
                     best = p;
                     most = d;
                 }
@@ -440,6 +448,7 @@ private:
     double expected_;            // mm: length of all passes
     AdaptivePath result_;
     std::map<double, Region2d> opened_;  // by radius
+    std::vector<Vec2d> open_;            // on the borders of the open places
     std::vector<Vec2d> places_;          // where the tool has been
     Vec2d at_{};
 };
@@ -451,7 +460,11 @@ AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& se
     if (settings.direction == CutDirection::kClimb) {
         return Planner{region, settings}.plan();
     }
-    AdaptivePath path = Planner{mirrored(region), settings}.plan();
+    AdaptiveSettings other = settings;
+    for (Region2d& open : other.open) {
+        open = mirrored(open);
+    }
+    AdaptivePath path = Planner{mirrored(region), other}.plan();
     for (AdaptiveRun& run : path.runs) {
         for (Edge& edge : run.path) {
             edge = mirrored(edge);

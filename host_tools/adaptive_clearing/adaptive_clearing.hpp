@@ -25,11 +25,14 @@ namespace cusp::adaptive_clearing {
 
 struct AdaptiveSettings {
     double tool_radius{};     // mm
-    double wall_clearance{};  // mm: of the tool's centre from the contours, at least the radius
+    double wall_clearance{};  // mm: of the tool's centre from the contours, > 0
     double max_engagement{};  // radians, above 0, below half a turn
     double tolerance{};       // mm: of chords in place of arcs
     double corner{};          // mm: most that rounding leaves in a square corner
     job::CutDirection direction{job::CutDirection::kClimb};
+    // Regions of the tool's centre where it meets no stock, such as beside the stock or where another
+    // tool has been; they count as swept, and passes start there. Empty: stock is everywhere.
+    std::vector<offset::Region2d> open;
     // If given, called after passes with about the share of the way that is done.
     std::function<void(double)> progress;
 };

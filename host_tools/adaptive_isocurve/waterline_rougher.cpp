@@ -8,8 +8,11 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
 #include "host_tools/adaptive_isocurve/fitted_edges.hpp"
 #include "host_tools/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/adaptive_isocurve/waterline_adaptive.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
@@ -23,6 +26,9 @@
 
 namespace cusp::adaptive_isocurve {
 
+using adaptive_clearing::AdaptivePath;
+using adaptive_clearing::AdaptivePathWriter;
+using adaptive_clearing::EngagementReport;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
@@ -31,6 +37,7 @@ using clearing::LayerSpace;
 using clearing::LayerToolpathWriter;
 using clearing::PassStart;
 using clearing::rest_offset_between_tools;
+using job::EntryKind;
 using job::OutputForm;
 using offset::area;
 using offset::Box2d;
@@ -45,6 +52,7 @@ using toolpath::OperationStats;
 using toolpath::Tool;
 using toolpath::ToolMove;
 using toolpath::Toolpath;
+using toolpath::ToolpathWriter;
 
 namespace {
 
@@ -85,7 +93,9 @@ public:
     {
         const auto begin = std::chrono::steady_clock::now();
         const Box2d& plan = work_.stock.plan;
-        const double out = 1.05 * (tool_.radius + work_.operation.allowance);
+        const bool adaptive = work_.operation.max_engagement.has_value();
+        // Passes of bounded engagement start and turn beside the stock.
+        const double out = (adaptive ? 1.6 : 1.05) * (tool_.radius + work_.operation.allowance);
         SliceSettings settings;
         settings.clearance = clearance_;
         settings.excess = 0.5 * work_.operation.plan_tolerance;
@@ -93,11 +103,16 @@ public:
         settings.field = {plan.x0 - out, plan.y0 - out, plan.x1 + out, plan.y1 + out};
         const WaterlineSlices slices{work_.model, tool_, settings};
         result_.keeps = most_kept(slices.pitch()) + slices.max_excess();
-        LayerToolpathWriter moves{
-            result_.planned.path,
-            tool_.radius,
-            {std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance,
-             work_.operation.entry, work_.operation.output != OutputForm::kLines, kChord}};
+        field_ = settings.field;
+        const double clearance_z =
+            std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance;
+        const bool arcs = work_.operation.output != OutputForm::kLines;
+        std::vector<ToolMove>& moves = result_.planned.path.moves;
+        LayerToolpathWriter runs{
+            result_.planned.path, tool_.radius, {clearance_z, work_.operation.entry, arcs, kChord}};
+        ToolpathWriter writer{moves, {clearance_z, work_.operation.entry, tool_.radius}};
+        AdaptivePathWriter passes{
+            writer, {arcs, kChord, work_.operation.entry == EntryKind::kPlunge, scallops()}};
         double above = work_.stock.top;
         const std::vector<double>& heights = work_.depths.heights;
         std::vector<std::optional<Level>> ahead;  // cleared at once, from `first` on
@@ -114,12 +129,21 @@ public:
                 break;
             }
             result_.levels.regions.push_back(std::make_unique<RegionOffset>(level->region));
-            write_level(*level, k, above, moves);
+            if (level->adaptive) {
+                write_adaptive(*level, above, passes);
+            } else {
+                write_level(*level, k, above, runs);
+            }
             // Scallops of passes and the rest of other cutters are higher than the level.
             above = heights[k] + scallops();
         }
-        moves.retract();
-        finish(moves, begin);
+        if (adaptive) {
+            writer.retract();
+            finish({writer.retracts(), passes.plunges(), passes.entries()}, begin);
+        } else {
+            runs.retract();
+            finish({runs.retracts(), runs.steep_plunges(), 0}, begin);
+        }
         return std::move(result_);
     }
 
@@ -182,6 +206,12 @@ private:
         double bottom;
         Region2d region;
         ClearedRegion cleared;
+        std::optional<AdaptivePath> adaptive{};
+    };
+    struct Written {
+        int retracts;
+        int plunges;
+        int entries;  // of adaptive paths
     };
 
     static Region2d fitted_region(const Region2d& slice, double fit)
@@ -228,6 +258,12 @@ private:
                 if (level.region.contours.empty()) {
                     return std::nullopt;
                 }
+                if (work_.operation.max_engagement) {
+                    level.adaptive = adaptive_level(work_, level.region, tool_,
+                                                    {field_, kFirst, step_.scallop_height, kChord},
+                                                    cleared_before(k));
+                    return level;
+                }
                 ClearingSettings clearing;
                 clearing.wall_clearance = kFirst;
                 clearing.stepover = share * step_.stepover - 4.0 * inner_fit_;
@@ -242,6 +278,14 @@ private:
             fmt::format("{}: roughing: the level at z = {:g} mm can't be cleared; try "
                         "another max_depth or allowance",
                         work_.job.file, work_.depths.heights[k]));
+    }
+
+    void write_adaptive(const Level& level, double top, AdaptivePathWriter& passes)
+    {
+        passes.write(*level.adaptive, top, level.bottom);
+        engagement_.add(*level.adaptive, 1, level.bottom);
+        result_.loops += static_cast<int>(level.adaptive->runs.size());
+        levels_ += level.adaptive->runs.empty() ? 0 : 1;
     }
 
     // Whether the passes cover the level. At a point left out the next level would cut twice the
@@ -386,7 +430,7 @@ private:
         return least;
     }
 
-    void finish(const LayerToolpathWriter& moves, std::chrono::steady_clock::time_point begin)
+    void finish(const Written& written, std::chrono::steady_clock::time_point begin)
     {
         if (result_.loops == 0) {
             return;
@@ -403,7 +447,7 @@ private:
         stats.passes = result_.loops;
         stats.levels = levels_;
         stats.cl_points = static_cast<int>(path.moves.size());
-        stats.retracts = moves.retracts();
+        stats.retracts = written.retracts;
         stats.gouge_bound_mm = std::max(0.0, -least);
         // Slices bound what is cut, not what is left: the only bound of that is the stock's height.
         stats.scallop_bound_mm = work_.stock.top - work_.stock.bottom;
@@ -418,9 +462,14 @@ private:
                             "mm",
                             least, work_.operation.allowance));
         }
-        if (moves.steep_plunges() > 0) {
+        if (written.plunges > 0) {
             stats.warnings.push_back(
-                fmt::format("{} entries had no room for a ramp and plunge", moves.steep_plunges()));
+                fmt::format("{} entries had no room for a ramp and plunge", written.plunges));
+        }
+        if (work_.operation.max_engagement) {
+            stats.counts.emplace_back("entries", written.entries);
+            stats.counts.emplace_back("lifts", written.retracts);
+            engagement_.write(stats);
         }
         stats.planning_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -431,6 +480,8 @@ private:
     double clearance_;
     const std::vector<RoughedWaterlines>& before_;
     PassSpacing step_{};
+    Box2d field_;  // of the axis
+    EngagementReport engagement_{work_.operation.max_engagement.value_or(0.0)};
     double inner_fit_{};
     RoughedTool result_;
     int levels_{};

@@ -10,6 +10,7 @@
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/cli/chip_load.hpp"
 #include "host_tools/cli/post_fit.hpp"
 #include "host_tools/cli/rest_of_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
@@ -178,7 +179,8 @@ void put_simulated_times(const std::string& program,
 }
 
 // The G-code. Sets the times in the plan to those on the controller.
-std::string program_of(const Job& job, const std::string& title, double blend, Plan& plan)
+std::string program_of(
+    const Job& job, const std::string& title, double blend, const MachineRates& rates, Plan& plan)
 {
     ProgramForm form{
         "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
@@ -188,10 +190,18 @@ std::string program_of(const Job& job, const std::string& title, double blend, P
     if (blend > 0) {
         form.blend_tolerance = blend * (job.inch ? kMillimetresPerInch : 1.0);
     }
-    std::ostringstream lines;
-    const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);
-    std::string program = lines.str();
-    put_simulated_times(program, begins, plan);
+    std::string program;
+    const auto write = [&] {
+        std::ostringstream lines;
+        const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);
+        program = lines.str();
+        put_simulated_times(program, begins, plan);
+    };
+    if (wants_engagement(job)) {
+        put_feeds_by_load(job, rates, plan, write);
+    } else {
+        write();
+    }
     return program;
 }
 
@@ -238,7 +248,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
          {overlap_warnings(job), reach_warnings(job, plan)}) {
         plan.warnings.insert(plan.warnings.end(), more.begin(), more.end());
     }
-    write_plan(job, program_of(job, title, output.blend, plan), output, plan);
+    write_plan(job, program_of(job, title, output.blend, rates, plan), output, plan);
     return plan;
 }
 

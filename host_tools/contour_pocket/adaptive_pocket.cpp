@@ -7,6 +7,8 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
 #include "host_tools/contour_pocket/pocket_report.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
@@ -16,11 +18,10 @@
 namespace cusp::contour_pocket {
 
 using adaptive_clearing::AdaptivePath;
-using adaptive_clearing::AdaptiveRun;
+using adaptive_clearing::AdaptivePathWriter;
 using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
-using adaptive_clearing::EntryHelix;
-using adaptive_clearing::OverEngagement;
+using adaptive_clearing::EngagementReport;
 using drop_cutter::DropCutter;
 using job::EntryKind;
 using job::Job;
@@ -28,13 +29,8 @@ using job::Operation;
 using job::OutputForm;
 using job::PocketRefusal;
 using nurbs::Surface;
-using offset::Edge;
-using offset::point_on;
 using offset::Region2d;
 using offset::RegionOffset;
-using toolpath::ArcPlane;
-using toolpath::kRapidClearance;
-using toolpath::MoveKind;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
@@ -42,10 +38,7 @@ using toolpath::ToolpathWriter;
 namespace {
 
 constexpr double kDegrees = kPi / 180.0;
-constexpr double kHelixSlope = 0.0524;  // 3 degrees
-constexpr double kLevel = 1e-6;         // mm: heights of a level floor differ by less
-constexpr double kRaised = 0.2;         // mm: of rapid moves in swept ground
-constexpr std::size_t kNamedPlaces = 5;
+constexpr double kLevel = 1e-6;  // mm: heights of a level floor differ by less
 
 double level_of(const Operation& operation)
 {
@@ -79,148 +72,6 @@ std::vector<double> heights_of(const Job& job, const Operation& operation, doubl
     }
     heights.push_back(floor);
     return heights;
-}
-
-// Writes runs at one height after the other.
-class AdaptiveWriter {
-public:
-    struct Settings {
-        bool arcs;
-        double chord_tolerance;  // mm, > 0
-        bool plunges;            // entries go straight down
-    };
-
-    AdaptiveWriter(ToolpathWriter& writer, const Settings& settings)
-        : writer_{writer}, settings_{settings}
-    {
-    }
-
-    // above  z: stock begins there at most
-    void write(const AdaptivePath& path, double above, double z)
-    {
-        for (const AdaptiveRun& run : path.runs) {
-            if (run.helix) {
-                enter(*run.helix, above, z);
-                continue;
-            }
-            const Vec2d start = run.path.front().start;
-            if (run.link.empty()) {
-                // Lower down the tool may meet slivers, so it descends at the plunge feed.
-                writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
-                writer_.line(MoveKind::kPlunge, {start.x, start.y, z});
-            }
-            for (std::size_t i = 0; i < run.link.size(); ++i) {
-                // Rapid legs run above the floor.
-                const bool raised =
-                    run.link[i].free || (i + 1 < run.link.size() && run.link[i + 1].free);
-                const Vec2d to = run.link[i].end;
-                writer_.line(run.link[i].free ? MoveKind::kRapid : MoveKind::kLink,
-                             {to.x, to.y, raised ? z + kRaised : z});
-            }
-            for (const Edge& edge : run.path) {
-                cut(edge, z);
-            }
-        }
-    }
-
-    int entries() const { return entries_; }
-    int plunges() const { return plunges_; }
-    int points() const { return points_; }
-
-private:
-    void enter(const EntryHelix& helix, double above, double z)
-    {
-        const Vec2d c = helix.centre;
-        const Vec2d side[2] = {{c.x + helix.radius, c.y}, {c.x - helix.radius, c.y}};
-        writer_.approach(side[0], std::min(above + kRapidClearance, writer_.clearance_z()));
-        ++entries_;
-        if (helix.radius <= 0.0 || settings_.plunges) {
-            plunges_ += above > z ? 1 : 0;
-            writer_.line(MoveKind::kPlunge, {side[0].x, side[0].y, z});
-        } else {
-            writer_.line(MoveKind::kPlunge, {side[0].x, side[0].y, std::max(above, z)});
-        }
-        if (helix.radius <= 0.0) {
-            return;
-        }
-        const double from = writer_.at().z;
-        const double turn = 2 * kPi * helix.radius * kHelixSlope;
-        const int halves = 2 * static_cast<int>(std::ceil((from - z) / turn));
-        // A level turn clears what the last slope left.
-        for (int i = 1; i <= halves + 2; ++i) {
-            const Vec2d p = side[i % 2];
-            const double at = i < halves ? from + (z - from) * i / halves : z;
-            writer_.arc(MoveKind::kPlunge, {{p.x, p.y, at}, {c.x, c.y, at}, ArcPlane::kXY, false});
-        }
-    }
-
-    void cut(const Edge& edge, double z)
-    {
-        // Rounded to G-code's digits a short arc could close to a full circle.
-        constexpr double kShortArc = 0.02;
-        ++points_;
-        if (edge.turn != 0 && settings_.arcs && norm(edge.end - edge.start) >= kShortArc) {
-            writer_.arc(MoveKind::kCut, {{edge.end.x, edge.end.y, z},
-                                         {edge.centre.x, edge.centre.y, z},
-                                         ArcPlane::kXY,
-                                         edge.turn < 0});
-            return;
-        }
-        int n = 1;
-        if (edge.turn != 0) {
-            const double step =
-                2 * std::sqrt(2 * std::min(settings_.chord_tolerance / edge.radius, 0.5));
-            n = static_cast<int>(std::ceil(sweep(edge) / step));
-        }
-        for (int i = 1; i < n; ++i) {
-            const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-            writer_.line(MoveKind::kCut, {p.x, p.y, z});
-        }
-        writer_.line(MoveKind::kCut, {edge.end.x, edge.end.y, z});
-    }
-
-    ToolpathWriter& writer_;
-    Settings settings_;
-    int entries_{0};
-    int plunges_{0};
-    int points_{0};
-};
-
-std::string over_text(const OverEngagement& over)
-{
-    return "the engagement is " + number_text(std::round(over.engagement / kDegrees)) +
-           " degrees at (" + number_text(std::round(over.at.x * 1e3) * 1e-3) + ", " +
-           number_text(std::round(over.at.y * 1e3) * 1e-3) + ") mm, over max_engagement on " +
-           number_text(std::round(over.length * 1e2) * 1e-2) +
-           " mm: no pass into this corner or neck has less";
-}
-
-void report_engagement(const Operation& operation,
-                       const AdaptivePath& path,
-                       std::size_t layers,
-                       OperationStats& stats)
-{
-    double over = 0.0;
-    for (const OverEngagement& place : path.over) {
-        over += place.length;
-    }
-    stats.counts.emplace_back("max_engagement_deg", *operation.max_engagement);
-    stats.counts.emplace_back("engagement_bound_deg", path.engagement_bound / kDegrees);
-    stats.counts.emplace_back("over_engagement_mm", over * static_cast<double>(layers));
-    stats.counts.emplace_back("over_engagement_places", static_cast<double>(path.over.size()));
-    stats.counts.emplace_back("sliver_points", static_cast<double>(path.left.size()));
-    if (!path.left.empty()) {
-        stats.warnings.push_back("a sliver stays at (" + number_text(path.left.front().x) + ", " +
-                                 number_text(path.left.front().y) +
-                                 ") mm: no straight move reaches it");
-    }
-    for (std::size_t i = 0; i < std::min(kNamedPlaces, path.over.size()); ++i) {
-        stats.warnings.push_back(over_text(path.over[i]));
-    }
-    if (path.over.size() > kNamedPlaces) {
-        stats.warnings.push_back(number_text(static_cast<double>(path.over.size() - kNamedPlaces)) +
-                                 " more places over max_engagement");
-    }
 }
 
 // The swept area is kept in cells of a twelfth of the radius.
@@ -288,7 +139,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     set_tool(result.path, job, operation.tool);
     ToolpathWriter writer{result.path.moves,
                           {job.stock_top + job.clearance, operation.entry, operation.tool.radius}};
-    AdaptiveWriter cutter{
+    AdaptivePathWriter cutter{
         writer,
         {operation.output != OutputForm::kLines, chord_tolerance(operation, tolerances),
          operation.entry == EntryKind::kPlunge}};
@@ -310,7 +161,9 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
                     {"islands", static_cast<double>(operation.islands.size())},
                     {"entries", static_cast<double>(cutter.entries())},
                     {"lifts", static_cast<double>(writer.retracts())}};
-    report_engagement(operation, path, heights.size(), stats);
+    EngagementReport engagement{*operation.max_engagement};
+    engagement.add(path, heights.size());
+    engagement.write(stats);
     report_plunges(cutter.plunges(), stats);
     report_air(result.path.moves, job.stock_top, stats);
     const RegionOffset walls{region};

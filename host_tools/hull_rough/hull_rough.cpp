@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "firmware/base/inch.hpp"
+#include "firmware/base/math.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
+#include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::hull_rough {
 
@@ -178,25 +180,34 @@ void round_up(LayerPlan& plan, double most_depth, bool inch)
 // Returns false where no tool clears anything in any layer.
 bool clear_layers(Roughing& work)
 {
+    constexpr std::size_t kAtOnce = 4;  // layers
     const Operation& operation = work.operation;
-    std::vector<std::vector<ToolOffer>> offers;
+    std::vector<std::vector<Rectangle>> boxes;
+    for (std::size_t layer = 0; layer < work.layers(); ++layer) {
+        boxes.push_back(boxes_above(work.plan.patches, work.bottom(layer) - operation.allowance,
+                                    operation.extra_subdivision));
+        work.boxes += boxes.back().size();
+        work.left_under_boxes += work.thickness(layer) * union_area(boxes.back(), work.stock.plan);
+    }
+    work.clearings.resize(work.layers());
+    for (std::size_t first = 0; first < work.layers(); first += kAtOnce) {
+        work.job.report_progress(0.9 * static_cast<double>(first) /
+                                 static_cast<double>(work.layers()));
+        parallel::for_each(std::min(kAtOnce, work.layers() - first), [&](std::size_t k) {
+            for (const Tool& tool : work.tools) {
+                work.clearings[first + k].push_back(
+                    clear_layer(boxes[first + k], work.stock.plan, tool.radius,
+                                layer_settings(work, first + k, tool)));
+            }
+        });
+    }
+    std::vector<std::vector<ToolOffer>> offers(work.layers());
     double cleared = 0;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
-        const double thickness = work.thickness(layer);
-        const auto boxes = boxes_above(work.plan.patches, work.bottom(layer) - operation.allowance,
-                                       operation.extra_subdivision);
-        work.boxes += boxes.size();
-        work.left_under_boxes += thickness * union_area(boxes, work.stock.plan);
-        offers.emplace_back();
-        work.clearings.emplace_back();
-        for (const Tool& tool : work.tools) {
-            work.job.report_progress(0.9 * static_cast<double>(layer) /
-                                     static_cast<double>(work.layers()));
-            work.clearings.back().push_back(clear_layer(boxes, work.stock.plan, tool.radius,
-                                                        layer_settings(work, layer, tool)));
-            const LayerClearing& made = work.clearings.back().back();
-            offers.back().push_back(
-                {made.length / rates_of(work.job, tool).feed * 60, made.cleared_area});
+        for (std::size_t k = 0; k < work.tools.size(); ++k) {
+            const LayerClearing& made = work.clearings[layer][k];
+            offers[layer].push_back(
+                {made.length / rates_of(work.job, work.tools[k]).feed * 60, made.cleared_area});
             cleared += made.cleared_area;
         }
     }
@@ -231,6 +242,9 @@ LayerSettings layer_settings(const Roughing& work, std::size_t layer, const Tool
     settings.one_way = operation.traversal == Traversal::kOneWay;
     settings.contour = operation.contour_clearing;
     settings.direction = operation.direction_of_cut;
+    if (operation.max_engagement) {
+        settings.max_engagement = *operation.max_engagement * kPi / 180;
+    }
     return settings;
 }
 

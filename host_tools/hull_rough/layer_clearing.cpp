@@ -12,11 +12,16 @@
 
 namespace cusp::hull_rough {
 
+using adaptive_clearing::AdaptivePath;
+using adaptive_clearing::AdaptiveRun;
+using adaptive_clearing::AdaptiveSettings;
+using adaptive_clearing::clear_adaptively;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
 using clearing::LayerRun;
 using clearing::PassStart;
 using job::CutDirection;
+using offset::arc_edge;
 using offset::area;
 using offset::Box2d;
 using offset::Contour;
@@ -273,6 +278,90 @@ std::vector<LayerRun> zigzag_runs(const ClearZone& zone,
     return in_near_order(std::move(out), !settings.one_way);
 }
 
+// The places of an adaptive path, entries with the level turn at their end.
+std::vector<LayerRun> runs_of(const AdaptivePath& path)
+{
+    std::vector<LayerRun> out;
+    for (const AdaptiveRun& run : path.runs) {
+        if (!run.helix) {
+            out.push_back({run.path, true});
+            continue;
+        }
+        const Vec2d c = run.helix->centre;
+        const double r = run.helix->radius;
+        std::vector<Edge> turn{line_edge(c, {c.x + r, c.y})};
+        for (int k = 0; k < 4 && r > 0; ++k) {
+            constexpr int kCos[] = {1, 0, -1, 0, 1};
+            const auto at = [&](int i) {
+                return Vec2d{c.x + r * kCos[i], c.y + r * kCos[(i + 3) % 4]};
+            };
+            turn.push_back(arc_edge(at(k), at(k + 1), c, 1));
+        }
+        out.push_back({std::move(turn), false});
+    }
+    return out;
+}
+
+// mm: from the limits of the axis to the stock: a strip in which a pass may start and turn.
+double open_strip(double kept, bool adaptive) { return adaptive ? 1.5 * kept : 1.1 * kept; }
+
+}  // namespace
+
+AdaptivePath adaptive_layer(const LayerClearing& clearing,
+                            const Rectangle& stock,
+                            double radius,
+                            const LayerSettings& settings,
+                            const std::vector<ClearedBy>& before)
+{
+    constexpr double kBeside = 2e-3;  // mm from the cutter to the stock
+    AdaptiveSettings adaptive;
+    adaptive.tool_radius = settings.clears;
+    adaptive.wall_clearance = clearing.zone->radius();
+    adaptive.max_engagement = *settings.max_engagement;
+    adaptive.tolerance = std::min(settings.tolerance / 2, 0.005 * settings.clears);
+    adaptive.corner = settings.tolerance / 2;
+    adaptive.direction = settings.direction;
+    Region2d beside;
+    const Rectangle& field = clearing.zone->field();
+    beside.contours.push_back(contour_of({{field.x_min, field.y_min},
+                                          {field.x_max, field.y_min},
+                                          {field.x_max, field.y_max},
+                                          {field.x_min, field.y_max}}));
+    const Contour outline = contour_of({{stock.x_min, stock.y_min},
+                                        {stock.x_max, stock.y_min},
+                                        {stock.x_max, stock.y_max},
+                                        {stock.x_min, stock.y_max}});
+    for (const Contour& hole : grown(Region2d{{outline}}, radius + kBeside).contours) {
+        beside.contours.push_back(reversed(hole));
+    }
+    adaptive.open.push_back(std::move(beside));
+    for (const ClearedBy& by : before) {
+        const Region2d& centres = by.clearing->centres->source();
+        if (centres.contours.empty()) {
+            continue;
+        }
+        Region2d region = by.rest_offset > 0   ? grown(centres, by.rest_offset)
+                          : by.rest_offset < 0 ? by.clearing->centres->at(-by.rest_offset)
+                                               : centres;
+        adaptive.open.push_back(std::move(region));
+    }
+    return clear_adaptively(free_region(clearing.boxes, grown_box(field, clearing.zone->radius())),
+                            adaptive);
+}
+
+namespace {
+
+void clear_adaptively(LayerClearing& out,
+                      const Rectangle& stock,
+                      double radius,
+                      const LayerSettings& settings)
+{
+    out.adaptive = adaptive_layer(out, stock, radius, settings, {});
+    out.runs = runs_of(*out.adaptive);
+    out.left = uncovered_spots(out.runs, *out.centres, settings.clears, stock);
+    out.length = out.adaptive->length;
+}
+
 }  // namespace
 
 LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
@@ -283,7 +372,7 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     // Chuang & Pan, section 5: the periphery is the stock expanded by 2.1 radii, so that islands at
     // the edge of the stock do not touch it and the cutter turns outside.
     const double kept = radius + settings.tolerance + settings.side_allowance;
-    const Rectangle field = grown_box(stock, 1.1 * kept);
+    const Rectangle field = grown_box(stock, open_strip(kept, settings.max_engagement.has_value()));
     LayerClearing out;
     out.zone = std::make_shared<ClearZone>(boxes, field, kept);
     const Region2d region = free_region(boxes, grown_box(field, kept));
@@ -299,6 +388,11 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
         }
     }
     out.islands = static_cast<int>(outlines.size());
+    if (settings.max_engagement) {
+        out.boxes = boxes;
+        clear_adaptively(out, stock, radius, settings);
+        return out;
+    }
     if (settings.contour) {
         out.runs = parallel_runs(region, *out.zone, settings);
         // Loops have no proof of clearance: each pass is checked against the boxes.

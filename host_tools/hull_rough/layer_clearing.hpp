@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
 #include "host_tools/hull_rough/layer_coverage.hpp"
 #include "host_tools/hull_rough/zigzag.hpp"
@@ -21,6 +22,7 @@ struct LayerSettings {
     bool one_way{};
     bool contour{};  // loops parallel to the outlines instead of lines
     job::CutDirection direction{};
+    std::optional<double> max_engagement;  // radians: passes of bounded engagement
 };
 
 // Every point of the layer that a cutter of this radius can reach without touching a box is
@@ -30,10 +32,12 @@ struct LayerSettings {
 struct LayerClearing {
     std::shared_ptr<ClearZone> zone;
     std::shared_ptr<offset::RegionOffset> centres;  // the region of the axis
-    std::vector<clearing::LayerRun> runs;
-    bool by_contours{};     // by contours as requested; else by zigzag
-    double length{};        // mm of cut
-    UncoveredSpots left;    // reachable spots that are not cleared
+    std::vector<clearing::LayerRun> runs;  // of an adaptive path only to see what they clear
+    std::optional<adaptive_clearing::AdaptivePath> adaptive;
+    std::vector<Rectangle> boxes;  // with an adaptive path
+    bool by_contours{};            // by contours as requested; else by zigzag
+    double length{};               // mm of cut
+    UncoveredSpots left;           // reachable spots that are not cleared
     double closed_area{};   // mm^2 left by contours, then cleared by parts of lines and outlines
     double cleared_area{};  // mm^2 of the stock in plan
     int islands{};
@@ -50,6 +54,17 @@ struct ClearedBy {
     const LayerClearing* clearing{};
     double rest_offset{};
 };
+
+// Passes of bounded engagement where the cutters before have left stock. The bound is that of the
+// circle that the cutter clears to the scallop height: larger circles of the same cutter, higher
+// up, have no more of their circumference in stock.
+//
+// radius  mm, of the cutter
+adaptive_clearing::AdaptivePath adaptive_layer(const LayerClearing& clearing,
+                                               const Rectangle& stock,
+                                               double radius,
+                                               const LayerSettings& settings,
+                                               const std::vector<ClearedBy>& before);
 
 // The parts of the runs where the cutter removes stock that the cutters before have left.
 //

@@ -1,22 +1,31 @@
 // Writes the moves of all layers: each cutter clears its layers and the rest of earlier cutters.
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
 
+#include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
 #include "host_tools/clearing/rest_between_tools.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
 
 namespace cusp::hull_rough {
 
+using adaptive_clearing::AdaptivePath;
+using adaptive_clearing::AdaptivePathWriter;
+using adaptive_clearing::EngagementReport;
 using clearing::LayerRun;
 using clearing::LayerSpace;
 using clearing::LayerToolpathWriter;
 using clearing::leaves_no_rest;
 using clearing::rest_offset_between_tools;
+using job::EntryKind;
 using job::OutputForm;
 using toolpath::PlannedOperation;
 using toolpath::Tool;
 using toolpath::Toolpath;
+using toolpath::ToolpathWriter;
 
 namespace {
 
@@ -24,40 +33,58 @@ namespace {
 // leave rest_height() in addition.
 using Cutters = std::vector<std::vector<std::size_t>>;
 
-// Writes layers of one cutter from the first on, after what other cutters have cleared.
-class GroupWriter {
+double clearance_height(const Roughing& work)
+{
+    return std::max(work.stock.top, work.job.stock_top) + work.job.clearance;
+}
+
+double chord_tolerance(const Roughing& work)
+{
+    return std::max(work.operation.plan_tolerance, kLeastTolerance) / 2;
+}
+
+// Writes the moves of one cutter, layer by layer.
+class LayersOfCutter {
 public:
-    GroupWriter(const Roughing& work, std::size_t first, std::size_t tool)
-        : work_{work},
-          tool_{tool},
-          moves_{path_, work.clearings[first][tool].zone->radius(), settings(work)}
+    LayersOfCutter(const Roughing& work, std::size_t tool) : work_{work}, tool_{tool}
     {
         set_tool(path_, work.job, work.tools[tool]);
     }
+    LayersOfCutter(const LayersOfCutter&) = delete;
+    LayersOfCutter& operator=(const LayersOfCutter&) = delete;
+    virtual ~LayersOfCutter() = default;
 
-    void clear(std::size_t layer) { add(work_.clearings[layer][tool_].runs, layer); }
+    virtual void clear(std::size_t layer) = 0;
+    // Only what the cutters before have left, so that this one can cut below.
+    virtual void clear_uncut(std::size_t layer, const std::vector<ClearedBy>& before) = 0;
+    virtual PlannedOperation finish() = 0;
 
-    // Clears the rest of a layer that earlier cutters have left, so that this one can cut below;
-    // false where they left nothing.
-    bool clear_uncut(std::size_t layer, const std::vector<std::size_t>& before)
+protected:
+    const Roughing& work_;
+    std::size_t tool_;
+    Toolpath path_;
+};
+
+// Runs of the zigzag or of loops.
+class RunWriter final : public LayersOfCutter {
+public:
+    RunWriter(const Roughing& work, std::size_t first, std::size_t tool)
+        : LayersOfCutter{work, tool},
+          moves_{path_,
+                 work.clearings[first][tool].zone->radius(),
+                 {clearance_height(work), work.operation.entry,
+                  work.operation.output == OutputForm::kArcs, chord_tolerance(work)}}
     {
-        const Tool& tool = work_.tools[tool_];
-        std::vector<ClearedBy> cleared;
-        for (std::size_t i = 0; i < before.size(); ++i) {
-            const Tool& other = work_.tools[before[i]];
-            const double scallop_height = i == 0 ? work_.rest_height(layer) : 0.0;
-            if (before[i] == tool_ || leaves_no_rest(other, tool, scallop_height)) {
-                return false;
-            }
-            if (const auto nested = rest_offset_between_tools(other, tool, scallop_height)) {
-                cleared.push_back({&work_.clearings[layer][before[i]], *nested});
-            }
-        }
-        add(uncut_runs(work_.clearings[layer][tool_], tool.radius, cleared), layer);
-        return true;
     }
 
-    PlannedOperation finish()
+    void clear(std::size_t layer) override { add(work_.clearings[layer][tool_].runs, layer); }
+
+    void clear_uncut(std::size_t layer, const std::vector<ClearedBy>& before) override
+    {
+        add(uncut_runs(work_.clearings[layer][tool_], work_.tools[tool_].radius, before), layer);
+    }
+
+    PlannedOperation finish() override
     {
         moves_.retract();
         PlannedOperation out;
@@ -73,18 +100,8 @@ public:
     }
 
 private:
-    const Roughing& work_;
-    std::size_t tool_;
-    Toolpath path_;
     LayerToolpathWriter moves_;
     int passes_{0};
-
-    static LayerToolpathWriter::Settings settings(const Roughing& work)
-    {
-        return {std::max(work.stock.top, work.job.stock_top) + work.job.clearance,
-                work.operation.entry, work.operation.output == OutputForm::kArcs,
-                std::max(work.operation.plan_tolerance, kLeastTolerance) / 2};
-    }
 
     void add(const std::vector<LayerRun>& runs, std::size_t layer)
     {
@@ -110,6 +127,105 @@ private:
     }
 };
 
+// Passes of bounded engagement.
+class AdaptiveLayerWriter final : public LayersOfCutter {
+public:
+    AdaptiveLayerWriter(const Roughing& work, std::size_t tool)
+        : LayersOfCutter{work, tool},
+          writer_{path_.moves,
+                  {clearance_height(work), work.operation.entry, work.tools[tool].radius}},
+          cutter_{writer_,
+                  {work.operation.output == OutputForm::kArcs, chord_tolerance(work),
+                   work.operation.entry == EntryKind::kPlunge, scallops(work)}},
+          report_{*work.operation.max_engagement}
+    {
+    }
+
+    void clear(std::size_t layer) override
+    {
+        write(*work_.clearings[layer][tool_].adaptive, layer);
+    }
+
+    void clear_uncut(std::size_t layer, const std::vector<ClearedBy>& before) override
+    {
+        const Tool& tool = work_.tools[tool_];
+        write(adaptive_layer(work_.clearings[layer][tool_], work_.stock.plan, tool.radius,
+                             layer_settings(work_, layer, tool), before),
+              layer);
+    }
+
+    PlannedOperation finish() override
+    {
+        writer_.retract();
+        PlannedOperation out;
+        out.path = std::move(path_);
+        out.stats.passes = passes_;
+        out.stats.retracts = writer_.retracts();
+        out.stats.cl_points = static_cast<int>(out.path.moves.size());
+        out.stats.counts = {{"entries", static_cast<double>(cutter_.entries())},
+                            {"lifts", static_cast<double>(writer_.retracts())}};
+        report_.write(out.stats);
+        if (cutter_.plunges() > 0) {
+            out.stats.warnings.push_back(std::to_string(cutter_.plunges()) +
+                                         " entries had no room for a helix and plunge");
+        }
+        return out;
+    }
+
+private:
+    ToolpathWriter writer_;
+    AdaptivePathWriter cutter_;
+    EngagementReport report_;
+    int passes_{0};
+
+    // mm: the most of any layer.
+    static double scallops(const Roughing& work)
+    {
+        double most = 0;
+        for (std::size_t layer = 0; layer < work.layers(); ++layer) {
+            most = std::max(most, work.left_over(layer));
+        }
+        return most;
+    }
+
+    void write(const AdaptivePath& path, std::size_t layer)
+    {
+        cutter_.write(path, work_.top(layer) + (layer > 0 ? work_.left_over(layer - 1) : 0.0),
+                      work_.bottom(layer));
+        report_.add(path, 1, work_.bottom(layer));
+        passes_ += static_cast<int>(path.runs.size());
+    }
+};
+
+std::unique_ptr<LayersOfCutter> writer_of(const Roughing& work, std::size_t first, std::size_t tool)
+{
+    if (work.operation.max_engagement) {
+        return std::make_unique<AdaptiveLayerWriter>(work, tool);
+    }
+    return std::make_unique<RunWriter>(work, first, tool);
+}
+
+// The cutters that have cleared a layer before this one, if they left a rest for it.
+std::optional<std::vector<ClearedBy>> leavers(const Roughing& work,
+                                              std::size_t layer,
+                                              std::size_t tool,
+                                              const std::vector<std::size_t>& before)
+{
+    std::vector<ClearedBy> cleared;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const Tool& other = work.tools[before[i]];
+        const double scallop_height = i == 0 ? work.rest_height(layer) : 0.0;
+        if (before[i] == tool || leaves_no_rest(other, work.tools[tool], scallop_height)) {
+            return std::nullopt;
+        }
+        if (const auto nested =
+                rest_offset_between_tools(other, work.tools[tool], scallop_height)) {
+            cleared.push_back({&work.clearings[layer][before[i]], *nested});
+        }
+    }
+    return cleared;
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> write_layers(const Roughing& work)
@@ -119,18 +235,19 @@ std::vector<PlannedOperation> write_layers(const Roughing& work)
     Cutters cutters(work.layers());
     for (std::size_t first = 0; first < work.layers();) {
         const std::size_t tool = of_layer[first];
-        GroupWriter writer{work, first, tool};
+        const std::unique_ptr<LayersOfCutter> writer = writer_of(work, first, tool);
         for (std::size_t layer = 0; layer < first; ++layer) {
-            if (writer.clear_uncut(layer, cutters[layer])) {
+            if (const auto before = leavers(work, layer, tool, cutters[layer])) {
+                writer->clear_uncut(layer, *before);
                 cutters[layer].push_back(tool);
             }
         }
         std::size_t last = first;
         for (; last < work.layers() && of_layer[last] == tool; ++last) {
-            writer.clear(last);
+            writer->clear(last);
             cutters[last].push_back(tool);
         }
-        out.push_back(writer.finish());
+        out.push_back(writer->finish());
         out.back().stats.levels = static_cast<int>(last - first);
         first = last;
     }

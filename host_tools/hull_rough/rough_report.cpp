@@ -26,6 +26,11 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     }
     const double degrees = std::acos(std::max(-1.0, 1 - step / tool.radius)) * 180 / kPi;
     OperationStats& stats = operation.stats;
+    if (work.operation.max_engagement) {
+        stats.warnings.push_back("cuts are at most " + plain_number(work.deepest_cut()) +
+                                 " mm deep; entries descend as a helix where there is room");
+        return;
+    }
     stats.counts.emplace_back("engagement_deg", 180);
     stats.counts.emplace_back("step_mm", step);
     stats.counts.emplace_back("step_engagement_deg", degrees);
@@ -60,7 +65,7 @@ LayerFigures layer_figures(const Roughing& work)
         sums.thickest = std::max(sums.thickest, work.thickness(layer));
         const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
         sums.islands += clearing.islands;
-        sums.zigzags += clearing.by_contours ? 0 : 1;
+        sums.zigzags += clearing.by_contours || clearing.adaptive ? 0 : 1;
         sums.closed += clearing.closed_area;
         if (sums.left <= 0 && clearing.left.area > 0) {
             const Rectangle& spot = clearing.left.squares.front();
@@ -106,6 +111,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
         // Hulls bound what is cut, not what is left: the only bound of that is the stock's height.
         stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();
         stats.planning_s = seconds / static_cast<double>(out.size());
+        const std::vector<std::pair<std::string, double>> written = std::move(stats.counts);
         stats.counts = {{"layers", static_cast<double>(work.layers())},
                         {"raw_layers", work.plan.raw_layers},
                         {"split_layers", work.plan.split_layers},
@@ -122,6 +128,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
                         {"deepest_cut_mm", work.deepest_cut()},
                         {"closed_mm2", layers.closed},
                         {"left_mm2", layers.left}};
+        stats.counts.insert(stats.counts.end(), written.begin(), written.end());
         add_engagement(work, operation);
         if (work.operation.contour_clearing && layers.zigzags > 0) {
             stats.warnings.push_back(std::to_string(layers.zigzags) +

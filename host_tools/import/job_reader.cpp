@@ -9,6 +9,7 @@
 #include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
 #include "host_tools/files/files.hpp"
+#include "host_tools/import/clearing_keys.hpp"
 #include "host_tools/import/fixture_reader.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/job_table.hpp"
@@ -45,8 +46,7 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kDefaultTolerance = 0.02;   // mm
-constexpr double kDefaultEngagement = 60.0;  // degrees
+constexpr double kDefaultTolerance = 0.02;  // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 
 class JobReader {
@@ -70,7 +70,6 @@ private:
     void read_rest(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
-    static void read_clearing(JobTable& table, Operation& operation);
     void read_strategy_keys(JobTable& table, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
@@ -224,35 +223,6 @@ void JobReader::read_grid(JobTable& table, Operation& operation)
     operation.max_roughness = length(table, "max_roughness", kPositive);
 }
 
-void JobReader::read_clearing(JobTable& table, Operation& operation)
-{
-    constexpr Range kEngagement{20, 150};
-    const bool pocket = operation.strategy == "contour_pocket" || operation.strategy == "pocket";
-    const auto clearing = pocket ? table.one_of("clearing", {"contour", "adaptive"})
-                                 : table.one_of("clearing", {"zigzag", "contour"});
-    operation.contour_clearing = clearing == "contour";
-    const auto engagement = table.number("max_engagement", kEngagement);
-    if (clearing == "adaptive") {
-        operation.max_engagement = engagement.value_or(kDefaultEngagement);
-        const double radius = operation.tool.radius;
-        if (operation.step_over && *operation.step_over < radius) {
-            // A straight cut of this width has this angle.
-            operation.max_engagement =
-                std::min(*operation.max_engagement,
-                         std::acos(1.0 - *operation.step_over / radius) * 180.0 / kPi);
-        }
-        if (*operation.max_engagement < kEngagement.low) {
-            table.refuse("step_over",
-                         fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
-                                     "radius {:g} mm; the least is {:g}",
-                                     *operation.step_over, *operation.max_engagement, radius,
-                                     kEngagement.low));
-        }
-    } else if (engagement) {
-        table.refuse("max_engagement", "needs clearing = \"adaptive\"");
-    }
-}
-
 void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
 {
     constexpr Range kSubdivisions{0, 8};
@@ -267,6 +237,7 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
         table.whole_number("extra_subdivision", kSubdivisions).value_or(0);
     operation.step_over = length(table, "step_over", kPositive);
     read_clearing(table, operation);
+    read_chip_load(table, unit_, operation);
 }
 
 // Whether the strategy plans on the triangles themselves, without a height field.

@@ -14,6 +14,12 @@ struct OperationKey {
     std::string_view without = {};  // that do not
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
+constexpr std::string_view kRoughers{
+    "hull_rough, contour_pocket, pocket, grid_pocket, adaptive_isocurve, complete_isocurves, "
+    "parallel_planes"};
+constexpr std::string_view kFeedsByLoad{
+    "hull_rough, contour_pocket, pocket, grid_pocket, adaptive_isocurve, complete_isocurves, "
+    "parallel_planes, profile, face"};
 constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave, v_carve"};
 constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, v_carve, chamfer"};
 constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, v_carve, chamfer"};
@@ -40,6 +46,9 @@ constexpr OperationKey kOperationKeys[]{
     {"layers", "", kAllButPocket},
     {"feed", ""},
     {"plunge_feed", ""},
+    {"chip_load", kFeedsByLoad},
+    {"feed_min", kFeedsByLoad},
+    {"feed_max", kFeedsByLoad},
     {"spindle", ""},
     {"coolant", ""},
     {"iso_distance", "adaptive_isocurve, complete_isocurves"},
@@ -54,8 +63,8 @@ constexpr OperationKey kOperationKeys[]{
     {"max_roughness", "grid_pocket"},
     {"overlap", "hull_rough"},
     {"extra_subdivision", "hull_rough"},
-    {"clearing", "hull_rough, contour_pocket, pocket"},
-    {"max_engagement", "contour_pocket, pocket"},
+    {"clearing", kRoughers},
+    {"max_engagement", kRoughers},
     {"tools", "hull_rough, contour_pocket, pocket, adaptive_isocurve, complete_isocurves"},
     {"depth", kDepths},
     {"top", kPrismatic},

@@ -75,7 +75,28 @@ void check_roughing(const JobTable& table, const Operation& operation)
     }
 }
 
-// Keys that adaptive clearing does not know yet are refused.
+// Adaptive clearing has no lines that could overlap, and clears something only where there is roughing.
+void check_adaptive_levels(const JobTable& table, const Operation& operation)
+{
+    if (!operation.max_engagement) {
+        return;
+    }
+    if (operation.overlap > 0) {
+        table.refuse("overlap", "does not go with clearing = \"adaptive\", which has no lines");
+    }
+    if (operation.strategy == "grid_pocket") {
+        table.refuse(
+            "clearing",
+            "\"adaptive\" is not for grid_pocket, whose layers follow the floor from cell to "
+            "cell: rough with contour_pocket or hull_rough, then finish with grid_pocket");
+    }
+    if (operation.strategy != "hull_rough" && !operation.roughing) {
+        table.refuse("clearing",
+                     "\"adaptive\" needs roughing = true: without it nothing is roughed");
+    }
+}
+
+// Keys that adaptive clearing of pockets does not know are refused.
 void check_adaptive(const JobTable& table, const Operation& operation)
 {
     if (!operation.max_engagement) {
@@ -128,6 +149,9 @@ void check_strategy(const JobTable& table, const Operation& operation)
         need(operation.step_over || operation.scallop, "step_over", "it or scallop");
     } else {
         need(operation.iso_distance || operation.scallop, "iso_distance", "it or scallop");
+    }
+    if (strategy != "contour_pocket" && strategy != "pocket") {
+        check_adaptive_levels(table, operation);
     }
 }
 

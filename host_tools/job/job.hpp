@@ -47,6 +47,12 @@ public:
 // A closed chain of curves, in order, counter-clockwise seen from above; z is ignored.
 using Loop = std::vector<nurbs::Curve>;
 
+// The feed follows the engagement, so that the thickest chip stays that of half the diameter.
+struct ChipLoad {
+    std::optional<double> feed_min;  // mm/min; none: the feed
+    std::optional<double> feed_max;  // none: twice the feed
+};
+
 struct Operation {
     int number{1};  // its place in the job
     std::string strategy;
@@ -95,8 +101,9 @@ struct Operation {
     double overlap{};
     int extra_subdivision{};
     bool contour_clearing{false};
-    // contour_pocket, pocket with clearing = "adaptive": degrees
+    // clearing = "adaptive": degrees
     std::optional<double> max_engagement;
+    std::optional<ChipLoad> chip_load;
     // parallel_planes; most between passes of pocket, face and v_carve
     std::optional<double> step_over;
     // Programs that have been cut before, beside those of the stock: only what they leave is cut.

@@ -49,6 +49,7 @@ struct NurbsTo {
 struct ToolMove {
     MoveKind kind{MoveKind::kCut};
     std::variant<LineTo, ArcTo, NurbsTo> shape;
+    double feed{};  // mm/min, of cuts and links; 0: the path's
 };
 
 // The canned cycle of a path that only drills holes.

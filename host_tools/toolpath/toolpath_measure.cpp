@@ -320,6 +320,9 @@ double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start)
     if (move.kind == MoveKind::kPlunge) {
         return path.plunge_feed;
     }
+    if (move.feed > 0) {
+        return move.feed;
+    }
     const double down = move.kind == MoveKind::kPlungingCut ? steepest_descent(move, start) : 0;
     return down * path.feed > path.plunge_feed ? path.plunge_feed / down : path.feed;
 }

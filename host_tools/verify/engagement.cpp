@@ -35,7 +35,14 @@ std::optional<double> engagement_limit(const Job& job,
 {
     std::optional<double> least = asked;
     for (const Operation& operation : job.operations) {
-        if (!asked && operation.max_engagement && operation.tool.number == tool.number) {
+        const auto is_it = [&](const Tool& other) {
+            return other.number == tool.number;
+        };
+        // The tool of a finish in the same operation has no limit.
+        const bool roughs = operation.tools.empty() ? is_it(operation.tool)
+                                                    : std::any_of(operation.tools.begin(),
+                                                                  operation.tools.end(), is_it);
+        if (!asked && operation.max_engagement && roughs) {
             least = std::min(least.value_or(*operation.max_engagement), *operation.max_engagement);
         }
     }

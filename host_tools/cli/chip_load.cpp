@@ -1,0 +1,270 @@
+// Wanted feeds at positions become stretches of one feed, stretches become parts of moves.
+#include "host_tools/cli/chip_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/cli/share_progress.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/verify/path_engagement.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::cli {
+
+using job::ChipLoad;
+using job::Job;
+using job::Operation;
+using toolpath::ArcPlane;
+using toolpath::ArcTo;
+using toolpath::end_of;
+using toolpath::LineTo;
+using toolpath::MachineRates;
+using toolpath::MoveKind;
+using toolpath::PlannedOperation;
+using toolpath::ToolMove;
+using toolpath::Toolpath;
+using toolpath::ToolShape;
+using verify::path_engagement;
+using verify::PathEngagement;
+using verify::StepKind;
+
+namespace {
+
+constexpr double kChange = 1.05;        // smaller changes of the feed are not written
+constexpr double kShortStretch = 0.25;  // radii: faster ones that are shorter are not worth a word
+constexpr double kSecondsPerMinute = 60.0;
+
+const Operation& operation_of(const Job& job, const PlannedOperation& planned)
+{
+    return *std::find_if(job.operations.begin(), job.operations.end(),
+                         [&](const Operation& o) { return o.number == planned.operation; });
+}
+
+// Positions [begin, end) with one feed.
+struct Stretch {
+    std::size_t begin;
+    std::size_t end;
+    double low;  // mm/min, of what its positions ask for
+    double high;
+    double length;  // mm
+};
+
+void join(Stretch& into, const Stretch& other)
+{
+    into.begin = std::min(into.begin, other.begin);
+    into.end = std::max(into.end, other.end);
+    into.low = std::min(into.low, other.low);
+    into.high = std::max(into.high, other.high);
+    into.length += other.length;
+}
+
+// Short stretches that are faster than a neighbour take its feed.
+std::vector<Stretch> without_short(std::vector<Stretch> all, double least)
+{
+    std::vector<Stretch> out;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const bool is_short = all[k].length < least;
+        if (is_short && !out.empty() && out.back().end == all[k].begin &&
+            out.back().low <= all[k].low) {
+            join(out.back(), all[k]);
+        } else if (is_short && k + 1 < all.size() && all[k].end == all[k + 1].begin &&
+                   all[k + 1].low <= all[k].low) {
+            join(all[k + 1], all[k]);
+        } else {
+            out.push_back(all[k]);
+        }
+    }
+    return out;
+}
+
+bool is_scaled(const ToolMove& move)
+{
+    return move.kind == MoveKind::kCut || move.kind == MoveKind::kLink;
+}
+
+// Stretches of a path's cuts and links.
+std::vector<Stretch> stretches_of(const Toolpath& path,
+                                  const PathEngagement& found,
+                                  const ChipLoad& limits)
+{
+    std::vector<Stretch> out;
+    for (std::size_t i = 1; i < found.run.kinds.size(); ++i) {
+        if (!is_scaled(path.moves[found.positions.lines[i]])) {
+            continue;
+        }
+        const bool enters = found.run.kinds[i] == StepKind::kEntry;
+        const double wanted =
+            enters ? path.feed
+                   : feed_by_load(path.feed, static_cast<double>(found.run.angles[i]), limits);
+        const Stretch next{i, i + 1, wanted, wanted,
+                           norm(found.positions.tips[i] - found.positions.tips[i - 1])};
+        if (!out.empty() && out.back().end == i &&
+            std::max(out.back().high, wanted) <= kChange * std::min(out.back().low, wanted)) {
+            join(out.back(), next);
+        } else {
+            out.push_back(next);
+        }
+    }
+    return without_short(std::move(out), kShortStretch * path.tool.radius);
+}
+
+// The part of a line or a plane arc that ends there. No value: it can't be divided.
+std::optional<ToolMove> part_to(const ToolMove& move, Vec3d end)
+{
+    if (std::holds_alternative<LineTo>(move.shape)) {
+        return ToolMove{move.kind, LineTo{end}, move.feed};
+    }
+    const auto* arc = std::get_if<ArcTo>(&move.shape);
+    if (arc != nullptr && arc->plane == ArcPlane::kXY) {
+        ArcTo part = *arc;
+        const Vec2d centre{arc->centre.x, arc->centre.y};
+        // Positions are on chords.
+        const Vec2d to = Vec2d{end.x, end.y} - centre;
+        const Vec2d last = Vec2d{arc->end.x, arc->end.y} - centre;
+        const double size = norm(last) / norm(to);
+        part.end = {centre.x + to.x * size, centre.y + to.y * size, end.z};
+        return ToolMove{move.kind, part, move.feed};
+    }
+    return std::nullopt;
+}
+
+struct FeedRange {
+    double low{kUnbounded};
+    double high{};
+    int changes{};
+};
+
+// Sets the feeds, dividing moves where stretches end inside them.
+FeedRange put_feeds(const PathEngagement& found, const ChipLoad& limits, Toolpath& path)
+{
+    const std::vector<Stretch> stretches = stretches_of(path, found, limits);
+    FeedRange range;
+    std::vector<ToolMove> moves;
+    std::size_t s = 0;
+    std::size_t position = 0;
+    double last = 0;
+    const auto add = [&](ToolMove move, double feed) {
+        // A change that is too small to be written.
+        if (last > 0 && feed <= kChange * last && last <= kChange * feed) {
+            feed = last;
+        }
+        range.changes += last > 0 && feed != last ? 1 : 0;
+        range.low = std::min(range.low, feed);
+        range.high = std::max(range.high, feed);
+        last = feed;
+        move.feed = feed;
+        moves.push_back(move);
+    };
+    for (std::size_t k = 0; k < path.moves.size(); ++k) {
+        const ToolMove& move = path.moves[k];
+        const std::size_t begin = position;
+        while (position < found.positions.lines.size() && found.positions.lines[position] == k) {
+            ++position;
+        }
+        while (s < stretches.size() && stretches[s].end <= begin) {
+            ++s;
+        }
+        if (!is_scaled(move) || s == stretches.size() || begin == position) {
+            moves.push_back(move);
+            continue;
+        }
+        double least = stretches[s].low;
+        std::size_t at = s;
+        for (; at < stretches.size() && stretches[at].end < position; ++at) {
+            const auto part = part_to(move, found.positions.tips[stretches[at].end - 1]);
+            if (part) {
+                add(*part, stretches[at].low);
+                least = stretches[at + 1].low;
+            } else {
+                least = std::min(least, stretches[at + 1].low);
+            }
+        }
+        add(move, least);
+    }
+    path.moves = std::move(moves);
+    return range;
+}
+
+void add_removal(const PathEngagement& found, double seconds, toolpath::OperationStats& stats)
+{
+    stats.counts.emplace_back("air_mm", found.air_mm);
+    stats.counts.emplace_back("removed_mm3", found.removed_mm3);
+    stats.counts.emplace_back("mean_removal_mm3_per_min",
+                              seconds > 0 ? found.removed_mm3 / seconds * kSecondsPerMinute : 0.0);
+}
+
+}  // namespace
+
+double feed_by_load(double feed, double degrees, const ChipLoad& limits)
+{
+    constexpr double kSlot = 0.5;  // of the feed
+    const double low = limits.feed_min.value_or(feed);
+    const double high = std::max(low, limits.feed_max.value_or(2 * feed));
+    const double share = degrees <= 90.0 ? 1.0 / std::max(1e-6, std::sin(degrees / 180.0 * kPi))
+                                         : 1.0 - (1.0 - kSlot) * (degrees - 90.0) / 90.0;
+    return std::clamp(feed * share, low, high);
+}
+
+bool wants_engagement(const Job& job)
+{
+    return std::any_of(job.operations.begin(), job.operations.end(), [](const Operation& o) {
+        return o.max_engagement.has_value() || o.chip_load.has_value();
+    });
+}
+
+void put_feeds_by_load(const Job& job,
+                       const MachineRates& rates,
+                       Plan& plan,
+                       const std::function<void()>& seconds)
+{
+    constexpr double kQuiet = 1.0;  // s
+    std::vector<const Toolpath*> paths;
+    for (const PlannedOperation& planned : plan.operations) {
+        paths.push_back(&planned.path);
+    }
+    std::vector<PathEngagement> found;
+    {
+        cancellation::set_work("looking for the engagement");
+        const ShareProgress progress{"engagement", kQuiet};
+        found = path_engagement(job, paths, progress);
+    }
+    seconds();
+    std::vector<double> before;
+    std::vector<FeedRange> ranges(plan.operations.size());
+    bool scaled = false;
+    for (std::size_t k = 0; k < plan.operations.size(); ++k) {
+        PlannedOperation& planned = plan.operations[k];
+        before.push_back(plan.measures[k].estimated_s);
+        const auto& limits = operation_of(job, planned).chip_load;
+        if (limits && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
+            ranges[k] = put_feeds(found[k], *limits, planned.path);
+            scaled = true;
+        }
+    }
+    if (scaled) {
+        Vec3d at{0, 0, job.stock_top + job.clearance};
+        for (std::size_t k = 0; k < plan.operations.size(); ++k) {
+            plan.measures[k] = measure(plan.operations[k].path, at, rates);
+            at = plan.measures[k].end;
+        }
+        seconds();
+    }
+    for (std::size_t k = 0; k < plan.operations.size(); ++k) {
+        toolpath::OperationStats& stats = plan.operations[k].stats;
+        if (operation_of(job, plan.operations[k]).max_engagement) {
+            add_removal(found[k], plan.measures[k].estimated_s, stats);
+        }
+        if (ranges[k].high > 0) {
+            stats.counts.emplace_back("chip_load_before_s", before[k]);
+            stats.counts.emplace_back("chip_load_after_s", plan.measures[k].estimated_s);
+            stats.counts.emplace_back("chip_load_feed_least", ranges[k].low);
+            stats.counts.emplace_back("chip_load_feed_most", ranges[k].high);
+            stats.counts.emplace_back("chip_load_feed_changes", ranges[k].changes);
+        }
+    }
+}
+
+}  // namespace cusp::cli

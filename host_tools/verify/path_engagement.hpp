@@ -1,0 +1,28 @@
+// Planned paths, before they are written: the engagement of their tools, and what they remove.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/verify/engagement_trace.hpp"
+#include "host_tools/verify/machined_stock.hpp"
+
+namespace cusp::verify {
+
+struct PathEngagement {
+    ToolPositions positions;  // `lines` are places of moves in the path
+    EngagementRun run;
+    double air_mm{};       // of feed moves that remove nothing
+    double removed_mm3{};  // by the path
+};
+
+// One for each path. They are cut one after the other from what the job's earlier programs leave, on
+// the grid and at the spacing of verify().
+//
+// paths  none is null; each starts with a rapid move
+//
+// Accuracy: as EngagementTrace.
+std::vector<PathEngagement> path_engagement(const job::Job& job,
+                                            const std::vector<const toolpath::Toolpath*>& paths,
+                                            const Progress& progress);
+
+}  // namespace cusp::verify

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Roughing of whole parts at a bounded engagement: beside the same job without it nothing stays that was cut, no cut is
+deeper, and `cusp verify` finds the angle that was asked for.
+
+usage: adaptive_levels_test.py CUSP [PARTS]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+PARTS = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2] / "examples/parts").resolve()
+JOB = """
+{tools}
+[cutting]
+feed = 1000
+[stock]
+top = {top}
+[[operation]]
+strategy = "{strategy}"
+floor = ["{part}"]
+max_depth = {depth}
+allowance = 0.3
+output = "arcs"
+{keys}
+"""
+FLAT12 = '[[tool]]\nshape = "flat"\ndiameter = 12\n'
+BULL12 = '[[tool]]\nshape = "bull"\ndiameter = 12\ncorner_radius = 2\n'
+BALL10 = '[[tool]]\nshape = "ball"\ndiameter = 10\n'
+FLAT5 = '[[tool]]\nnumber = 2\nshape = "flat"\ndiameter = 5\n'
+ANGLE = 70
+
+
+class AdaptiveLevels(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def cusp(self, status, *arguments):
+        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=900,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
+        return result.stdout
+
+    def job(self, **about):
+        part = PARTS / "chuang-pan-tap.json"
+        (self.folder / "job.toml").write_text(JOB.format(part=part, top=18.66666667, **about))
+
+    def planned(self, **about):
+        self.job(**about)
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "verify", "job.toml", "p.ngc", "--stats", "v.json")
+        plan, verified = (json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json"))
+        return plan["operations"], verified
+
+    def judge(self, strategy, tools, depth, keys="", measured=True):
+        _, plain = self.planned(strategy=strategy, tools=tools, depth=depth, keys=keys)
+        adaptive = keys + f'\nclearing = "adaptive"\nmax_engagement = {ANGLE}'
+        operations, found = self.planned(strategy=strategy, tools=tools, depth=depth, keys=adaptive)
+        self.assertGreater(found["removed_mm3"], 0.997 * plain["removed_mm3"])
+        self.assertLess(found["cut_depth_max_mm"], depth + 0.02)
+        roughing = [o for o in operations if "engagement_bound_deg" in o]
+        self.assertTrue(roughing)
+        for operation in roughing:
+            self.assertLessEqual(operation["engagement_bound_deg"], ANGLE + 1e-6)
+            self.assertLessEqual(operation["over_engagement_mm"], 1e-3 * operation["cut_length_mm"])
+            self.assertGreater(operation["mean_removal_mm3_per_min"], 0)
+        if measured:
+            # Level turns at the ends of helices are entries here, and cuts there.
+            entries = sum(o["entries"] for o in roughing) * 3.15 * 0.3 * 12
+            self.assertLess(found["over_engagement_mm"] - entries, 0.002 * plain["cut_length_mm"])
+
+    def test_hull_rough(self):
+        self.judge("hull_rough", FLAT12, 5, "extra_subdivision = 2")
+
+    def test_hull_rough_with_round_ends(self):
+        self.judge("hull_rough", BULL12, 4, "extra_subdivision = 2")
+        self.judge("hull_rough", BALL10, 3, "extra_subdivision = 2", measured=False)
+
+    def test_hull_rough_with_two_tools(self):
+        self.judge("hull_rough", FLAT12 + FLAT5, 4, "extra_subdivision = 2\ntools = [1, 2]")
+
+    def test_isocurves(self):
+        self.judge("adaptive_isocurve", FLAT12 + BALL10.replace("shape", "number = 3\nshape"), 5,
+                   "roughing = true\ntool = 3\ntools = [1]\nscallop = 0.5", measured=False)
+
+    def test_what_has_no_meaning_is_refused(self):
+        def refused(strategy, keys):
+            self.job(strategy=strategy, tools=FLAT12, depth=4, keys=keys)
+            return self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
+        adaptive = 'clearing = "adaptive"\n'
+        self.assertIn("overlap: does not go with", refused("hull_rough", adaptive + "overlap = 1"))
+        self.assertIn('clearing: "adaptive" needs roughing = true',
+                      refused("parallel_planes", adaptive + "scallop = 0.1"))
+        self.assertIn("max_engagement: needs clearing", refused("hull_rough", "max_engagement = 60"))
+        self.assertIn("max_engagement", refused("hull_rough", adaptive + "max_engagement = 170"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
