@@ -55,12 +55,7 @@ void CornerBlender::add(const path::Move& move, float jerk_time) noexcept
         held_ = next;
         release_front(*held_);
     } else {
-        StaticVector<path::Move, 4> shifted;
-        (void)shifted.try_push_back(next);
-        for (const path::Move& made : made_) {
-            (void)shifted.try_push_back(made);
-        }
-        made_ = shifted;
+        release_last(next);
     }
 }
 
@@ -75,12 +70,17 @@ void CornerBlender::release_front(path::Move& move) noexcept
     if (length < 2.0 * kept) {
         return;
     }
-    StaticVector<path::Move, 4> made;
-    (void)made.try_push_back(take_front(move, length - kept));
-    for (const path::Move& other : made_) {
-        (void)made.try_push_back(other);
+    release_last(take_front(move, length - kept));
+}
+
+// Behind what was made before.
+void CornerBlender::release_last(const path::Move& move) noexcept
+{
+    (void)made_.try_push_back(move);
+    for (std::size_t i = made_.size() - 1; i > 0; --i) {
+        made_[i] = made_[i - 1];
     }
-    made_ = made;
+    made_[0] = move;
 }
 
 // Compares the time over the blend, and over the travel to which its speed is spread, with that of

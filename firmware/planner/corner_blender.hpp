@@ -53,6 +53,7 @@ private:
                           float feed,
                           float deviation) const noexcept;
     void release_front(path::Move& move) noexcept;
+    void release_last(const path::Move& move) noexcept;
     bool blend(path::Move& before, path::Move& after) noexcept;
     bool join(path::Move& before, path::Move& after, float jerk_time) noexcept;
 

@@ -118,6 +118,7 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 
 // Fits a cubic over the lengths of the chords, or less where vertices are few. Returns by how much
 // a vertex leaves it at most, mm.
+// Over 60 lines: one recurrence over four arrays.
 float LineSmoother::fit_knot(std::size_t index,
                              std::size_t from,
                              std::size_t to,

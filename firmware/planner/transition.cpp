@@ -13,7 +13,7 @@ namespace cusp::planner {
 namespace {
 
 // A greater change of direction is a corner: 0.5 degrees.
-constexpr double kGreatestTurn = 0.0087;
+constexpr double kStraightTurn = 0.0087;
 // The piece leaves the joint by this much of dK times the square of half its length.
 constexpr double kDeviation = 0.01074;
 // Most of a move that one transition takes, and of an arc, radians.
@@ -23,7 +23,7 @@ constexpr double kGreatestAngle = 0.5;
 constexpr float kSlope = 1.125F / kTransitionJerkShare;
 
 // The piece's parameter is arc length within this, relative: its feed is lower by as much.
-constexpr float kSpeedError = 2e-3F;
+constexpr float kFeedError = 2e-3F;
 
 // A line or an arc by the length from its start.
 class Curve {
@@ -196,7 +196,7 @@ bool make_transition(path::Move& before,
     const Curve::Place start = second.at(0);
     const Vec3d jump = start.curvature - end.curvature;
     const double greatest = std::max(norm(start.curvature), norm(end.curvature));
-    if (norm(start.tangent - end.tangent) > kGreatestTurn || norm(jump) <= 0) {
+    if (norm(start.tangent - end.tangent) > kStraightTurn || norm(jump) <= 0) {
         return false;
     }
     const float feed = std::min(before.feed, after.feed);
@@ -218,7 +218,7 @@ bool make_transition(path::Move& before,
         const Position piece_end = to_position(to.at);
         const Vec3f chord = to_float(to_millimetres(piece_end - piece_start));
         path::Quintic quintic{};
-        if (!make_quintic(chord, end_of(from), end_of(to), kSpeedError, quintic) ||
+        if (!make_quintic(chord, end_of(from), end_of(to), kFeedError, quintic) ||
             !keeps_to(quintic, piece_start, chord, first, second, deviation)) {
             continue;
         }
@@ -227,7 +227,7 @@ bool make_transition(path::Move& before,
         piece.path = quintic;
         piece.start = piece_start;
         piece.end = piece_end;
-        piece.feed = feed * (1.0F - kSpeedError);
+        piece.feed = feed * (1.0F - kFeedError);
         keep_front(before, first.length() - reach, piece_start);
         cut_front(after, reach, piece_end);
         return true;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDeviation = 0.0045;
 
-struct Joint {
+struct Meeting {
     path::Move before;
     path::Move after;
 };
@@ -85,14 +85,14 @@ double distance(Vec3d p, const std::vector<Vec3d>& points)
 }
 
 // Line to arc, arc to line, or two arcs of any sense, with the kinks of rounded numbers.
-Joint random_joint(std::mt19937_64& random)
+Meeting random_joint(std::mt19937_64& random)
 {
     std::uniform_real_distribution<double> part{0, 1};
     const double radius = 1 + 30 * part(random);
     const double sweep = 0.3 + 1.2 * part(random);
     const double rise = random() % 3 == 0 ? part(random) : 0.0;
     const double kink = random() % 2 == 0 ? 5e-4 * part(random) : 0.0;
-    Joint joint;
+    Meeting joint;
     Vec3d tangent{1, 0, 0};
     if (random() % 2 == 0) {
         joint.before = move_from({});
@@ -126,7 +126,7 @@ TEST(Transitions, KeepToThePathAndMeetIt)
     std::mt19937_64 random{9101};
     unsigned made = 0;
     for (int k = 0; k < 300; ++k) {
-        const Joint joint = random_joint(random);
+        const Meeting joint = random_joint(random);
         path::Move before = joint.before;
         path::Move after = joint.after;
         path::Move piece;
