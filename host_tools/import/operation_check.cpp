@@ -87,7 +87,7 @@ void check_adaptive_levels(const JobTable& table, const Operation& operation)
     if (operation.strategy == "grid_pocket") {
         table.refuse(
             "clearing",
-            "\"adaptive\" is not for grid_pocket, whose layers follow the floor from cell to "
+            "grid_pocket does not have \"adaptive\": its layers follow the floor from cell to "
             "cell: rough with contour_pocket or hull_rough, then finish with grid_pocket");
     }
     if (operation.strategy != "hull_rough" && !operation.roughing) {

@@ -4,7 +4,7 @@
 //     job::add_earlier_program(job, top, "plate-top.ngc");   // cut before, in another set-up
 //
 // The stock is turned over about a line through the middle of its box, so it lies in the same box in
-// every set-up. docs/decisions/0012-one-program-a-set-up.md says why.
+// every set-up. docs/decisions/0014-one-program-a-set-up.md says why.
 #pragma once
 
 #include <array>
