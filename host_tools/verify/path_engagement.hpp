@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "host_tools/job/job.hpp"
 #include "host_tools/verify/engagement_trace.hpp"
 #include "host_tools/verify/machined_stock.hpp"
 
