@@ -79,11 +79,11 @@ int GoldenSender::run()
         const bool stands_still = chip_.exhausted() || (!done_ && tick_ == before);
         if (stands_still || tick_ > job_.most_ticks || !chip_.powered() ||
             chip_.core().locked_up()) {
-            const char* const why = chip_.exhausted()           ? "the core goes round in circles"
-                                    : stands_still              ? "no servo tick comes"
-                                    : !chip_.powered()          ? "the power is off"
+            const char* const why = chip_.exhausted()          ? "the core goes round in circles"
+                                    : stands_still             ? "no servo tick comes"
+                                    : !chip_.powered()         ? "the power is off"
                                     : chip_.core().locked_up() ? "the core is locked up"
-                                                                : "it lasts too long";
+                                                               : "it lasts too long";
             throw std::runtime_error{"the program does not come to its end: " + std::string{why} +
                                      ", line " + std::to_string(next_line_) + ", tick " +
                                      std::to_string(tick_) + ", heard: " + heard_};
