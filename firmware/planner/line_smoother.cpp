@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "firmware/base/assert.hpp"
 #include "firmware/planner/quintic.hpp"
@@ -116,6 +117,33 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
            kScale;
 }
 
+// nm: of the axis that travels farthest, from a vertex to the next.
+std::int32_t LineSmoother::travel(std::size_t line) const noexcept
+{
+    const Vec3<std::int32_t> d = vertices_[line + 1].at - vertices_[line].at;
+    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+}
+
+// How many lines before a vertex, and after it, a knot takes.
+std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
+{
+    std::size_t lines = 0;
+    for (std::int32_t sum = 0; lines < std::min(index, kBeyond) && sum < kKnotTravel; ++lines) {
+        sum += travel(index - lines - 1);
+    }
+    return lines;
+}
+
+std::size_t LineSmoother::knot_lines_after(std::size_t index) const noexcept
+{
+    const std::size_t most = std::min(vertices_.size() - 1 - index, kBeyond);
+    std::size_t lines = 0;
+    for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
+        sum += travel(index + lines);
+    }
+    return lines;
+}
+
 // Fits a cubic over the lengths of the chords, or less where vertices are few. Returns by how much
 // a vertex leaves it at most, mm.
 // Over 60 lines: one recurrence over four arrays.
@@ -201,10 +229,11 @@ float LineSmoother::fit_knot(std::size_t index,
 LineSmoother::Knot LineSmoother::knot_at(std::size_t index) const noexcept
 {
     const float allowed = kKnotShare * model_.tolerance;
-    const std::size_t last = vertices_.size() - 1;
+    const std::size_t before = knot_lines_before(index);
+    const std::size_t after = knot_lines_after(index);
     Knot knot;
-    std::size_t reach = kBeyond;
-    while (fit_knot(index, index - std::min(reach, index), std::min(index + reach, last), knot) >
+    std::size_t reach = std::max(before, after);
+    while (fit_knot(index, index - std::min(reach, before), index + std::min(reach, after), knot) >
                allowed &&
            reach > 1) {
         reach /= 2;
@@ -258,7 +287,9 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
     const bool ending = patience == Patience::kNone;
     const std::size_t lines = vertices_.empty() ? 0 : vertices_.size() - 1;
-    const bool waits = patience == Patience::kShort ? lines <= kBeyond : !vertices_.full();
+    // What knots at the last vertices may need.
+    const std::size_t beyond = lines == 0 ? 0 : knot_lines_before(lines);
+    const bool waits = patience == Patience::kShort ? lines <= beyond : !vertices_.full();
     if (lines == 0 || (!ending && waits)) {
         if (ending) {
             vertices_.clear();
@@ -270,7 +301,7 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
         has_start_ = true;
     }
     const std::size_t most =
-        ending ? std::min(lines, kMostLines) : std::min(lines - kBeyond, kMostLines);
+        ending ? std::min(lines, kMostLines) : std::min(lines - beyond, kMostLines);
     // The longest that fits, by doubling and then halving the step.
     std::size_t good = 0;
     Fit best{};

@@ -56,9 +56,11 @@ private:
         std::uint32_t line;
     };
     static constexpr std::size_t kVertices = 80;
-    // A piece replaces at most this many lines; knots need a few vertices beyond.
+    // A piece replaces at most this many lines. A knot takes vertices on either side: at most so
+    // many, and none beyond a travel of kKnotTravel, so that long lines need not wait for as many.
     static constexpr std::size_t kMostLines = 48;
     static constexpr std::size_t kBeyond = 16;
+    static constexpr std::int32_t kKnotTravel = 3'000'000;  // nm, of the axis that travels farthest
 
     // Where two pieces meet: the curve through the vertices around it.
     struct Knot {
@@ -72,6 +74,9 @@ private:
     };
 
     Vec3f between(std::size_t from, std::size_t to) const noexcept;
+    std::int32_t travel(std::size_t line) const noexcept;
+    std::size_t knot_lines_before(std::size_t index) const noexcept;
+    std::size_t knot_lines_after(std::size_t index) const noexcept;
     Knot knot_at(std::size_t index) const noexcept;
     float fit_knot(std::size_t index, std::size_t from, std::size_t to, Knot& knot) const noexcept;
     bool fit(std::size_t last, Fit& fit) const noexcept;
