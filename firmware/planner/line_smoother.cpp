@@ -287,21 +287,22 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
     const bool ending = patience == Patience::kNone;
     const std::size_t lines = vertices_.empty() ? 0 : vertices_.size() - 1;
+    if (ending && lines == 0) {
+        vertices_.clear();
+    }
+    if (lines == 0 || (patience == Patience::kFull && !vertices_.full())) {
+        return false;
+    }
     // What knots at the last vertices may need.
-    const std::size_t beyond = lines == 0 ? 0 : knot_lines_before(lines);
-    const bool waits = patience == Patience::kShort ? lines <= beyond : !vertices_.full();
-    if (lines == 0 || (!ending && waits)) {
-        if (ending) {
-            vertices_.clear();
-        }
+    const std::size_t beyond = ending ? 0 : knot_lines_before(lines);
+    if (lines <= beyond) {
         return false;
     }
     if (!has_start_) {
         start_ = knot_at(0);
         has_start_ = true;
     }
-    const std::size_t most =
-        ending ? std::min(lines, kMostLines) : std::min(lines - beyond, kMostLines);
+    const std::size_t most = std::min(lines - beyond, kMostLines);
     // The longest that fits, by doubling and then halving the step.
     std::size_t good = 0;
     Fit best{};
