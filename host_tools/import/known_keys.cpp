@@ -16,12 +16,13 @@ struct OperationKey {
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
 constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave, v_carve"};
 constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, v_carve, chamfer"};
+constexpr std::string_view kNoFloor{"pocket, profile, drill, face, v_carve, chamfer"};
 constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, v_carve, chamfer"};
 constexpr std::string_view kNoScallop{"profile, drill, face, engrave, chamfer"};
 constexpr std::string_view kLines{"drill, face, engrave, v_carve, chamfer"};
 constexpr OperationKey kOperationKeys[]{
     {"strategy", ""},
-    {"floor", "", kPrismatic},
+    {"floor", "", kNoFloor},
     {"intersect", "", kPrismatic},
     {"boundary", ""},
     {"islands", "", kAllButPocket},

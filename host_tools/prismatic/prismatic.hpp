@@ -36,7 +36,11 @@ std::vector<toolpath::PlannedOperation> plan_drill(const job::Job& job,
 std::vector<toolpath::PlannedOperation> plan_face(const job::Job& job,
                                                   const job::Operation& operation);
 
-// Moves the tip along every chain of curves, at the depth.
+// Moves the tip along every chain of curves, at the depth. With a floor it follows the surface: as far below
+// as the depth where the tip alone (toolpath/tool_tip.hpp), dropped on it, would stand, within the floor
+// tolerance. The flanks are not looked at.
+//
+// Errors: InputError where there is no floor under a curve, with the place.
 std::vector<toolpath::PlannedOperation> plan_engrave(const job::Job& job,
                                                      const job::Operation& operation);
 

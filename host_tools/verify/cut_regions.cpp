@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "host_tools/job/hole_depth.hpp"
 #include "host_tools/job/loop_shape.hpp"
+#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/toolpath/tool_tip.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
 namespace cusp::verify {
@@ -18,6 +23,7 @@ using job::NestedLoop;
 using job::Operation;
 using job::Prismatic;
 using job::ProfileSide;
+using toolpath::end_height;
 
 namespace {
 
@@ -32,6 +38,14 @@ double widest(const Operation& operation)
     return 2 * radius + operation.allowance + lead + cut.width;
 }
 
+// loop_polyline() closes what it is given, by the last point.
+std::vector<Vec2d> open_polyline(const Chain& chain)
+{
+    std::vector<Vec2d> line = loop_polyline(chain, kBoxChord / 10);
+    line.back() = in_plan(point_at(chain.back(), chain.back().domain_end()));
+    return line;
+}
+
 // A closed loop on an open chain: no line from its end to its start.
 Chain there_and_back(Chain chain)
 {
@@ -39,6 +53,42 @@ Chain there_and_back(Chain chain)
         chain.push_back(reversed(chain[k]));
     }
     return chain;
+}
+
+// What an engraving on a floor leaves: a stock cut by its tool, the tip wherever the curves say, as deep below
+// the surfaces as it has to be.
+std::vector<double> engraved_heights(const Operation& operation, const HeightGrid& grid)
+{
+    const toolpath::Tool tip = toolpath::tip_of(operation.tool);
+    const double spacing =
+        std::min(grid.pitch / 2, tip.radius > 0.01 ? tip.radius / 10 : grid.pitch / 4);
+    const part_model::PartModel model{operation.floor};
+    double top = -kUnbounded;
+    std::vector<ToolPositions> runs;
+    for (const Chain& chain : operation.prismatic->chains) {
+        ToolPositions run{operation.tool, {}, {}};
+        const std::vector<Vec2d> line = open_polyline(chain);
+        std::optional<double> guess;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const Vec2d way = line[i + 1] - line[i];
+            const int steps = std::max(1, static_cast<int>(std::ceil(norm(way) / spacing)));
+            for (int k = i == 0 ? 0 : 1; k <= steps; ++k) {
+                const Vec2d at = line[i] + (static_cast<double>(k) / steps) * way;
+                guess = model.drop_height(tip, at.x, at.y, guess);
+                if (guess) {
+                    run.tips.push_back({at.x, at.y, *guess - operation.prismatic->depth});
+                    top = std::max(top, *guess);
+                }
+            }
+        }
+        run.rapid.resize(run.tips.size(), false);
+        runs.push_back(std::move(run));
+    }
+    MachinedStock stock{grid, top + operation.prismatic->depth + end_height(operation.tool)};
+    for (const ToolPositions& run : runs) {
+        stock.cut(run, spacing, [](double) {});
+    }
+    return stock.heights();
 }
 
 }  // namespace
@@ -60,6 +110,9 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
         for (const Chain& chain : operation.prismatic->chains) {
             walls_.emplace_back(there_and_back(chain), true, cap_);
         }
+    }
+    if (operation.strategy == "engrave" && !operation.floor.empty()) {
+        heights_ = engraved_heights(operation, grid);
     }
     if (!operation.prismatic) {
         heights_ = part_heights(operation.floor, operation.mesh, grid).z;
@@ -173,6 +226,9 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
     }
     if (operation_->strategy == "engrave") {
         const double away = from_curves(x, y);
+        if (!heights_.empty()) {
+            return {radius - away, heights_[k]};
+        }
         return {radius - away, bottom + profile_height(operation_->tool, std::min(away, radius))};
     }
     if (operation_->strategy == "chamfer") {
