@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "firmware/base/assert.hpp"
 #include "firmware/planner/quintic.hpp"
