@@ -24,11 +24,13 @@ fi
 quietly() {
     log=$1
     shift
+    begin=$(date +%s)
     "$@" >"$log" 2>&1 || {
         tail -60 "$log"
         echo "failed: $*" >&2
         exit 1
     }
+    echo "  $(basename "$log" .log): $(($(date +%s) - begin)) s"
 }
 
 # run_tests PRESET [OPTION...]: adds to passed and failed

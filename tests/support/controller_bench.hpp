@@ -9,6 +9,12 @@
 
 namespace cusp {
 
+// Whether what the controller sent contains a text.
+inline bool has_text(const std::string& answers, const std::string& text)
+{
+    return answers.find(text) != std::string::npos;
+}
+
 class ControllerBench {
 public:
     explicit ControllerBench(const hal::MillGeometry& geometry = {},

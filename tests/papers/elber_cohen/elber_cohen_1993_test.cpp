@@ -5,21 +5,15 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
-#include "host_tools/import/import.hpp"
+#include "tests/support/example_parts.hpp"
 #include "tests/support/tube.hpp"
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;
-using namespace cusp::import;
 using namespace cusp::nurbs;
 using namespace cusp::test;
 
 namespace {
-
-Surface part(const char* name)
-{
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/" + name).front();
-}
 
 double length_on(const Surface& surface, const std::vector<DomainCurve>& curves)
 {
@@ -44,7 +38,7 @@ TEST_GROUP(ElberCohen1993){};
 
 TEST(ElberCohen1993, TheSurfaceOfFigure2Has61Curves)
 {
-    const Surface hourglass = part("elber-cohen-hourglass.json");
+    const Surface hourglass = example_part("elber-cohen-hourglass.json");
     LONGS_EQUAL(61, adaptive_isocurves(hourglass, 0, 2).size());
     LONGS_EQUAL(61, adaptive_isocurves(hourglass, 0, 1.9).size());
     LONGS_EQUAL(31, adaptive_isocurves(hourglass, 0, 4).size());
@@ -54,7 +48,7 @@ TEST(ElberCohen1993, TheSurfaceOfFigure2Has61Curves)
 
 TEST(ElberCohen1993, AdaptiveIsocurvesAreShorterThanCompleteOnes)
 {
-    const Surface hourglass = part("elber-cohen-hourglass.json");
+    const Surface hourglass = example_part("elber-cohen-hourglass.json");
     DOUBLES_EQUAL(2012, length_on(hourglass, adaptive_isocurves(hourglass, 0, 2)), 1);
     // 33 curves, as halving of the whole makes them
     DOUBLES_EQUAL(3497, length_on(hourglass, complete_isocurves(hourglass, 0, 1.9)), 1);
@@ -62,7 +56,7 @@ TEST(ElberCohen1993, AdaptiveIsocurvesAreShorterThanCompleteOnes)
 
 TEST(ElberCohen1993, NeighboursAreWithinDelta)
 {
-    const Surface knight = part("elber-cohen-knight.json");
+    const Surface knight = example_part("elber-cohen-knight.json");
     const auto curves = adaptive_isocurves(knight, 0, 3);
     for (int k = 0; k <= 50; ++k) {
         const double u = 0.02 * k;

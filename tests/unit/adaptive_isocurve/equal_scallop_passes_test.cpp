@@ -6,19 +6,14 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
+#include "tests/support/example_parts.hpp"
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;
-using namespace cusp::import;
 using namespace cusp::nurbs;
+using namespace cusp::test;
 
 namespace {
-
-Surface part(const char* name)
-{
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/" + name).front();
-}
 
 struct Measured {
     double length{};
@@ -69,13 +64,13 @@ TEST_GROUP(EqualScallopPasses){};
 
 TEST(EqualScallopPasses, KeepsNeighboursWithinTheStep)
 {
-    const Surface knight = part("elber-cohen-knight.json");
+    const Surface knight = example_part("elber-cohen-knight.json");
     CHECK(measure_passes(knight, passes_within(knight, 2)).widest <= 2);
 }
 
 TEST(EqualScallopPasses, IsAtMost1583mmOnTheHourglassUnderThePapersTest)
 {
-    const Surface hourglass = part("elber-cohen-hourglass.json");
+    const Surface hourglass = example_part("elber-cohen-hourglass.json");
     const Measured measured = measure_passes(hourglass, passes_within(hourglass, 2));
     CHECK(measured.widest <= 2);
     CHECK(measured.length <= 1583);

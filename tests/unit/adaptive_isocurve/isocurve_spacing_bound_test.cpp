@@ -7,28 +7,23 @@
 
 #include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
-#include "host_tools/import/import.hpp"
+#include "tests/support/example_parts.hpp"
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;
-using namespace cusp::import;
 using namespace cusp::nurbs;
 using namespace cusp::part_model;
+using namespace cusp::test;
 
 namespace {
 
-constexpr int kLooks = 5000;
-
-Surface part(const char* name)
-{
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/" + name).front();
-}
+constexpr int kSpacingLooks = 5000;
 
 double widest_seen(const Surface& s, const std::vector<DomainCurve>& curves)
 {
     double widest = 0;
-    for (int k = 0; k <= kLooks; ++k) {
-        const double u = s.u_begin() + (s.u_end() - s.u_begin()) * k / kLooks;
+    for (int k = 0; k <= kSpacingLooks; ++k) {
+        const double u = s.u_begin() + (s.u_end() - s.u_begin()) * k / kSpacingLooks;
         const std::vector<CurvePlace> across = places_at(curves, u);
         for (std::size_t j = 1; j < across.size(); ++j) {
             const double low = std::clamp(across[j - 1].v, s.v_begin(), s.v_end());
@@ -41,7 +36,7 @@ double widest_seen(const Surface& s, const std::vector<DomainCurve>& curves)
 
 void check_bound(const char* name, const std::vector<DomainCurve>& curves, double allowed)
 {
-    const Surface s = part(name);
+    const Surface s = example_part(name);
     const PartModel model{{s}};
     const double seen = widest_seen(s, curves);
     const double bound = IsocurveSpacingBound{s, model, 0}.over(curves, allowed);
@@ -55,14 +50,14 @@ TEST_GROUP(IsocurveSpacingBound){};
 
 TEST(IsocurveSpacingBound, HoldsForIsocurvesThatBeginAndEnd)
 {
-    const Surface s = part("elber-cohen-hourglass.json");
+    const Surface s = example_part("elber-cohen-hourglass.json");
     check_bound("elber-cohen-hourglass.json", adaptive_isocurves(s, 0, 2), 2);
 }
 
 TEST(IsocurveSpacingBound, HoldsForPassesThatFollowTheirNeighbours)
 {
     for (const char* name : {"elber-cohen-hourglass.json", "elber-cohen-knight.json"}) {
-        const Surface s = part(name);
+        const Surface s = example_part(name);
         const PartModel model{{s}};
         const auto at = [&](double u, double v) {
             return model.evaluate(0, u, v);
@@ -76,7 +71,7 @@ TEST(IsocurveSpacingBound, HoldsForPassesThatFollowTheirNeighbours)
 
 TEST(IsocurveSpacingBound, FindsNeighboursOfCurvesThatCross)
 {
-    const Surface s = part("elber-cohen-hourglass.json");
+    const Surface s = example_part("elber-cohen-hourglass.json");
     const double u0 = s.u_begin();
     const double u1 = s.u_end();
     const auto v_at = [&](double share) {
@@ -93,7 +88,7 @@ TEST(IsocurveSpacingBound, FindsNeighboursOfCurvesThatCross)
 
 TEST(IsocurveSpacingBound, CountsTheWayAlongTheSidesOfCurvesThatComeFromOutside)
 {
-    const Surface s = part("elber-cohen-hourglass.json");
+    const Surface s = example_part("elber-cohen-hourglass.json");
     const double u0 = s.u_begin();
     const double u1 = s.u_end();
     const double width = s.v_end() - s.v_begin();

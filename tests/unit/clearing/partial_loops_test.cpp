@@ -12,7 +12,7 @@ using namespace offset;
 
 namespace {
 
-Contour square(double half)
+Contour centred_square(double half)
 {
     const Vec2d a{-half, -half};
     const Vec2d b{half, -half};
@@ -24,11 +24,12 @@ Contour square(double half)
 // One loop at half a step and its partial loop over 4 mm of the lower side.
 ClearedRegion one_loop(CutDirection direction)
 {
-    const RegionOffset walls{{{square(20.0)}}};
+    const RegionOffset walls{{{centred_square(20.0)}}};
     ClearedRegion cleared;
     cleared.direction = direction;
     ClearingPass pass;
-    pass.path = direction == CutDirection::kClimb ? square(17.0) : reversed(square(17.0));
+    pass.path =
+        direction == CutDirection::kClimb ? centred_square(17.0) : reversed(centred_square(17.0));
     cleared.passes = {pass};
     cleared.partial = loops_over({line_edge({-2.0, -17.0}, {2.0, -17.0})}, walls, 3.0, 4.0, 0.5);
     return cleared;
@@ -58,8 +59,8 @@ TEST(PartialLoops, LieStraightInwardFromTheirFeet)
 
 TEST(PartialLoops, OverMostOfALoopAreTheLoop)
 {
-    const RegionOffset walls{{{square(20.0)}}};
-    const Contour level = square(17.0);
+    const RegionOffset walls{{{centred_square(20.0)}}};
+    const Contour level = centred_square(17.0);
     const std::vector<PartialLoop> loops =
         loops_over({level[0], level[1], level[2]}, walls, 3.0, 4.0, 0.5);
     LONGS_EQUAL(1, loops.size());

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kAccuracy = 2e-3;
 constexpr double kHole = 0.25;
-constexpr double kRadius = 3.0;
+constexpr double kToolRadius = 3.0;
 constexpr double kAround = 7.5;  // mm: distance of the rim from the middle, about
 
 // Samples of the floor: a grid, and the rim twenty times as dense.
@@ -82,7 +82,8 @@ double distance_to_way(const std::vector<Vec3d>& places, Vec3d a, Vec3d b)
 Vec2d near_rim(std::mt19937& random)
 {
     std::uniform_real_distribution<double> turn{0.0, 6.28318530717958648};
-    std::uniform_real_distribution<double> away{kAround - 1.1 * kRadius, kAround + 0.5 * kRadius};
+    std::uniform_real_distribution<double> away{kAround - 1.1 * kToolRadius,
+                                                kAround + 0.5 * kToolRadius};
     const double angle = turn(random);
     return Vec2d{15.0, 15.0} + Vec2d{std::cos(angle), std::sin(angle)} * away(random);
 }
@@ -97,9 +98,9 @@ TEST_GROUP(TrimmedFloor)
 TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
 {
     constexpr double kBetween = 2e-3;  // mm: error by the distance of samples
-    for (const Tool& tool :
-         {Tool{1, ToolShape::kBall, kRadius, kRadius}, Tool{1, ToolShape::kBull, kRadius, 1.0},
-          Tool{1, ToolShape::kFlat, kRadius, 0.0}}) {
+    for (const Tool& tool : {Tool{1, ToolShape::kBall, kToolRadius, kToolRadius},
+                             Tool{1, ToolShape::kBull, kToolRadius, 1.0},
+                             Tool{1, ToolShape::kFlat, kToolRadius, 0.0}}) {
         const DropCutter tips{floor, tool, kAccuracy};
         for (int i = 0; i < 60; ++i) {
             const Vec2d at = near_rim(random);
@@ -113,16 +114,16 @@ TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
 // Moves that slide over the rim touch it all along: they are examined without being halved.
 TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
 {
-    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};
     const DropCutter tips{floor, ball, kAccuracy};
     std::uniform_real_distribution<double> share{-1.0, 1.0};
     for (int i = 0; i < 60; ++i) {
         const Vec2d from = near_rim(random);
-        const Vec2d to = from + Vec2d{share(random), share(random)} * (0.2 * kRadius);
+        const Vec2d to = from + Vec2d{share(random), share(random)} * (0.2 * kToolRadius);
         const Vec3d a{from.x, from.y, tips.tip_height(from) + 0.05 * share(random)};
         const Vec3d b{to.x, to.y, tips.tip_height(to) + 0.05 * share(random)};
-        const Vec3d up{0.0, 0.0, kRadius};
-        const double room = std::min(0.0, distance_to_way(places, a + up, b + up) - kRadius);
+        const Vec3d up{0.0, 0.0, kToolRadius};
+        const double room = std::min(0.0, distance_to_way(places, a + up, b + up) - kToolRadius);
         const double gap = tips.move_clearance(a, b);
         CHECK(gap <= room + 1e-9);
         CHECK(gap >= 1.2 * room - 2.0 * kAccuracy);
@@ -132,22 +133,24 @@ TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
 // The sheet is the top of solid material: a ball on the plate cannot reach below the rim.
 TEST(TrimmedFloor, LeavesNoPathUnderItsRim)
 {
-    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};
     const DropCutter tips{floor, ball, kAccuracy};
-    constexpr double kLow = 0.01;  // mm
+    constexpr double kLowLevel = 0.01;  // mm
     int under = 0;
     for (int i = 0; i < 60; ++i) {
         const Vec2d way{std::cos(0.1 * i), std::sin(0.1 * i)};
-        const Vec2d from = Vec2d{15.0, 15.0} + way * (kAround - kRadius - 1.0);
-        const Vec2d to = Vec2d{15.0, 15.0} + way * (kAround - kRadius + 0.3);
+        const Vec2d from = Vec2d{15.0, 15.0} + way * (kAround - kToolRadius - 1.0);
+        const Vec2d to = Vec2d{15.0, 15.0} + way * (kAround - kToolRadius + 0.3);
         double cut = 0.0;
         for (const Vec3d& p : places) {
             const double away = std::hypot(p.x - to.x, p.y - to.y);
-            cut = p.z > kLow + kRadius ? std::max(cut, kRadius - away) : cut;
+            cut = p.z > kLowLevel + kToolRadius ? std::max(cut, kToolRadius - away) : cut;
         }
         under += cut > 0.0 ? 1 : 0;
-        CHECK(tips.move_clearance({from.x, from.y, kLow}, {to.x, to.y, kLow}) <= 1e-3 - cut);
-        CHECK(tips.move_clearance({to.x, to.y, kLow}, {to.x, to.y, kLow + 0.5}) <= 1e-3 - cut);
+        CHECK(tips.move_clearance({from.x, from.y, kLowLevel}, {to.x, to.y, kLowLevel}) <=
+              1e-3 - cut);
+        CHECK(tips.move_clearance({to.x, to.y, kLowLevel}, {to.x, to.y, kLowLevel + 0.5}) <=
+              1e-3 - cut);
     }
     CHECK(under > 20);
 }
@@ -156,7 +159,7 @@ TEST(TrimmedFloor, LeavesNoPathUnderItsRim)
 // accuracy.
 TEST(TrimmedFloor, EndsAtASmoothRim)
 {
-    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};
     const DropCutter tips{floor, ball, kAccuracy};
     constexpr double kCliff = 1.0;  // mm
     for (int i = 0; i < 100; ++i) {
@@ -176,7 +179,7 @@ TEST(TrimmedFloor, EndsAtASmoothRim)
                 nearest = std::min(nearest, std::hypot(p.x - place(high).x, p.y - place(high).y));
             }
         }
-        DOUBLES_EQUAL(kRadius, nearest, 2e-3);
+        DOUBLES_EQUAL(kToolRadius, nearest, 2e-3);
     }
 }
 

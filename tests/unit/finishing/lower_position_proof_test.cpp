@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRadius = 3;
 constexpr double kTolerance = 0.01;
-constexpr double kSide = 12;  // mm
+constexpr double kBowlSide = 12;  // mm
 constexpr double kFine = 0.06;
 
 using Mesh = std::vector<std::array<Vec3d, 3>>;
@@ -29,12 +29,12 @@ using Mesh = std::vector<std::array<Vec3d, 3>>;
 Mesh rough_bowl(double pitch, double noise, std::mt19937& random)
 {
     std::normal_distribution<double> off{0, noise};
-    const int count = static_cast<int>(kSide / pitch);
+    const int count = static_cast<int>(kBowlSide / pitch);
     std::vector<Vec3d> corners;
     for (int i = 0; i <= count; ++i) {
         for (int j = 0; j <= count; ++j) {
-            const double x = i * pitch - kSide / 2;
-            const double y = j * pitch - kSide / 2;
+            const double x = i * pitch - kBowlSide / 2;
+            const double y = j * pitch - kBowlSide / 2;
             corners.push_back({x, y, 0.04 * (x * x + y * y) + off(random)});
         }
     }

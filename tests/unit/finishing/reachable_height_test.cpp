@@ -19,8 +19,8 @@ using namespace cusp::toolpath;
 
 namespace {
 
-constexpr double kRadius = 2;
-constexpr double kTolerance = 0.02;
+constexpr double kToolRadius = 2;
+constexpr double kReachTolerance = 0.02;
 constexpr double kFloor = -1;
 constexpr double kAccuracy = 1e-4;
 constexpr double kClose = 2e-3;  // mm: allowed error of a search
@@ -51,23 +51,23 @@ struct Step {
     // depth, along its normal.
     double middle(double x, bool clear_of_rim) const
     {
-        double z = kFloor + kRadius;
-        const double on_face = (kRadius + x * leaning) / upright;
+        double z = kFloor + kToolRadius;
+        const double on_face = (kToolRadius + x * leaning) / upright;
         if (x * upright + on_face * leaning >= 0) {
             z = std::max(z, on_face);
-        } else if (std::abs(x) < kRadius) {
-            z = std::max(z, std::sqrt(kRadius * kRadius - x * x));
+        } else if (std::abs(x) < kToolRadius) {
+            z = std::max(z, std::sqrt(kToolRadius * kToolRadius - x * x));
         }
         const auto free = [&](double at) {
             const double away = std::hypot(x, at);
             const double up = std::max(1e-3, at / away);
-            return away + band.max_gouge * up / upright >= kRadius + 1.05 * band.half_width;
+            return away + band.max_gouge * up / upright >= kToolRadius + 1.05 * band.half_width;
         };
         if (!clear_of_rim || free(z)) {
             return z;
         }
         double low = z;
-        double high = 2 * kRadius;
+        double high = 2 * kToolRadius;
         while (high - low > 1e-9) {
             (free(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
         }
@@ -78,10 +78,10 @@ struct Step {
     {
         double least = std::numeric_limits<double>::infinity();
         constexpr double kStep = 1e-4;
-        for (double off = -kRadius; off < kRadius; off += kStep) {
+        for (double off = -kToolRadius; off < kToolRadius; off += kStep) {
             const double x = place.x + off;
-            least =
-                std::min(least, middle(x, clear_of_rim) - std::sqrt(kRadius * kRadius - off * off));
+            least = std::min(
+                least, middle(x, clear_of_rim) - std::sqrt(kToolRadius * kToolRadius - off * off));
         }
         return least;
     }
@@ -89,8 +89,8 @@ struct Step {
     double upright;
     double leaning;
     std::vector<Surface> surfaces;
-    Tool tool{1, ToolShape::kBall, kRadius, kRadius};
-    ToleranceBand band{make_tolerance_band(kTolerance, false)};
+    Tool tool{1, ToolShape::kBall, kToolRadius, kToolRadius};
+    ToleranceBand band{make_tolerance_band(kReachTolerance, false)};
     PartModel model{surfaces};
     GougeFreePathFitter path_fitter{model, tool, band};
 };

@@ -15,7 +15,7 @@ using namespace cusp::part_model;
 
 namespace {
 
-constexpr double kRadius = 10;
+constexpr double kBarRadius = 10;
 constexpr double kPitch = 0.3;
 
 // A half pipe along x, open to the left: from its top over the side to its bottom.
@@ -30,11 +30,11 @@ Surface pipe()
     s.size_u = 2;
     s.size_v = 5;
     for (const double x : {0.0, 20.0}) {
-        for (const auto& [y, z] : {std::pair{0.0, kRadius},
-                                   {kRadius, kRadius},
-                                   {kRadius, 0.0},
-                                   {kRadius, -kRadius},
-                                   {0.0, -kRadius}}) {
+        for (const auto& [y, z] : {std::pair{0.0, kBarRadius},
+                                   {kBarRadius, kBarRadius},
+                                   {kBarRadius, 0.0},
+                                   {kBarRadius, -kBarRadius},
+                                   {0.0, -kBarRadius}}) {
             s.points.push_back({x, y, z});
         }
         s.weights.insert(s.weights.end(), {1, weight, 1, weight, 1});
@@ -45,7 +45,7 @@ Surface pipe()
 Vec3d on_pipe(double degrees)
 {
     const double angle = degrees * std::acos(-1.0) / 180;
-    return {7, kRadius * std::cos(angle), kRadius * std::sin(angle)};
+    return {7, kBarRadius * std::cos(angle), kBarRadius * std::sin(angle)};
 }
 
 }  // namespace

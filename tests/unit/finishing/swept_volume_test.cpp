@@ -15,7 +15,7 @@ using namespace cusp::finishing;
 
 namespace {
 
-constexpr double kRadius = 2;
+constexpr double kSweptRadius = 2;
 constexpr int kBalls = 4000;  // along a move
 
 double lowest_by_balls(const std::vector<Vec3d>& tips, double x, double y)
@@ -26,9 +26,9 @@ double lowest_by_balls(const std::vector<Vec3d>& tips, double x, double y)
             const double share = static_cast<double>(i) / kBalls;
             const Vec3d tip = tips[k - 1] * (1 - share) + tips[k] * share;
             const double square =
-                kRadius * kRadius - (tip.x - x) * (tip.x - x) - (tip.y - y) * (tip.y - y);
+                kSweptRadius * kSweptRadius - (tip.x - x) * (tip.x - x) - (tip.y - y) * (tip.y - y);
             if (square >= 0) {
-                least = std::min(least, tip.z + kRadius - std::sqrt(square));
+                least = std::min(least, tip.z + kSweptRadius - std::sqrt(square));
             }
         }
     }
@@ -50,7 +50,7 @@ TEST(SweptVolume, LeaveWhatTheLowestOfAllBallsLeaves)
         for (int k = 0; k < 12; ++k) {
             tips.push_back({plan(random), plan(random), height(random)});
         }
-        SweptVolume swept{kRadius, reach};
+        SweptVolume swept{kSweptRadius, reach};
         swept.add(tips);
         for (int k = 0; k < 60; ++k) {
             const double x = plan(random);
@@ -68,7 +68,7 @@ TEST(SweptVolume, LeaveWhatTheLowestOfAllBallsLeaves)
 
 TEST(SweptVolume, LeaveNothingFreeBesideThem)
 {
-    SweptVolume swept{kRadius, 0.5};
+    SweptVolume swept{kSweptRadius, 0.5};
     CHECK(std::isinf(swept.lowest(0, 0).height));
     swept.add({{0, 0, 1}, {10, 0, 1}});
     CHECK(std::isinf(swept.lowest(5, 2.01).height));
@@ -86,7 +86,7 @@ TEST(SweptVolume, RemoveWhatTheShankPasses)
     for (int k = 0; k < 300; ++k) {
         const std::vector<Vec3d> tips{{at(random), at(random), at(random)},
                                       {at(random), at(random), at(random)}};
-        SweptVolume swept{kRadius, 0.5};
+        SweptVolume swept{kSweptRadius, 0.5};
         swept.add(tips);
         const Vec3d p{at(random), at(random), at(random) + 2};
         const double lowest = swept.lowest(p.x, p.y).height;

@@ -7,16 +7,16 @@
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/job/loop_shape.hpp"
+#include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::import;
 using namespace cusp::job;
+using namespace cusp::test;
 
 namespace {
-
-const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 std::string line(const std::string& from, const std::string& to)
 {
@@ -63,24 +63,24 @@ TEST_GROUP(GeometryJson)
 
 TEST(GeometryJson, ReadsTheBoundaryOfThePocketCounterClockwise)
 {
-    const Loop loop = read_loop(kParts + "suh-lee-boundary.json");
+    const Loop loop = read_loop(kExampleParts + "suh-lee-boundary.json");
     LONGS_EQUAL(12, loop.size());
     CHECK(signed_area(loop_polyline(loop, 0.01)) > 0);
 }
 
 TEST(GeometryJson, ReadsEveryReplicaPart)
 {
-    LONGS_EQUAL(1, read_surfaces(kParts + "suh-lee-floor.json").size());
-    LONGS_EQUAL(7, read_surfaces(kParts + "elber-cohen-house-on-the-hill.json").size());
-    LONGS_EQUAL(1, read_surfaces(kParts + "chuang-pan-tap.json").size());
-    LONGS_EQUAL(8, read_loop(kParts + "suh-lee-island.json").size());
-    LONGS_EQUAL(9, read_loop(kParts + "choi-polygon-boundary.json").size());
+    LONGS_EQUAL(1, read_surfaces(kExampleParts + "suh-lee-floor.json").size());
+    LONGS_EQUAL(7, read_surfaces(kExampleParts + "elber-cohen-house-on-the-hill.json").size());
+    LONGS_EQUAL(1, read_surfaces(kExampleParts + "chuang-pan-tap.json").size());
+    LONGS_EQUAL(8, read_loop(kExampleParts + "suh-lee-island.json").size());
+    LONGS_EQUAL(9, read_loop(kExampleParts + "choi-polygon-boundary.json").size());
 }
 
 TEST(GeometryJson, ScalesInchesToMillimetres)
 {
-    const auto inch = read_surfaces(kParts + "choi-polygon-floor.json", 25.4);
-    const auto unitless = read_surfaces(kParts + "choi-polygon-floor.json");
+    const auto inch = read_surfaces(kExampleParts + "choi-polygon-floor.json", 25.4);
+    const auto unitless = read_surfaces(kExampleParts + "choi-polygon-floor.json");
     DOUBLES_EQUAL(25.4 * unitless[0].points[5].x, inch[0].points[5].x, 1e-12);
     DOUBLES_EQUAL(25.4 * unitless[0].points[5].z, inch[0].points[5].z, 1e-12);
 }

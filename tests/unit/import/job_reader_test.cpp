@@ -7,6 +7,7 @@
 
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
+#include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -14,10 +15,9 @@ using namespace cusp;
 using namespace cusp::import;
 using namespace cusp::job;
 using namespace cusp::nurbs;
+using namespace cusp::test;
 
 namespace {
-
-const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 const std::string kHead = R"(units = "mm"
 [tool]
@@ -35,9 +35,9 @@ clearance = 5.0
 
 std::string pocket(const std::string& more = "")
 {
-    return "[[operation]]\nstrategy = \"contour_pocket\"\nfloor = [\"" + kParts +
-           "suh-lee-floor.json\"]\nboundary = \"" + kParts +
-           "suh-lee-boundary.json\"\nislands = [\"" + kParts + "suh-lee-island.json\"]\n" +
+    return "[[operation]]\nstrategy = \"contour_pocket\"\nfloor = [\"" + kExampleParts +
+           "suh-lee-floor.json\"]\nboundary = \"" + kExampleParts +
+           "suh-lee-boundary.json\"\nislands = [\"" + kExampleParts + "suh-lee-island.json\"]\n" +
            (more.find("scallop") == std::string::npos ? "scallop = 0.4\n" : "") + more;
 }
 
@@ -83,10 +83,10 @@ TEST(JobReader, IntersectsTheFloor)
     const std::string hills =
         "[[operation]]\nstrategy = \"adaptive_isocurve\"\nscallop = 0.4\n"
         "floor = [\"" +
-        kParts + "sine-hills.json\"]\n";
+        kExampleParts + "sine-hills.json\"]\n";
     const Operation whole = read(kHead + hills).operations[0];
     const Operation cut =
-        read(kHead + hills + "intersect = \"" + kParts + "dome-lid.json\"\n").operations[0];
+        read(kHead + hills + "intersect = \"" + kExampleParts + "dome-lid.json\"\n").operations[0];
     CHECK(whole.intersect_files.empty());
     LONGS_EQUAL(1, cut.intersect_files.size());
     // the lid comes last, and something is cut off it
@@ -138,7 +138,7 @@ TEST(JobReader, TurnsInchesIntoMillimetresEverywhere)
         "spindle = 8000\n[stock]\ntop = 0.5\nclearance = 0.2\nbottom = -2\n"
         "x = [0, 4]\ny = [-1, 4]\n[[operation]]\nstrategy = \"grid_pocket\"\n"
         "floor = \"" +
-        kParts + "choi-polygon-floor.json\"\nboundary = \"" + kParts +
+        kExampleParts + "choi-polygon-floor.json\"\nboundary = \"" + kExampleParts +
         "choi-polygon-boundary.json\"\ngrid = [0.125, 0.0625]\n"
         "max_arc_radius = 10\nzigzag = [\"x\", \"y\"]\nlayers = [0.25, 1]\n"
         "max_depth = 0.5\nallowance = 0.01\n";
@@ -172,7 +172,8 @@ TEST(JobReader, ReadsTheChoiceOfTools)
         "[[tool]]\nnumber = 1\nshape = \"flat\"\ndiameter = 20\n[[tool]]\nnumber = 2\n"
         "shape = \"flat\"\ndiameter = 12\n[cutting]\nfeed = 1000\n[[operation]]\n"
         "strategy = \"hull_rough\"\nfloor = [\"" +
-        kParts + "chuang-pan-tap.json\"]\nmax_depth = 2\nmin_depth = 1\ntools = [1, 2]\ntool = 2\n";
+        kExampleParts +
+        "chuang-pan-tap.json\"]\nmax_depth = 2\nmin_depth = 1\ntools = [1, 2]\ntool = 2\n";
     const Operation operation = read(text).operations.at(0);
     LONGS_EQUAL(2, operation.tools.size());
     DOUBLES_EQUAL(6, operation.tool.radius, 0);
@@ -182,8 +183,9 @@ TEST(JobReader, ReadsTheChoiceOfTools)
 TEST(JobReader, RefusesAChoiceOfToolsThatIsEmptyBrokenOrDouble)
 {
     const auto choice = [&](const std::string& tools) {
-        return refused(kHead + "[[operation]]\nstrategy = \"hull_rough\"\nfloor = [\"" + kParts +
-                       "chuang-pan-tap.json\"]\nmax_depth = 2\ntools = " + tools + "\n");
+        return refused(kHead + "[[operation]]\nstrategy = \"hull_rough\"\nfloor = [\"" +
+                       kExampleParts + "chuang-pan-tap.json\"]\nmax_depth = 2\ntools = " + tools +
+                       "\n");
     };
     STRCMP_CONTAINS("tools: names no tool", choice("[]").c_str());
     STRCMP_CONTAINS("tools: holds 1.5, whole numbers are needed", choice("[1.5]").c_str());
@@ -370,7 +372,7 @@ TEST(JobReader, RefusesAnOperationWithoutWhatItNeeds)
                     refused(kHead +
                             "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\n"
                             "floor = \"" +
-                            kParts + "suh-lee-floor.json\"\n")
+                            kExampleParts + "suh-lee-floor.json\"\n")
                         .c_str());
     STRCMP_CONTAINS("operation: is missing", refused(kHead).c_str());
 }
@@ -382,8 +384,8 @@ TEST(JobReader, RefusesAnIslandOutsideTheBoundary)
         "control_points": {"points": [[500, 500], [510, 500], [505, 510], [500, 500]]}}]}})";
     const std::string island = folder.with("island.json", square);
     const std::string text =
-        "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\nfloor = \"" + kParts +
-        "suh-lee-floor.json\"\nboundary = \"" + kParts +
+        "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\nfloor = \"" + kExampleParts +
+        "suh-lee-floor.json\"\nboundary = \"" + kExampleParts +
         "suh-lee-boundary.json\"\nislands = [\"island.json\"]\n";
     STRCMP_CONTAINS("the island lies outside the boundary", refused(kHead + text).c_str());
 }

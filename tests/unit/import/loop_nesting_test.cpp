@@ -19,7 +19,7 @@ using cusp::job::OpenChain;
 
 namespace {
 
-std::vector<Curve> square(double low, double high)
+std::vector<Curve> square_curves(double low, double high)
 {
     return loop_of({{low, low}, {high, low}, {high, high}, {low, high}});
 }
@@ -50,9 +50,9 @@ TEST(LoopNesting, AnIslandInAHoleInAPlateIsThreeDeep)
 {
     // in disorder, one side turned, two holes beside each other
     std::vector<Curve> curves = joined({{import::arc_curve({20, 20}, 2, 0, 2 * kPi)},
-                                        square(10, 40),
+                                        square_curves(10, 40),
                                         {import::arc_curve({70, 70}, 8, 0, 2 * kPi)},
-                                        square(0, 100)});
+                                        square_curves(0, 100)});
     std::swap(curves[2], curves[7]);
     curves[3] = reversed(curves[3]);
     const LoopNesting found = nest_loops(curves);
@@ -70,7 +70,7 @@ TEST(LoopNesting, AnIslandInAHoleInAPlateIsThreeDeep)
 
 TEST(LoopNesting, AnOpenChainNamesItsEndsAndTheGap)
 {
-    std::vector<Curve> curves = square(0, 10);
+    std::vector<Curve> curves = square_curves(0, 10);
     curves.back().points.back() = {0, 0.5, 0};  // stops short of the corner
     std::rotate(curves.begin(), curves.begin() + 2, curves.end());
     const LoopNesting found = nest_loops(curves);
@@ -86,7 +86,7 @@ TEST(LoopNesting, AnOpenChainNamesItsEndsAndTheGap)
 
 TEST(LoopNesting, GapsUpToTheToleranceAreJoinedAndCounted)
 {
-    std::vector<Curve> curves = square(0, 10);
+    std::vector<Curve> curves = square_curves(0, 10);
     curves.back().points.back() = {0, 0.015, 0};
     const LoopNesting found = nest_loops(curves, 0.02);
     UNSIGNED_LONGS_EQUAL(1, found.loops.size());
@@ -109,7 +109,7 @@ TEST(LoopNesting, TheGapIsToTheNearestChain)
 
 TEST(LoopNesting, WhatIsDrawnTwiceCountsOnce)
 {
-    std::vector<Curve> curves = square(0, 10);
+    std::vector<Curve> curves = square_curves(0, 10);
     curves.push_back(reversed(curves[1]));
     curves.push_back(curves[3]);
     const LoopNesting found = nest_loops(curves);
@@ -124,6 +124,6 @@ TEST(LoopNesting, CrossingsAreNamed)
     UNSIGNED_LONGS_EQUAL(1, bow.loops.size());
     CHECK(bow.loops[0].crossing.has_value());
     CHECK(!bow.crossing);
-    const LoopNesting two = nest_loops(joined({square(0, 10), square(5, 15)}));
+    const LoopNesting two = nest_loops(joined({square_curves(0, 10), square_curves(5, 15)}));
     CHECK(two.crossing.has_value());
 }

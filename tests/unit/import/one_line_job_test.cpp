@@ -8,6 +8,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/import/import.hpp"
+#include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,10 +17,9 @@
 using namespace cusp;
 using namespace cusp::import;
 using namespace cusp::job;
+using namespace cusp::test;
 
 namespace {
-
-const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 // A plane from (0, 0) to (60, 40), from z = a at x = 0 to z = b.
 std::string ramp(double a, double b)
@@ -185,9 +185,9 @@ TEST(OneLineJob, InInchesHasRoundNumbersOfInches)
 TEST(OneLineJob, WithABoundaryIsAPocket)
 {
     OneLineRequest asked;
-    asked.parts = {kParts + "suh-lee-floor.json"};
-    asked.boundary = kParts + "suh-lee-boundary.json";
-    asked.islands = {kParts + "suh-lee-island.json"};
+    asked.parts = {kExampleParts + "suh-lee-floor.json"};
+    asked.boundary = kExampleParts + "suh-lee-boundary.json";
+    asked.islands = {kExampleParts + "suh-lee-island.json"};
     asked.tools = {"flat:10", "ball:12"};
     asked.scallop = 0.4;
     const Job job = job_of(asked);

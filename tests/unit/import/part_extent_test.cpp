@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/import/import.hpp"
+#include "tests/support/example_parts.hpp"
 #include "tests/support/plates.hpp"
 
 using namespace cusp;
@@ -14,8 +15,6 @@ using namespace cusp::nurbs;
 using namespace cusp::test;
 
 namespace {
-
-const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 void check_near(Vec3d expected, Vec3d found, double tolerance)
 {
@@ -37,7 +36,7 @@ TEST(PartExtent, OfSurfacesHoldsAllOfThem)
 
 TEST(PartExtent, OfACurvedSurfaceIsThatOfItsPointsNotOfItsControlPoints)
 {
-    const std::vector<Surface> hills = read_surfaces(kParts + "sine-hills.json");
+    const std::vector<Surface> hills = read_surfaces(kExampleParts + "sine-hills.json");
     double highest = -1e9;
     double lowest = 1e9;
     for (int i = 0; i <= 400; ++i) {

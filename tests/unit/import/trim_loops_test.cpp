@@ -27,7 +27,7 @@ Surface unit_square()
 }
 
 // A closed polygon of degree 1, counter-clockwise.
-Curve square(double low, double high)
+Curve square_loop(double low, double high)
 {
     return {1,
             {0, 0, 1, 2, 3, 4, 4},
@@ -42,7 +42,7 @@ TEST_GROUP(TrimLoops){};
 TEST(TrimLoops, PutsTheOuterLoopFirst)
 {
     const auto loops =
-        trim_loops({reversed(square(0.4, 0.6)), square(0.1, 0.9)}, unit_square(), "s");
+        trim_loops({reversed(square_loop(0.4, 0.6)), square_loop(0.1, 0.9)}, unit_square(), "s");
     LONGS_EQUAL(2, loops.size());
     DOUBLES_EQUAL(0.64, signed_area(loop_polyline(loops[0], 1e-3)), 1e-12);
     DOUBLES_EQUAL(-0.04, signed_area(loop_polyline(loops[1], 1e-3)), 1e-12);
@@ -50,14 +50,14 @@ TEST(TrimLoops, PutsTheOuterLoopFirst)
 
 TEST(TrimLoops, TakesTheDomainAsOuterLoopOfALoneHole)
 {
-    const auto loops = trim_loops({reversed(square(0.4, 0.6))}, unit_square(), "s");
+    const auto loops = trim_loops({reversed(square_loop(0.4, 0.6))}, unit_square(), "s");
     LONGS_EQUAL(2, loops.size());
     DOUBLES_EQUAL(1.0, signed_area(loop_polyline(loops[0], 1e-3)), 1e-12);
 }
 
 TEST(TrimLoops, ChainsOpenCurves)
 {
-    const auto halves = split_at(square(0.1, 0.9), 1.5);
+    const auto halves = split_at(square_loop(0.1, 0.9), 1.5);
     const auto loops = trim_loops({halves[0], halves[1]}, unit_square(), "s");
     LONGS_EQUAL(1, loops.size());
     LONGS_EQUAL(2, loops[0].size());
@@ -65,47 +65,50 @@ TEST(TrimLoops, ChainsOpenCurves)
 
 TEST(TrimLoops, RefusesAHoleThatRunsLikeAnOuterLoop)
 {
-    STRCMP_CONTAINS("contradict",
-                    cusp::test::refusal([] {
-                        trim_loops({square(0.1, 0.9), square(0.4, 0.6)}, unit_square(), "s");
-                    }).c_str());
+    STRCMP_CONTAINS(
+        "contradict",
+        cusp::test::refusal([] {
+            trim_loops({square_loop(0.1, 0.9), square_loop(0.4, 0.6)}, unit_square(), "s");
+        }).c_str());
 }
 
 TEST(TrimLoops, RefusesATrimOutsideTheDomain)
 {
     STRCMP_CONTAINS("leaves the domain", cusp::test::refusal([] {
-                                             trim_loops({square(0.5, 1.5)}, unit_square(), "s");
+                                             trim_loops({square_loop(0.5, 1.5)}, unit_square(),
+                                                        "s");
                                          }).c_str());
 }
 
 TEST(TrimLoops, RefusesAnOpenTrim)
 {
     STRCMP_CONTAINS("open", cusp::test::refusal([] {
-                                trim_loops({split_at(square(0.1, 0.9), 1.5)[0]}, unit_square(),
+                                trim_loops({split_at(square_loop(0.1, 0.9), 1.5)[0]}, unit_square(),
                                            "s");
                             }).c_str());
 }
 
 TEST(TrimLoops, RefusesAHoleOutsideTheOuterLoop)
 {
-    STRCMP_CONTAINS(
-        "outside every outer loop",
-        cusp::test::refusal([] {
-            trim_loops({square(0.1, 0.4), reversed(square(0.6, 0.9))}, unit_square(), "s");
-        }).c_str());
+    STRCMP_CONTAINS("outside every outer loop",
+                    cusp::test::refusal([] {
+                        trim_loops({square_loop(0.1, 0.4), reversed(square_loop(0.6, 0.9))},
+                                   unit_square(), "s");
+                    }).c_str());
 }
 
 TEST(TrimLoops, RefusesLoopsThatCross)
 {
-    STRCMP_CONTAINS(
-        "cross", cusp::test::refusal([] {
-                     trim_loops({square(0.1, 0.6), reversed(square(0.4, 0.9))}, unit_square(), "s");
-                 }).c_str());
+    STRCMP_CONTAINS("cross", cusp::test::refusal([] {
+                                 trim_loops(
+                                     {square_loop(0.1, 0.6), reversed(square_loop(0.4, 0.9))},
+                                     unit_square(), "s");
+                             }).c_str());
 }
 
 TEST(TrimLoops, RefusesALoopThatCrossesItself)
 {
-    Curve eight = square(0.1, 0.9);
+    Curve eight = square_loop(0.1, 0.9);
     std::swap(eight.points[1], eight.points[2]);
     STRCMP_CONTAINS("cross",
                     cusp::test::refusal([&] { trim_loops({eight}, unit_square(), "s"); }).c_str());

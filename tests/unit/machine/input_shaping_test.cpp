@@ -7,15 +7,6 @@
 
 using namespace cusp;
 
-namespace {
-
-bool contains(const std::string& text, const char* part)
-{
-    return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
 TEST_GROUP(InputShaping)
 {
     ControllerBench bench;
@@ -26,7 +17,7 @@ TEST_GROUP(InputShaping)
     void run_to(const char* state)
     {
         for (unsigned i = 0; i < 3000; ++i) {
-            if (contains(bench.exchange("?", 1), state)) {
+            if (has_text(bench.exchange("?", 1), state)) {
                 return;
             }
         }
@@ -46,24 +37,24 @@ TEST_GROUP(InputShaping)
 TEST(InputShaping, RefusesWhatIsOutOfRangeWithTheRange)
 {
     std::string answer = bench.exchange("$820=9.9\n", 100);
-    CHECK(contains(answer, "[MSG:$820 is 9.900, range 10.000 to 200.000]"));
-    CHECK(contains(answer, "error:4"));
+    CHECK(has_text(answer, "[MSG:$820 is 9.900, range 10.000 to 200.000]"));
+    CHECK(has_text(answer, "error:4"));
     answer = bench.exchange("$821=200.1\n", 100);
-    CHECK(contains(answer, "[MSG:$821 is 200.100, range 10.000 to 200.000]"));
-    CHECK(contains(answer, "error:38"));
+    CHECK(has_text(answer, "[MSG:$821 is 200.100, range 10.000 to 200.000]"));
+    CHECK(has_text(answer, "error:38"));
     answer = bench.exchange("$832=1\n", 100);
-    CHECK(contains(answer, "[MSG:$832 is 1.000, range 0.000 to 0.990]"));
+    CHECK(has_text(answer, "[MSG:$832 is 1.000, range 0.000 to 0.990]"));
     answer = bench.exchange("$812=4\n", 100);
-    CHECK(contains(answer, "[MSG:$812 is 4.000, range 0.000 to 3.000]"));
+    CHECK(has_text(answer, "[MSG:$812 is 4.000, range 0.000 to 3.000]"));
 }
 
 TEST(InputShaping, RefusesShapersLongerThanItsMemory)
 {
     std::string answer = bench.exchange("$820=10\n$810=2\n", 400);
-    CHECK_FALSE(contains(answer, "error"));
+    CHECK_FALSE(has_text(answer, "error"));
     answer = bench.exchange("$821=20\n$811=2\n", 400);
-    CHECK(contains(answer, "[MSG:$820 / $810 asks for a filter of 154.000 ms, most 128.000 ms]"));
-    CHECK(contains(answer, "error:38"));
+    CHECK(has_text(answer, "[MSG:$820 / $810 asks for a filter of 154.000 ms, most 128.000 ms]"));
+    CHECK(has_text(answer, "error:38"));
 }
 
 TEST(InputShaping, DrainsBeforeADwellAndTheEnd)

@@ -67,11 +67,6 @@ private:
     Gantry gantry_;
 };
 
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 double uniform(std::mt19937& random, double least, double most)
 {
     return std::uniform_real_distribution<double>{least, most}(random);
@@ -95,7 +90,7 @@ TEST(SecondMotor, StepsWithItsAxisInNormalMotion)
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         Bench bench{{axis, 0.5, 0}};
         std::string said = bench.say("G91G1X3Y2Z-1F3000\nX-5Y-7Z3\nG2X1Y1I1\nG0X2Y1Z-3\n");
-        CHECK_FALSE(has(said, "error"));
+        CHECK_FALSE(has_text(said, "error"));
         DOUBLES_EQUAL(0.5, bench.second() - bench.first(), 1e-9);
         CHECK(std::fabs(bench.first() - Bench::geometry({axis, 0, 0}).start[axis]) > 1e-9);
     }
@@ -134,7 +129,7 @@ TEST(SecondMotor, IsSquaredByHoming)
             (void)bench.say("$24=600\n");
         }
         const std::string said = bench.say("$H\n");
-        CHECK_FALSE(has(said, "ALARM"));
+        CHECK_FALSE(has_text(said, "ALARM"));
         const double accuracy = fast ? 600 / kSlow * kAccuracy : kAccuracy;
         DOUBLES_EQUAL(0, bench.skew(), accuracy);
         const double travel = Bench::geometry(gantry).travel[gantry.axis];
@@ -153,8 +148,8 @@ TEST(SecondMotor, IsAsFarFromSquareAsTheOffset)
     for (const double offset : {0.25, -0.25}) {
         for (const double ahead : {1.5, -1.5}) {
             Bench bench{{1, ahead, 0}};
-            CHECK(has(bench.say("$171=" + std::to_string(offset) + "\n"), "ok"));
-            CHECK_FALSE(has(bench.say("$H\n"), "ALARM"));
+            CHECK(has_text(bench.say("$171=" + std::to_string(offset) + "\n"), "ok"));
+            CHECK_FALSE(has_text(bench.say("$H\n"), "ALARM"));
             DOUBLES_EQUAL(offset, bench.skew(), kAccuracy);
         }
     }
@@ -163,7 +158,7 @@ TEST(SecondMotor, IsAsFarFromSquareAsTheOffset)
 TEST(SecondMotor, GoesAlongWhereItHasNoSwitch)
 {
     Bench bench{{1, 0.75, 0, false}, false};
-    CHECK_FALSE(has(bench.say("$H\n"), "ALARM"));
+    CHECK_FALSE(has_text(bench.say("$H\n"), "ALARM"));
     DOUBLES_EQUAL(0.75, bench.second() - bench.first(), 1e-9);
     DOUBLES_EQUAL(-1, bench.first(), kAccuracy);
 }
@@ -172,7 +167,7 @@ TEST(SecondMotor, EndsInAlarm15WhereASwitchNeverCloses)
 {
     Bench bench{{1, 0, 0, false}};
     const std::string said = bench.say("$H\n");
-    CHECK(has(said, "ALARM:15"));
+    CHECK(has_text(said, "ALARM:15"));
     CHECK(bench.app.machine().state() == State::kAlarm);
     // 5 % of 200 mm, plus the braking distance.
     const double alone = bench.second() - bench.first();
@@ -180,25 +175,25 @@ TEST(SecondMotor, EndsInAlarm15WhereASwitchNeverCloses)
     const double stopped_at = bench.second();
     bench.run(500);
     DOUBLES_EQUAL(stopped_at, bench.second(), 0);
-    CHECK(has(bench.say("$X\nG91G1X1F1000\n"), "Unlocked"));
+    CHECK(has_text(bench.say("$X\nG91G1X1F1000\n"), "Unlocked"));
 }
 
 TEST(SecondMotor, EndsInAlarm15WhereTheSkewIsOverTheLimit)
 {
     for (const double ahead : {2.9, -2.9}) {
         Bench bench{{1, ahead, 0}};
-        CHECK(has(bench.say("$347=1\n$348=3\n"), "ok"));
-        CHECK_FALSE(has(bench.say("$H\n"), "ALARM"));
+        CHECK(has_text(bench.say("$347=1\n$348=3\n"), "ok"));
+        CHECK_FALSE(has_text(bench.say("$H\n"), "ALARM"));
     }
     for (const double ahead : {3.1, -3.1}) {
         Bench bench{{1, ahead, 0}};
         (void)bench.say("$347=1\n$348=3\n");
-        CHECK(has(bench.say("$H\n"), "ALARM:15"));
+        CHECK(has_text(bench.say("$H\n"), "ALARM:15"));
     }
     for (const double ahead : {3.1, -3.1}) {
         Bench bench{{1, ahead, 0}};
         (void)bench.say("$349=3\n");
-        CHECK(has(bench.say("$H\n"), "ALARM:15"));
+        CHECK(has_text(bench.say("$H\n"), "ALARM:15"));
     }
 }
 
@@ -211,7 +206,7 @@ TEST(SecondMotor, StepsWithTheFirstAgainAfterAResetAmidSquaring)
         bench.run(1);
     }
     CHECK(std::fabs(bench.second() - bench.first() - apart) >= 1);
-    CHECK(has(bench.exchange("\x18", 200), "ALARM:6"));
+    CHECK(has_text(bench.exchange("\x18", 200), "ALARM:6"));
     const double stopped = bench.second() - bench.first();
     (void)bench.say("$X\n");
     (void)bench.say("G91G1Y-5F3000\n");
@@ -223,11 +218,11 @@ TEST(SecondMotor, HasASwitchThatGuardsTheTravelToo)
     Bench bench{{1, 5, 0}};
     (void)bench.say("$21=1\n");
     const std::string said = bench.say("G91G1Y18F3000\n");
-    CHECK(has(said, "ALARM:1"));
+    CHECK(has_text(said, "ALARM:1"));
     CHECK(bench.first() < -1);
     bench.board.byte_link.send("\x18");
     bench.run(50);
-    CHECK(has(bench.exchange("?"), "|Pn:Y"));
+    CHECK(has_text(bench.exchange("?"), "|Pn:Y"));
 }
 
 // An input without a switch may have any level.
@@ -238,8 +233,8 @@ TEST(SecondMotor, HasASwitchThatIsReadWithSquaringAlone)
         bench.board.mill.force_high(kSecondLimit);
         (void)bench.say(setting);
         (void)bench.say("$21=1\n");
-        CHECK_FALSE(has(bench.say("G91G1Y1F3000\n"), "ALARM"));
-        CHECK_FALSE(has(bench.exchange("?"), "Pn:"));
+        CHECK_FALSE(has_text(bench.say("G91G1Y1F3000\n"), "ALARM"));
+        CHECK_FALSE(has_text(bench.exchange("?"), "Pn:"));
     }
 }
 
@@ -274,8 +269,8 @@ TEST(SecondMotor, IsInvertedWithItsAxisAndTurnedRoundByASettingOfItsOwn)
 TEST(SecondMotor, HasAnOffsetThatMayBeNegative)
 {
     Bench bench{{1, 0, 0}};
-    CHECK(has(bench.say("$171=-0.25\n"), "ok"));
-    CHECK(has(bench.say("$$\n"), "$171=-0.250\r\n"));
-    CHECK(has(bench.say("$171=-10.5\n"), "error:"));
-    CHECK(has(bench.say("$100=-1\n"), "error:4"));
+    CHECK(has_text(bench.say("$171=-0.25\n"), "ok"));
+    CHECK(has_text(bench.say("$$\n"), "$171=-0.250\r\n"));
+    CHECK(has_text(bench.say("$171=-10.5\n"), "error:"));
+    CHECK(has_text(bench.say("$100=-1\n"), "error:4"));
 }

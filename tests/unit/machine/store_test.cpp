@@ -12,11 +12,6 @@ namespace {
 using cusp::hal::SimulatedBoard;
 using cusp::hal::SimulatedStore;
 
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
-
 // A controller that starts with the store of another one.
 struct PowerCycle {
     explicit PowerCycle(const SimulatedStore& store) : board{{}}
@@ -48,7 +43,7 @@ TEST(Store, KeepsSettingsOffsetsAndTextsThroughAPowerCycle)
     const cusp::machine::Machine& machine = again.app->machine();
     DOUBLES_EQUAL(
         5000, static_cast<double>(machine.settings().value(cusp::machine::Setting::kMaxRate)), 0);
-    CHECK(contains(again.greeting, ">G20:ok"));
+    CHECK(has_text(again.greeting, ">G20:ok"));
     CHECK(machine.state() == cusp::machine::State::kIdle);
 }
 
@@ -57,8 +52,8 @@ TEST(Store, IsAskedBeforeTheAnswer)
     (void)bench.exchange("", 5);
     bench.board.settings_store.cut_power_after(3);
     const std::string said = bench.exchange("$110=5000\n");
-    CHECK(contains(said, "error:7"));
-    CHECK_FALSE(contains(said, "ok"));
+    CHECK(has_text(said, "error:7"));
+    CHECK_FALSE(has_text(said, "ok"));
 }
 
 TEST(Store, ReportsDamageAndLocksInsteadOfGoingOnWithDefaults)
@@ -66,8 +61,8 @@ TEST(Store, ReportsDamageAndLocksInsteadOfGoingOnWithDefaults)
     (void)bench.exchange("$110=5000\n", 50);
     bench.board.settings_store.damage(0, 40, 0xFF);
     const PowerCycle again{bench.board.settings_store};
-    CHECK(contains(again.greeting, "error:7"));
-    CHECK(contains(again.greeting, "[MSG:Settings lost"));
+    CHECK(has_text(again.greeting, "error:7"));
+    CHECK(has_text(again.greeting, "[MSG:Settings lost"));
     CHECK(again.app->machine().state() == cusp::machine::State::kAlarm);
 }
 
@@ -96,6 +91,6 @@ TEST(Store, TellsOfSettingsOfAnEarlierVersion)
         }
     }
     const PowerCycle again{store};
-    CHECK(contains(again.greeting, "error:7"));
-    CHECK(contains(again.greeting, "[MSG:Settings lost"));
+    CHECK(has_text(again.greeting, "error:7"));
+    CHECK(has_text(again.greeting, "[MSG:Settings lost"));
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPlate = -40.0;  // where the first tool touches, machine mm
 // A contact is at a whole step, accurate to the travel of a servo tick at 60 mm/min.
-constexpr double kAccuracy = 0.003;
+constexpr double kTouchOffAccuracy = 0.003;
 
 machine::Settings settings_with(unsigned mode)
 {
@@ -83,7 +83,7 @@ public:
         const Vec3d at = bench.position();
         DOUBLES_EQUAL(x, at.x, 1e-6);
         DOUBLES_EQUAL(y, at.y, 1e-6);
-        DOUBLES_EQUAL(z, at.z, kAccuracy);
+        DOUBLES_EQUAL(z, at.z, kTouchOffAccuracy);
     }
     double offset() const
     {
@@ -93,11 +93,6 @@ public:
 
     ControllerBench bench;
 };
-
-bool has(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 unsigned count_of(const std::string& text, const std::string& part)
 {
@@ -136,7 +131,7 @@ TEST(ToolChange, AtItsPlaceGoesDownThereAndComesBackByTheTop)
     Mill mill{2};
     (void)mill.until_held("T2M6\n");
     mill.is_at(-250, -150, -20);
-    CHECK(has(mill.bench.exchange("?", 1), "<Hold:0|"));
+    CHECK(has_text(mill.bench.exchange("?", 1), "<Hold:0|"));
     mill.bench.board.byte_link.send("~");
     double highest = -80;
     while (!mill.bench.app.machine().idle()) {
@@ -150,22 +145,23 @@ TEST(ToolChange, AtItsPlaceGoesDownThereAndComesBackByTheTop)
 TEST(ToolChange, TheFirstToolTouchedOffKeepsTheOffsetAndTheNextIsMeasuredAgainstIt)
 {
     Mill mill{3};
-    CHECK(has(mill.change(1, 0), "[MSG:Tool T1: length 0.000]\r\nok"));
+    CHECK(has_text(mill.change(1, 0), "[MSG:Tool T1: length 0.000]\r\nok"));
     mill.is_at(-10, -20, -30);
     const std::string said = mill.change(2, 5.25);
-    CHECK(has(said, "[MSG:Tool T2: length 5.2"));
-    DOUBLES_EQUAL(5.25, mill.offset(), kAccuracy);
+    CHECK(has_text(said, "[MSG:Tool T2: length 5.2"));
+    DOUBLES_EQUAL(5.25, mill.offset(), kTouchOffAccuracy);
     mill.is_at(-10, -20, -30 + mill.offset());
-    CHECK(has(mill.change(3, -12), "[MSG:Tool T3: length -1"));
+    CHECK(has_text(mill.change(3, -12), "[MSG:Tool T3: length -1"));
     mill.is_at(-10, -20, -42);
     const std::string listed = mill.say("$#\n");
-    CHECK(has(listed,
-              "[G92:0.000,0.000,0.000]\r\n[T:1|0.000,0.000,0.000|0.000]\r\n[T:2|0.000,0.000,5.2"));
-    CHECK_FALSE(has(listed, "[T:4"));
+    CHECK(has_text(
+        listed,
+        "[G92:0.000,0.000,0.000]\r\n[T:1|0.000,0.000,0.000|0.000]\r\n[T:2|0.000,0.000,5.2"));
+    CHECK_FALSE(has_text(listed, "[T:4"));
     // In program coordinates the tip never moved, and G43 H uses the measured length.
     (void)mill.say("G43H2\nG1Z-30F1000\n");
     mill.is_at(-10, -20, -24.75);
-    CHECK(has(mill.say("G43H4\n"), "error:38"));
+    CHECK(has_text(mill.say("G43H4\n"), "error:38"));
 }
 
 TEST(ToolChange, ATableLengthOfTheFirstToolIsTheReference)
@@ -175,7 +171,7 @@ TEST(ToolChange, ATableLengthOfTheFirstToolIsTheReference)
     (void)mill.change(4, 1);
     DOUBLES_EQUAL(20, mill.offset(), 1e-6);
     (void)mill.change(5, -2);
-    DOUBLES_EQUAL(17, mill.offset(), 2 * kAccuracy);
+    DOUBLES_EQUAL(17, mill.offset(), 2 * kTouchOffAccuracy);
 }
 
 TEST(ToolChange, IsRefusedWholeBeforeHoming)
@@ -183,12 +179,12 @@ TEST(ToolChange, IsRefusedWholeBeforeHoming)
     for (unsigned mode = 1; mode <= 3; ++mode) {
         Mill mill{mode, false};
         const Vec3d before = mill.bench.position();
-        CHECK(has(mill.say("T2M6M3S1000\n"), "error:46"));
+        CHECK(has_text(mill.say("T2M6M3S1000\n"), "error:46"));
         mill.is_at(before.x, before.y, before.z);
         CHECK(!mill.outputs().spindle_on);
-        CHECK(has(mill.say("$G\n"), " M5 M9 T0 "));
-        CHECK(has(mill.say("$HX\n$HY\n$HZ\n"), "ok"));
-        CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
+        CHECK(has_text(mill.say("$G\n"), " M5 M9 T0 "));
+        CHECK(has_text(mill.say("$HX\n$HY\n$HZ\n"), "ok"));
+        CHECK(has_text(mill.until_held("T2M6\n"), "Tool change T2"));
     }
 }
 
@@ -199,18 +195,18 @@ TEST(ToolChange, IsRefusedWholeWhereItsPlaceIsNotSet)
         Mill mill{mode};
         mill.say("G10L2P9X0Y0Z0\n");
         if (mode == 1) {  // over the part
-            CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
+            CHECK(has_text(mill.until_held("T2M6\n"), "Tool change T2"));
             continue;
         }
-        CHECK(has(mill.say("T2M6M3S1000G0X-50\n"), "error:47"));
+        CHECK(has_text(mill.say("T2M6M3S1000G0X-50\n"), "error:47"));
         mill.is_at(-10, -20, -30);
         CHECK(!mill.outputs().spindle_on);
-        CHECK(has(mill.say("$G\n"), " M5 M9 T0 "));
-        CHECK(has(mill.say("$RST=#\n$H\nT2M6\n"), "error:47"));
-        CHECK(has(mill.say("$C\nT2M6\n$C\n$X\n"), "ok"));
+        CHECK(has_text(mill.say("$G\n"), " M5 M9 T0 "));
+        CHECK(has_text(mill.say("$RST=#\n$H\nT2M6\n"), "error:47"));
+        CHECK(has_text(mill.say("$C\nT2M6\n$C\n$X\n"), "ok"));
         // Setting one axis counts as setting the place.
-        CHECK(has(mill.say("G10L2P9Z-20\n"), "ok"));
-        CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
+        CHECK(has_text(mill.say("G10L2P9Z-20\n"), "ok"));
+        CHECK(has_text(mill.until_held("T2M6\n"), "Tool change T2"));
         mill.is_at(0, 0, mode == 2 ? -20 : -1);
     }
 }
@@ -221,9 +217,9 @@ TEST(ToolChange, NeedsHomingAgainOnceThePositionMayBeLost)
     mill.bench.board.byte_link.send("G1Z-60F600\n");
     mill.bench.run(500);
     (void)mill.bench.exchange("\x18", 100);
-    CHECK(has(mill.say("$X\nT1M6\n"), "error:46"));
-    CHECK(has(mill.say("$H\n"), "ok"));
-    CHECK(has(mill.until_held("T1M6\n"), "Tool change T1"));
+    CHECK(has_text(mill.say("$X\nT1M6\n"), "error:46"));
+    CHECK(has_text(mill.say("$H\n"), "ok"));
+    CHECK(has_text(mill.until_held("T1M6\n"), "Tool change T1"));
 }
 
 TEST(ToolChange, ASetterThatIsNotThereIsAnAlarm)
@@ -245,7 +241,7 @@ TEST(ToolChange, TheSearchEndsWithTheTravel)
     (void)mill.say("G10L2P9Z-60\n");
     (void)mill.until_held("T1M6\n");
     mill.take_plate_away();
-    CHECK(has(mill.say("~"), "ALARM:5"));
+    CHECK(has_text(mill.say("~"), "ALARM:5"));
     mill.is_at(-250, -150, -80);
 }
 
@@ -254,7 +250,7 @@ TEST(ToolChange, ASetterThatIsClosedAlreadyIsAnAlarm)
     Mill mill{3};
     (void)mill.until_held("T1M6\n");
     mill.bench.board.mill.force_high(kProbe);
-    CHECK(has(mill.say("~"), "ALARM:4\r\nerror:9"));
+    CHECK(has_text(mill.say("~"), "ALARM:4\r\nerror:9"));
     mill.is_at(-250, -150, -20);
 }
 
@@ -262,7 +258,7 @@ TEST(ToolChange, APlaceBeyondTheTravelMovesNothing)
 {
     Mill mill{3};
     (void)mill.say("G10L2P9X-301\n");
-    CHECK(has(mill.say("T1M6\n"), "ALARM:2\r\n[MSG:Reset to continue]\r\nerror:15"));
+    CHECK(has_text(mill.say("T1M6\n"), "ALARM:2\r\n[MSG:Reset to continue]\r\nerror:15"));
     mill.is_at(-10, -20, -30);
 }
 
@@ -273,7 +269,7 @@ TEST(ToolChange, AToolWithWhichTheTipCannotComeBackIsAnAlarm)
     (void)mill.say("G0Z-3\n");
     (void)mill.until_held("T2M6\n");
     mill.fit_tool(5);
-    CHECK(has(mill.say("~"), "ALARM:2\r\n[MSG:Reset to continue]\r\nerror:15"));
+    CHECK(has_text(mill.say("~"), "ALARM:2\r\n[MSG:Reset to continue]\r\nerror:15"));
     const double z = mill.bench.position().z;
     CHECK(z < -35 && z > -35.05);  // it brakes behind the contact
 }
@@ -285,12 +281,12 @@ TEST(ToolChange, AResetAtTheChangeKeepsThePositionAndForgetsLengths)
     (void)mill.change(2, 5);
     (void)mill.until_held("T3M6\n");
     const std::string said = mill.bench.exchange("\x18", 100);
-    CHECK(has(said, "Grbl 1.1h") && !has(said, "ALARM"));
+    CHECK(has_text(said, "Grbl 1.1h") && !has_text(said, "ALARM"));
     mill.is_at(-250, -150, -1);
     DOUBLES_EQUAL(0, mill.offset(), 0);
     CHECK(mill.bench.app.machine().parameters().tools.empty());
-    CHECK(has(mill.say("G0X-10Y-20Z-30\n"), "ok"));
-    CHECK(has(mill.change(3, -4), "length 0.000"));
+    CHECK(has_text(mill.say("G0X-10Y-20Z-30\n"), "ok"));
+    CHECK(has_text(mill.change(3, -4), "length 0.000"));
 }
 
 TEST(ToolChange, WhatG10SaysIsStoredAndWhatWasTouchedOffIsNot)
@@ -303,7 +299,7 @@ TEST(ToolChange, WhatG10SaysIsStoredAndWhatWasTouchedOffIsNot)
     const gcode::ToolTable& tools = mill.bench.app.machine().parameters().tools;
     CHECK(tools.has(3) && !tools.has(1) && !tools.has(2));
     LONGS_EQUAL(-1500000, tools.length_nm(3));
-    CHECK(has(mill.say("$#\n"), "[T:3|0.000,0.000,-1.500|0.000]"));
+    CHECK(has_text(mill.say("$#\n"), "[T:3|0.000,0.000,-1.500|0.000]"));
     (void)mill.bench.exchange("$RST=#\n", 2000);
     CHECK(mill.bench.app.machine().parameters().tools.empty());
 }
@@ -325,12 +321,12 @@ TEST(ToolChange, TheDoorMayBeOpenedForIt)
     (void)mill.say("M3S1000\n");
     (void)mill.until_held("T1M6\n");
     mill.bench.board.mill.force_high(kDoor);
-    CHECK(has(mill.bench.exchange("", 50), "Check Door"));
+    CHECK(has_text(mill.bench.exchange("", 50), "Check Door"));
     (void)mill.bench.exchange("~", 50);
     mill.is_at(-250, -150, -1);
     mill.bench.board.mill.force_high(0);
     (void)mill.bench.exchange("", 50);
-    CHECK(has(mill.bench.exchange("?", 1), "<Door:0"));
+    CHECK(has_text(mill.bench.exchange("?", 1), "<Door:0"));
     CHECK(!mill.outputs().spindle_on);
     (void)mill.say("~");
     mill.is_at(-10, -20, -30);
@@ -356,7 +352,7 @@ TEST(ToolChange, AHoldAtTheContactDoesNotDriveTheToolOn)
             mill.bench.board.advance();
         }
         said += mill.say("");
-        CHECK(has(said, "[PRB:") && has(said, ":1]"));
+        CHECK(has_text(said, "[PRB:") && has_text(said, ":1]"));
         CHECK(mill.bench.position().z > kPlate - 1.0);
     }
 }
@@ -382,7 +378,7 @@ TEST(ToolChange, RandomToolsAndHoldsLeaveTheProgramWhereItWas)
                 said += mill.bench.exchange(i % 2 == 0 ? "!" : "~", ticks);
             }
             said += mill.say("~");
-            DOUBLES_EQUAL_TEXT(length, mill.offset(), kAccuracy, where.c_str());
+            DOUBLES_EQUAL_TEXT(length, mill.offset(), kTouchOffAccuracy, where.c_str());
             mill.is_at(-10, -20, -30 + mill.offset());
         }
         UNSIGNED_LONGS_EQUAL_TEXT(4, count_of(said, "ok\r\n"), where.c_str());

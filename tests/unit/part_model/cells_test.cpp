@@ -10,15 +10,15 @@
 
 #include "host_tools/part_model/part_model.hpp"
 #include "tests/support/leaks_on_threads.hpp"
+#include "tests/support/three_tools.hpp"
 
 using namespace cusp;
 using namespace cusp::nurbs;
 using namespace cusp::part_model;
+using namespace cusp::test;
 using namespace cusp::toolpath;
 
 namespace {
-
-const Tool kBall{1, ToolShape::kBall, 3, 3};
 
 // size x size points of degree 3, `pitch` mm apart, at random heights.
 Surface rough_sheet(std::mt19937& random, int size, double pitch)

@@ -8,16 +8,14 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/part_model/part_model.hpp"
+#include "tests/support/three_tools.hpp"
 
 using namespace cusp;
 using namespace cusp::part_model;
+using namespace cusp::test;
 using namespace cusp::toolpath;
 
 namespace {
-
-const Tool kBall{1, ToolShape::kBall, 3, 3};
-const Tool kFlat{1, ToolShape::kFlat, 3, 0};
-const Tool kBull{1, ToolShape::kBull, 3, 1};
 
 using Triangle = std::array<Vec3d, 3>;
 

@@ -17,7 +17,7 @@ using namespace part_model;
 
 namespace {
 
-constexpr double kEdgeError = 1e-4;  // mm
+constexpr double kSectionEdgeError = 1e-4;  // mm
 
 // z = top - (x^2 + y^2) / 10 over [-10, 10] x [-10, 10].
 Surface dome(double top)
@@ -41,7 +41,7 @@ Surface dome(double top)
 double area(const Surface& s)
 {
     double sum = 0;
-    const TrimRegion region{s, kEdgeError};
+    const TrimRegion region{s, kSectionEdgeError};
     for (const std::vector<Vec2d>& loop : region.loops()) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             sum += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
@@ -56,18 +56,19 @@ TEST_GROUP(ModelIntersection){};
 
 TEST(ModelIntersection, APlateUnderADomeIsCutRound)
 {
-    const auto left = intersection_of({{plate(-10, -10, 10, 10, 0)}, {dome(2.5)}}, kEdgeError);
+    const auto left =
+        intersection_of({{plate(-10, -10, 10, 10, 0)}, {dome(2.5)}}, kSectionEdgeError);
     LONGS_EQUAL(2, left.size());
     // they meet where x^2 + y^2 = 25: inside the plate is lower
     LONGS_EQUAL(1, left[0].trims.size());
     double worst = 0;
-    const TrimRegion region{left[0], kEdgeError};
+    const TrimRegion region{left[0], kSectionEdgeError};
     for (const auto& edge : region.edges()) {
         const Vec3d middle = 0.5 * (edge[0] + edge[1]);
         worst = std::max({worst, std::abs(std::hypot(edge[0].x, edge[0].y) - 5),
                           std::abs(std::hypot(middle.x, middle.y) - 5)});
     }
-    CHECK(worst < 2 * kEdgeError);
+    CHECK(worst < 2 * kSectionEdgeError);
     // outside the dome: its border and a hole
     LONGS_EQUAL(2, left[1].trims.size());
     DOUBLES_EQUAL(1 - 3.141592653589793 * 25 / 400, area(left[1]), 1e-4);

@@ -10,6 +10,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/holed_sheet.hpp"
+#include "tests/support/three_tools.hpp"
 
 using namespace cusp;
 using namespace cusp::nurbs;
@@ -18,10 +19,6 @@ using namespace cusp::test;
 using namespace cusp::toolpath;
 
 namespace {
-
-const Tool kBall{1, ToolShape::kBall, 3, 3};
-const Tool kFlat{1, ToolShape::kFlat, 3, 0};
-const Tool kBull{1, ToolShape::kBull, 3, 1};
 
 // Over [0, 20] x [0, 20]: z = slope * x.
 Surface plane(double slope)

@@ -16,7 +16,7 @@ using namespace part_model;
 namespace {
 
 constexpr double kSide = 20.0;  // mm
-constexpr double kEdgeError = 1e-3;
+constexpr double kTrimEdgeError = 1e-3;
 constexpr int kLooks = 5000;
 
 Curve circle_about(Vec2d centre, double radius)
@@ -92,11 +92,11 @@ check(in_plan(p.point), left*(1.0 / norm(left)));
 // All points kept by the loops are inside, and little more.
 void check_region(const Surface& surface)
 {
-    const TrimRegion region{surface, kEdgeError};
+    const TrimRegion region{surface, kTrimEdgeError};
     along_edges(surface, [&](Vec2d at, Vec2d left) {
         constexpr double kBeside = 1e-9;
         const Vec2d inside = at + left * kBeside;
-        const Vec2d outside = at - left * (1.5 * kEdgeError / kSide);
+        const Vec2d outside = at - left * (1.5 * kTrimEdgeError / kSide);
         CHECK(region.inside(inside.x, inside.y));
         CHECK(!region.inside(outside.x, outside.y));
         CHECK(region.part(inside.x - kBeside, inside.x + kBeside, inside.y - kBeside,
@@ -131,14 +131,14 @@ TEST(TrimRegion, KeepsItsEdgesInSpaceWithinTheirError)
 {
     Surface surface = bent_sheet();
     surface.trims = {{circle_about({0.5, 0.5}, 0.4)}};
-    const TrimRegion region{surface, kEdgeError};
+    const TrimRegion region{surface, kTrimEdgeError};
     for (const auto& [from, to] : region.edges()) {
         for (const double share : {0.0, 0.25, 0.5, 0.75}) {
             const Vec3d p = from + (to - from) * share;
             const double angle = std::atan2(p.y, p.x);
             const Vec2d round{0.4 * kSide * std::cos(angle), 0.4 * kSide * std::sin(angle)};
             const Vec3d edge = point_at(surface, round.x / kSide + 0.5, round.y / kSide + 0.5);
-            CHECK(norm(p - edge) <= kEdgeError);
+            CHECK(norm(p - edge) <= kTrimEdgeError);
         }
     }
 }

@@ -12,8 +12,8 @@ using namespace cusp::planner;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 7301;
-constexpr float kFilter = 0.02F;
+constexpr std::uint64_t kLimitSeed = 7301;
+constexpr float kFilterTime = 0.02F;
 
 double between(std::mt19937_64& random, double low, double high)
 {
@@ -35,13 +35,14 @@ TEST_GROUP(SpeedLimit){};
 
 TEST(SpeedLimit, KeepsAccelerationAndJerkOfEveryAxisUpToTheCap)
 {
-    std::mt19937_64 random{kSeed};
+    std::mt19937_64 random{kLimitSeed};
     const MachineLimits limits{};
     for (int k = 0; k < 5000; ++k) {
         PathDerivatives path{any_vector(random, 0.01, 1), any_vector(random, 1e-4, 20),
                              any_vector(random, 1e-6, 400)};
         path.first[static_cast<unsigned>(random() % 3)] = 1.0F;
-        const SpeedLimit limit = speed_limit(allowance(path, limits, kFilter, kUnlimited, 2000.0F));
+        const SpeedLimit limit =
+            speed_limit(allowance(path, limits, kFilterTime, kUnlimited, 2000.0F));
         CHECK(limit.u1 >= 0);
         for (int step = 0; step <= 10; ++step) {
             const double square = static_cast<double>(limit.cap) * 0.1 * step;
@@ -67,7 +68,7 @@ TEST(SpeedLimit, KeepsAccelerationAndJerkOfEveryAxisUpToTheCap)
 TEST(SpeedLimit, ALineMayUseAllOfItsAxis)
 {
     const PathDerivatives along_x{{1, 0, 0}, {}, {}};
-    const SpeedLimit limit = speed_limit(allowance(along_x, {}, kFilter, kUnlimited, 2000.0F));
+    const SpeedLimit limit = speed_limit(allowance(along_x, {}, kFilterTime, kUnlimited, 2000.0F));
     DOUBLES_EQUAL(100.0 * 100.0, static_cast<double>(limit.cap), 0.1);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.u0), 0.01);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.u1), 0.01);
@@ -75,12 +76,12 @@ TEST(SpeedLimit, ALineMayUseAllOfItsAxis)
 
 TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
 {
-    std::mt19937_64 random{kSeed + 1};
+    std::mt19937_64 random{kLimitSeed + 1};
     for (int k = 0; k < 2000; ++k) {
         const auto any = [&random] {
             const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
                                        any_vector(random, 1e-4, 40)};
-            return allowance(path, {}, kFilter, kUnlimited, 300.0F);
+            return allowance(path, {}, kFilterTime, kUnlimited, 300.0F);
         };
         const Allowance a = any();
         const Allowance b = any();

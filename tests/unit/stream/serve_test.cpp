@@ -20,7 +20,7 @@ namespace {
 
 using namespace cusp;
 
-struct QuietWatcher : stream::StreamWatcher {
+struct SilentWatcher : stream::StreamWatcher {
     void ready(const stream::ControllerFacts&) override {}
     void progress(const stream::StreamProgress&) override {}
     void notice(const std::string&) override {}
@@ -53,7 +53,7 @@ TEST_GROUP(Serve)
         stream::StreamReport report;
         {
             const auto transport = stream::open_transport(serve_options.pty_link, 0);
-            QuietWatcher watcher;
+            SilentWatcher watcher;
             dialect::ProgramLines program{folder.with("part.ngc", text)};
             report = stream::Streamer{*transport, watcher, options}.run(program, stream_stop);
         }

@@ -8,13 +8,13 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
+#include "tests/unit/toolpath/straight_moves.hpp"
 using namespace cusp;
 using namespace cusp::nurbs;
 using namespace cusp::toolpath;
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 PlannedOperation operation(std::vector<ToolMove> moves, int tool = 1)
 {
@@ -26,9 +26,6 @@ PlannedOperation operation(std::vector<ToolMove> moves, int tool = 1)
     planned.path.moves = std::move(moves);
     return planned;
 }
-
-ToolMove rapid(Vec3d end) { return {MoveKind::kRapid, LineTo{end}}; }
-ToolMove cut(Vec3d end) { return {MoveKind::kCut, LineTo{end}}; }
 
 std::string written(const std::vector<PlannedOperation>& operations, bool inch = false)
 {

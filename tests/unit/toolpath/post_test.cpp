@@ -10,17 +10,17 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/unit/toolpath/straight_moves.hpp"
 
 using namespace cusp;
 using namespace cusp::toolpath;
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-
-PlannedOperation operation(std::vector<ToolMove> moves, int tool = 1, std::string name = "")
+PlannedOperation named_operation(std::vector<ToolMove> moves, int tool = 1, std::string name = "")
 {
     PlannedOperation planned;
     planned.path.tool = {tool, ToolShape::kBall, 6, 6};
@@ -32,13 +32,10 @@ PlannedOperation operation(std::vector<ToolMove> moves, int tool = 1, std::strin
     return planned;
 }
 
-ToolMove rapid(Vec3d end) { return {MoveKind::kRapid, LineTo{end}}; }
-ToolMove cut(Vec3d end) { return {MoveKind::kCut, LineTo{end}}; }
-
-std::string written(const std::vector<PlannedOperation>& operations,
-                    const Post& post,
-                    bool inch = false,
-                    std::optional<double> blend = {})
+std::string posted(const std::vector<PlannedOperation>& operations,
+                   const Post& post,
+                   bool inch = false,
+                   std::optional<double> blend = {})
 {
     std::ostringstream out;
     write_program(out, {"cusp job.toml", inch, 5.0, blend, post}, operations);
@@ -47,8 +44,8 @@ std::string written(const std::vector<PlannedOperation>& operations,
 
 std::vector<PlannedOperation> two_tools()
 {
-    return {operation({rapid({1, 2, 5}), cut({1, 2, 1})}, 1, "6mm ball"),
-            operation({rapid({1, 2, 5}), cut({1, 2, 0})}, 2)};
+    return {named_operation({rapid({1, 2, 5}), cut({1, 2, 1})}, 1, "6mm ball"),
+            named_operation({rapid({1, 2, 5}), cut({1, 2, 0})}, 2)};
 }
 
 // Words of a line without comments, by their letters.
@@ -173,10 +170,10 @@ void check_arcs(
     for (int i = 0; i < 2000; ++i) {
         const RandomArc arc = random_arc(random, most_sweep);
         const ArcTo to{arc.at(1), {arc.centre.x, arc.centre.y, 0}, ArcPlane::kXY, arc.sweep < 0};
-        const std::string program = written({operation({rapid({arc.at(0).x, arc.at(0).y, 5}),
-                                                        {MoveKind::kPlunge, LineTo{arc.at(0)}},
-                                                        {MoveKind::kCut, to}})},
-                                            post, inch);
+        const std::string program = posted({named_operation({rapid({arc.at(0).x, arc.at(0).y, 5}),
+                                                             {MoveKind::kPlunge, LineTo{arc.at(0)}},
+                                                             {MoveKind::kCut, to}})},
+                                           post, inch);
         const Path path = read_path(program);
         double most = 0;
         double length = 0;
@@ -227,24 +224,24 @@ TEST(Post, FramesOfAFanuc)
         "N80 G1 Z1. F1200.\nN90 G0 Z5.\nN100 M5\nN110 T2 M6 (tool 2 ball diameter 12 mm)\n"
         "N120 M3 S12000\nN130 G0 G43 Z5. H2\nN140 G0 X1. Y2.\nN150 G1 Z0.\nN160 G0 Z5.\n"
         "N170 G28 G91 Z0.\nN180 M30\n%\n";
-    STRCMP_EQUAL(expected.c_str(), written(two_tools(), post).c_str());
+    STRCMP_EQUAL(expected.c_str(), posted(two_tools(), post).c_str());
 }
 
 TEST(Post, NamesToolsInTheirComments)
 {
     STRCMP_CONTAINS("(tool 1 ball diameter 12 mm: 6mm ball)\nT1\n",
-                    written(two_tools(), {}).c_str());
+                    posted(two_tools(), {}).c_str());
 }
 
 TEST(Post, CommentsBehindSemicolonsOrNone)
 {
     Post post;
     post.comments = CommentForm::kSemicolon;
-    STRCMP_CONTAINS("; cusp job.toml\nG17", written(two_tools(), post).c_str());
-    STRCMP_CONTAINS("; tool 2 ball diameter 12 mm\nT2\n", written(two_tools(), post).c_str());
+    STRCMP_CONTAINS("; cusp job.toml\nG17", posted(two_tools(), post).c_str());
+    STRCMP_CONTAINS("; tool 2 ball diameter 12 mm\nT2\n", posted(two_tools(), post).c_str());
     post.comments = CommentForm::kNone;
     post.next_tool = {"T{tool} M6 {comment}"};
-    const std::string text = written(two_tools(), post);
+    const std::string text = posted(two_tools(), post);
     CHECK(text.find_first_of("(;") == std::string::npos);
     STRCMP_CONTAINS("\nT2 M6\n", text.c_str());
 }
@@ -254,16 +251,16 @@ TEST(Post, WordsThatItLacksAreNotWritten)
     Post post;
     post.exact_path = {};
     post.first_tool = post.next_tool = {"{comment}"};
-    const std::string text = written(two_tools(), post);
+    const std::string text = posted(two_tools(), post);
     CHECK(text.find("G61") == std::string::npos && text.find("\nT") == std::string::npos);
 }
 
 TEST(Post, BlendsWithItsOwnWord)
 {
     Post post;
-    STRCMP_CONTAINS("\nG64 P0.02\n", written(two_tools(), post, false, 0.02).c_str());
+    STRCMP_CONTAINS("\nG64 P0.02\n", posted(two_tools(), post, false, 0.02).c_str());
     post.blend = {"G64"};
-    STRCMP_CONTAINS("\nG64\n", written(two_tools(), post, false, 0.02).c_str());
+    STRCMP_CONTAINS("\nG64\n", posted(two_tools(), post, false, 0.02).c_str());
 }
 
 TEST(Post, CoolantAndSpeedFollowTheOperation)
@@ -273,12 +270,12 @@ TEST(Post, CoolantAndSpeedFollowTheOperation)
     operations[1].path.spindle = 8000;
     operations[1].path.tool.coolant = Coolant::kFlood;
     STRCMP_CONTAINS("G1 Z1 F1200\nM3 S8000\nM8\nG0 Z5\nG1 Z0\nG0 Z5\nM9\nM5\nM30\n",
-                    written(operations, {}).c_str());
+                    posted(operations, {}).c_str());
     operations[0].path.tool.coolant = Coolant::kMist;
-    STRCMP_CONTAINS("M3 S12000\nM7\nG0 X1", written(operations, {}).c_str());
-    STRCMP_CONTAINS("M9\nM8\n", written(operations, {}).c_str());
+    STRCMP_CONTAINS("M3 S12000\nM7\nG0 X1", posted(operations, {}).c_str());
+    STRCMP_CONTAINS("M9\nM8\n", posted(operations, {}).c_str());
     operations[1].path.tool.number = 2;
-    STRCMP_CONTAINS("G0 Z5\nM9\nM5\n(tool 2", written(operations, {}).c_str());
+    STRCMP_CONTAINS("G0 Z5\nM9\nM5\n(tool 2", posted(operations, {}).c_str());
 }
 
 TEST(Post, LineNumbersBeginAgain)
@@ -289,7 +286,7 @@ TEST(Post, LineNumbersBeginAgain)
     for (int i = 1; i <= 120; ++i) {
         moves.push_back(cut({static_cast<double>(i), 0, 5}));
     }
-    const std::string text = written({operation(moves)}, post);
+    const std::string text = posted({named_operation(moves)}, post);
     STRCMP_CONTAINS("\nN99000 ", text.c_str());
     CHECK(text.find("N100000") == std::string::npos);
 }
@@ -298,10 +295,10 @@ TEST(Post, ArcsByRadiusAreQuartersAtMost)
 {
     Post post;
     post.arcs = ArcForm::kRadius;
-    const std::string text =
-        written({operation({rapid({10, 0, 5}),
-                            {MoveKind::kCut, ArcTo{{10, 0, 5}, {0, 0, 0}, ArcPlane::kXY, true}}})},
-                post);
+    const std::string text = posted(
+        {named_operation({rapid({10, 0, 5}),
+                          {MoveKind::kCut, ArcTo{{10, 0, 5}, {0, 0, 0}, ArcPlane::kXY, true}}})},
+        post);
     STRCMP_CONTAINS("G2 X0 Y-10 R10 F1200\nG2 X-10 Y0 R10\nG2 X0 Y10 R10\nG2 X10 Y0 R10\n",
                     text.c_str());
 }
@@ -345,7 +342,7 @@ TEST(Post, RoundedLinesStayWithinTheirBound)
     for (int i = 0; i < 5000; ++i) {
         moves.push_back(cut({place(random), place(random), place(random)}));
     }
-    const Path path = read_path(written({operation(moves)}, post));
+    const Path path = read_path(posted({named_operation(moves)}, post));
     double most = 0;
     for (std::size_t i = 0; i < moves.size(); ++i) {
         most = std::max(most, norm(path.ends[i + 1] - end_of(moves[i])));

@@ -5,14 +5,11 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
 
 using namespace cusp;
 using namespace cusp::toolpath;
-
-namespace {
-constexpr double kPi = 3.141592653589793;
-}
 
 TEST_GROUP(ToolpathMeasure){};
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDome = 10;
 constexpr double kBall = 3;
-constexpr double kPitch = 0.17;
+constexpr double kSamplePitch = 0.17;
 
 // Half a ball about the origin; nothing beyond it.
 std::vector<double> dome(const HeightGrid& grid)
@@ -37,7 +37,7 @@ TEST_GROUP(FloorSamples){};
 
 TEST(FloorSamples, StopTheBallAtAPointOfTheFloorHardlyLowerThanTheFloorDoes)
 {
-    const HeightGrid grid{-11, -11, kPitch, 130, 130, true};
+    const HeightGrid grid{-11, -11, kSamplePitch, 130, 130, true};
     const std::vector<double> heights = dome(grid);
     const FloorSamples samples{grid, heights};
     for (double x = -7.9; x < 8; x += 0.37) {
@@ -47,7 +47,7 @@ TEST(FloorSamples, StopTheBallAtAPointOfTheFloorHardlyLowerThanTheFloorDoes)
         CHECK(rest.centre.z <= exact + 1e-9);
         // The error between points is larger along the axis where the dome is steep.
         const double upright = exact / (kDome + kBall);
-        const double apart = kPitch / upright;
+        const double apart = kSamplePitch / upright;
         CHECK(rest.centre.z >= exact - apart * apart * (1 / kBall + 1 / kDome) / upright);
         DOUBLES_EQUAL(kBall, norm(rest.centre - rest.contact), 1e-9);
         DOUBLES_EQUAL(kDome, norm(rest.contact), 1e-9);

@@ -20,7 +20,7 @@ struct Vertex {
     double deviation;
 };
 
-std::vector<Vertex> unpacked(const std::string& bytes)
+std::vector<Vertex> unpacked_vertices(const std::string& bytes)
 {
     ByteReader reader{bytes};
     std::vector<Vertex> out(reader.whole(4));
@@ -71,7 +71,7 @@ TEST(PathVertices, OfEachLevelAreWithinItsTolerance)
     for (const Position& point : points) {
         path.add(point, 0.0, false);
     }
-    const std::vector<Vertex> vertices = unpacked(path.finish().text());
+    const std::vector<Vertex> vertices = unpacked_vertices(path.finish().text());
     CHECK_EQUAL(0U, vertices.front().tick);
     CHECK_EQUAL(points.size() - 1, vertices.back().tick);
     std::size_t last_count = points.size();
@@ -101,7 +101,7 @@ TEST(PathVertices, StandWhereACornerIsAskedFor)
         path.add({1000 * k, 0, 0}, 0.0, k == 400 || k == 401);
     }
     std::vector<std::uint64_t> ticks;
-    for (const Vertex& vertex : unpacked(path.finish().text())) {
+    for (const Vertex& vertex : unpacked_vertices(path.finish().text())) {
         ticks.push_back(vertex.tick);
     }
     CHECK(ticks == (std::vector<std::uint64_t>{0, 1, 400, 401, 999}) ||
@@ -114,7 +114,7 @@ TEST(PathVertices, CarryTheGreatestDeviationSinceTheOneBefore)
     for (std::int64_t k = 0; k < 1000; ++k) {
         path.add({1000 * k, 0, 0}, k == 777 ? 0.0123 : 0.001, k == 500);
     }
-    const std::vector<Vertex> vertices = unpacked(path.finish().text());
+    const std::vector<Vertex> vertices = unpacked_vertices(path.finish().text());
     DOUBLES_EQUAL(0.0123, vertices.back().deviation, 1e-5);
     DOUBLES_EQUAL(0.001, vertices[vertices.size() - 2].deviation, 1e-5);
 }
@@ -125,5 +125,5 @@ TEST(PathVertices, OfAMachineAtRestAreTwo)
     for (int k = 0; k < 500; ++k) {
         path.add({7, 7, 7}, 0.0, false);
     }
-    CHECK_EQUAL(2U, unpacked(path.finish().text()).size());
+    CHECK_EQUAL(2U, unpacked_vertices(path.finish().text()).size());
 }
