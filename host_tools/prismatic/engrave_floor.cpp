@@ -159,6 +159,8 @@ std::vector<PlannedOperation> engraved_on_floor(const Job& job,
     count_moves(writer, static_cast<int>(chains.size() * levels.size()),
                 static_cast<int>(levels.size()), planned);
     planned.stats.counts.emplace_back("curves", static_cast<double>(chains.size()));
+    // half by follows(), half by the chord of a curve on the flank
+    planned.stats.gouge_bound_mm = operation.floor_tolerance;
     return {planned};
 }
 

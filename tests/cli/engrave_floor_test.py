@@ -96,7 +96,9 @@ class EngraveFloor(unittest.TestCase):
     def judge(self, floor, height, tool, r, shifts=(), tolerance=0.004):
         self.write("floor.json", json.dumps(floor))
         self.write("job.toml", JOB + f"tool = {tool}\n")
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        planned = json.loads((self.folder / "p.json").read_text())["operations"][0]
+        self.assertAlmostEqual(0.004, planned["gouge_bound_mm"], delta=2e-4)  # and the rounding of positions
         moves = self.places()
         self.assertGreater(len(moves), 10)
         length = 0
