@@ -412,10 +412,25 @@ DxfPlaces CurveMaker::read_places()
     return places;
 }
 
-std::string no_curve(const std::string& file, const std::string& layer)
+// What lies on a layer where no curve does: text has to be made into curves first.
+std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
 {
-    return layer.empty() ? file + ": the drawing holds no curve"
-                         : fmt::format("{}: no curve on the layer \"{}\"", file, layer);
+    if (layer.empty()) {
+        return drawing.file() + ": the drawing holds no curve";
+    }
+    std::string kinds;
+    for (const DxfEntity& entity : drawing.entities()) {
+        const std::string kind{entity.type};
+        if (layer_of(entity, "") == layer && kinds.find(kind) == std::string::npos) {
+            kinds += (kinds.empty() ? "" : ", ") + kind;
+        }
+    }
+    std::string text = fmt::format("{}: no curve on the layer \"{}\"", drawing.file(), layer);
+    if (!kinds.empty()) {
+        text += fmt::format("; it holds {}: convert {} to curves in the drawing program", kinds,
+                            kinds.find("TEXT") != std::string::npos ? "text" : "them");
+    }
+    return text;
 }
 
 }  // namespace
@@ -449,7 +464,7 @@ std::vector<Curve> read_dxf_curves(const std::string& file,
     const DxfDrawing drawing{file, millimetres};
     std::vector<Curve> curves = CurveMaker{drawing, layer}.read();
     if (curves.empty()) {
-        throw InputError(no_curve(file, layer));
+        throw InputError(no_curve(drawing, layer));
     }
     return curves;
 }
@@ -476,7 +491,7 @@ DxfLayers read_dxf_layers(const std::string& file, double millimetres)
         }
     }
     if (out.layers.empty()) {
-        throw InputError(no_curve(file, ""));
+        throw InputError(no_curve(drawing, ""));
     }
     return out;
 }

@@ -31,7 +31,7 @@ struct DrawingName {
 
 DrawingName parts_of(const std::string& name)
 {
-    const std::size_t mark = name.rfind('#');
+    const std::size_t mark = layer_mark(name);
     DrawingName parts{name.substr(0, mark), mark == std::string::npos ? "" : name.substr(mark + 1)};
     if (path_ending(parts.file) != ".dxf" && path_ending(parts.file) != ".json") {
         throw InputError(fmt::format("{}: drawings are read from .dxf, not from \"{}\"", name,

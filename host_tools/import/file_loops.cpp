@@ -63,7 +63,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
                                   double join,
                                   std::vector<std::string>& notes)
 {
-    const std::size_t mark = name.rfind('#');
+    const std::size_t mark = layer_mark(name);
     const std::string file = name.substr(0, mark);
     const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
     const LoopNesting nesting = nest_loops(read_dxf_curves(file, millimetres, layer), join);
@@ -90,7 +90,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
 // Whether the name is that of a drawing, in which "#layer" may follow the file.
 bool names_drawing(const std::string& name)
 {
-    return path_ending(name.substr(0, name.rfind('#'))) == ".dxf";
+    return path_ending(name.substr(0, layer_mark(name))) == ".dxf";
 }
 
 }  // namespace

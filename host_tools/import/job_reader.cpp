@@ -375,6 +375,9 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     refuse_keys_of_others(entry, table, operation.strategy);
     read_prismatic_keys(table, unit_, operation);
     if (operation.prismatic) {
+        if (table.has("floor")) {  // of an engraving
+            read_parts(table, operation);
+        }
         table.leave({"floor", "intersect", "islands"});
     } else {
         read_parts(table, operation);

@@ -22,12 +22,13 @@ constexpr std::string_view kFeedsByLoad{
     "parallel_planes, profile, face"};
 constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave, v_carve"};
 constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, v_carve, chamfer"};
+constexpr std::string_view kNoFloor{"pocket, profile, drill, face, v_carve, chamfer"};
 constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, v_carve, chamfer"};
 constexpr std::string_view kNoScallop{"profile, drill, face, engrave, chamfer"};
 constexpr std::string_view kLines{"drill, face, engrave, v_carve, chamfer"};
 constexpr OperationKey kOperationKeys[]{
     {"strategy", ""},
-    {"floor", "", kPrismatic},
+    {"floor", "", kNoFloor},
     {"intersect", "", kPrismatic},
     {"boundary", ""},
     {"islands", "", kAllButPocket},

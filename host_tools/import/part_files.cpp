@@ -41,7 +41,7 @@ void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
     }
 }
 
-std::string without_layer(const std::string& name) { return name.substr(0, name.rfind('#')); }
+std::string without_layer(const std::string& name) { return name.substr(0, layer_mark(name)); }
 
 }  // namespace
 

@@ -150,7 +150,7 @@ void take_model(PartGeometry& part, const std::string& file)
 
 PartGeometry read_part_geometry(const std::string& name, double millimetres)
 {
-    const std::size_t mark = name.rfind('#');
+    const std::size_t mark = layer_mark(name);
     const bool layered = mark != std::string::npos && path_ending(name.substr(0, mark)) == ".dxf";
     const std::string file = layered ? name.substr(0, mark) : name;
     const std::string ending = path_ending(file);

@@ -1,12 +1,17 @@
 // The ending of a file name, which selects the reader.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace cusp::import {
 
 // With its dot, in lower case: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
+
+// Where "#layer" begins in the name of a drawing: at the first # after ".dxf", since names of layers may hold more of
+// them, and folders too. npos: none.
+std::size_t layer_mark(const std::string& name);
 
 // Files that hold parts, for messages.
 inline constexpr const char* kPartEndings =

@@ -63,7 +63,7 @@ Similarity scaling(double factor)
 // Without the "#layer" of a drawing.
 std::string file_of(const std::string& name)
 {
-    const std::string file = name.substr(0, name.rfind('#'));
+    const std::string file = name.substr(0, layer_mark(name));
     return path_ending(file) == ".dxf" ? file : name;
 }
 

@@ -232,6 +232,9 @@ void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
         table.refuse("width", "is missing: chamfer needs its width, seen from above");
     }
     check_tool(table, operation);
+    if (table.has("floor") && cut.given_top) {
+        table.refuse("top", "does not go with floor: an engraving begins at its surface");
+    }
     cut.width = width.value_or(0);
     cut.given_depth = depth.has_value();
     const double slope = 1 / std::tan(operation.tool.tip_angle / 2);

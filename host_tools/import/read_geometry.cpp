@@ -33,6 +33,16 @@ std::string path_ending(const std::string& file)
     return ending;
 }
 
+std::size_t layer_mark(const std::string& name)
+{
+    for (std::size_t at = name.find('#'); at != std::string::npos; at = name.find('#', at + 1)) {
+        if (path_ending(name.substr(0, at)) == ".dxf") {
+            return at;
+        }
+    }
+    return path_ending(name) == ".dxf" ? std::string::npos : name.rfind('#');
+}
+
 namespace {
 
 // Adds notes on degenerate facets and overhangs.

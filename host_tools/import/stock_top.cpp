@@ -17,6 +17,12 @@ namespace {
 
 bool is_pocket(const Operation& operation) { return operation.boundary.has_value(); }
 
+// An engraving may be the only operation on its floor.
+bool is_on_floor(const Operation& operation)
+{
+    return operation.strategy == "engrave" && !operation.floor.empty();
+}
+
 double highest_of(const Operation& operation)
 {
     return operation.mesh.empty() ? highest_of_surfaces(operation.floor)
@@ -94,7 +100,7 @@ double default_stock_top(const Job& job)
     constexpr double kSteps = 1e4;         // per mm
     constexpr double kOverRounding = 0.5;  // of a step: excess of the measured height, ignored
     const double highest = highest_floor(job, [](const Operation& operation) {
-                               return !operation.prismatic;
+                               return !operation.prismatic || is_on_floor(operation);
                            }).value_or(0.0);
     return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
 }

@@ -6,6 +6,7 @@
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
+#include "host_tools/prismatic/engrave_floor.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/prismatic/profile_contours.hpp"
 
@@ -87,6 +88,9 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
     if (chains.empty()) {
         throw InputError(operation_text(job, operation) + operation.prismatic->file +
                          ": no curve to engrave");
+    }
+    if (!operation.floor.empty()) {
+        return engraved_on_floor(job, operation, in_order(std::move(chains)));
     }
     const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);
     PlannedOperation planned =

@@ -36,7 +36,14 @@ std::vector<toolpath::PlannedOperation> plan_drill(const job::Job& job,
 std::vector<toolpath::PlannedOperation> plan_face(const job::Job& job,
                                                   const job::Operation& operation);
 
-// Moves the tip along every chain of curves, at the depth.
+// Moves the tip along every chain of curves, at the depth. With a floor it follows the surface: as far below as the
+// depth where the tip alone (toolpath/tool_tip.hpp), dropped on it, would stand. The flanks are not looked at.
+//
+// Accuracy: heights along each move are within half the floor tolerance (off_by_curvature() and off_by_slope() of
+// drop_cutter/line_heights.hpp), but for moves of 0.001 mm at a vertical step of the floor; the chord of a curve
+// takes up to the other half of the flank. `EngraveFloorProperty` tests it on random floors.
+//
+// Errors: InputError where there is no floor under a curve, with the place.
 std::vector<toolpath::PlannedOperation> plan_engrave(const job::Job& job,
                                                      const job::Operation& operation);
 

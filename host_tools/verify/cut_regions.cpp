@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "host_tools/job/hole_depth.hpp"
 #include "host_tools/job/loop_shape.hpp"
+#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/toolpath/tool_tip.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
 namespace cusp::verify {
@@ -18,6 +23,7 @@ using job::NestedLoop;
 using job::Operation;
 using job::Prismatic;
 using job::ProfileSide;
+using toolpath::end_height;
 
 namespace {
 
@@ -32,6 +38,14 @@ double widest(const Operation& operation)
     return 2 * radius + operation.allowance + lead + cut.width;
 }
 
+// loop_polyline() closes what it is given, by the last point.
+std::vector<Vec2d> open_polyline(const Chain& chain)
+{
+    std::vector<Vec2d> line = loop_polyline(chain, kBoxChord / 10);
+    line.back() = in_plan(point_at(chain.back(), chain.back().domain_end()));
+    return line;
+}
+
 // A closed loop on an open chain: no line from its end to its start.
 Chain there_and_back(Chain chain)
 {
@@ -39,6 +53,94 @@ Chain there_and_back(Chain chain)
         chain.push_back(reversed(chain[k]));
     }
     return chain;
+}
+
+// The tip of an engraving on a floor, by drops at places along its curves.
+class EngravedTips {
+public:
+    EngravedTips(const Operation& operation, double spacing)
+        : tip_{toolpath::tip_of(operation.tool)},
+          depth_{operation.prismatic->depth},
+          spacing_{spacing},
+          model_{operation.floor}
+    {
+    }
+
+    std::vector<Vec3d> along(const std::vector<Vec2d>& line)
+    {
+        out_.clear();
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const Vec2d way = line[i + 1] - line[i];
+            const int steps = std::max(1, static_cast<int>(std::ceil(norm(way) / spacing_)));
+            for (int k = i == 0 ? 0 : 1; k <= steps; ++k) {
+                if (const auto at = dropped(line[i] + (static_cast<double>(k) / steps) * way)) {
+                    if (!out_.empty()) {
+                        refine(out_.back(), *at);
+                    }
+                    out_.push_back(*at);
+                }
+            }
+        }
+        return out_;
+    }
+
+    double top() const { return top_; }
+
+private:
+    std::optional<Vec3d> dropped(Vec2d at)
+    {
+        const std::optional<double> z = model_.drop_height(tip_, at.x, at.y, guess_);
+        if (!z) {
+            return std::nullopt;
+        }
+        guess_ = z;
+        top_ = std::max(top_, *z);
+        return Vec3d{at.x, at.y, *z - depth_};
+    }
+
+    // Over creases positions lie so close that the straight line between them is the tip's way.
+    void refine(Vec3d from, Vec3d to)
+    {
+        constexpr double kStraight = 5e-5;  // mm
+        constexpr double kShortest = 5e-4;  // mm
+        const auto middle = dropped(0.5 * (in_plan(from) + in_plan(to)));
+        if (!middle || norm(in_plan(to) - in_plan(from)) < kShortest ||
+            std::abs(middle->z - 0.5 * (from.z + to.z)) <= kStraight) {
+            return;
+        }
+        refine(from, *middle);
+        out_.push_back(*middle);
+        refine(*middle, to);
+    }
+
+    toolpath::Tool tip_;
+    double depth_;
+    double spacing_;
+    part_model::PartModel model_;
+    std::optional<double> guess_;
+    std::vector<Vec3d> out_;
+    double top_{-kUnbounded};
+};
+
+// What an engraving on a floor leaves: a stock cut by its tool, the tip wherever the curves say, as deep below the
+// surfaces as it has to be.
+std::vector<double> engraved_heights(const Operation& operation, const HeightGrid& grid)
+{
+    const toolpath::Tool tip = toolpath::tip_of(operation.tool);
+    const double spacing =
+        std::min(grid.pitch / 2, tip.radius > 0.01 ? tip.radius / 10 : grid.pitch / 4);
+    EngravedTips tips{operation, spacing};
+    std::vector<ToolPositions> runs;
+    for (const Chain& chain : operation.prismatic->chains) {
+        ToolPositions run{operation.tool, tips.along(open_polyline(chain)), {}};
+        run.rapid.resize(run.tips.size(), false);
+        runs.push_back(std::move(run));
+    }
+    MachinedStock stock{grid, tips.top() + operation.prismatic->depth + end_height(operation.tool)};
+    for (const ToolPositions& run : runs) {
+        stock.cut(run, spacing, [](double) {});
+    }
+    return stock.heights();
 }
 
 }  // namespace
@@ -60,6 +162,9 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
         for (const Chain& chain : operation.prismatic->chains) {
             walls_.emplace_back(there_and_back(chain), true, cap_);
         }
+    }
+    if (operation.strategy == "engrave" && !operation.floor.empty()) {
+        heights_ = engraved_heights(operation, grid);
     }
     if (!operation.prismatic) {
         heights_ = part_heights(operation.floor, operation.mesh, grid).z;
@@ -173,6 +278,9 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
     }
     if (operation_->strategy == "engrave") {
         const double away = from_curves(x, y);
+        if (!heights_.empty()) {
+            return {radius - away, heights_[k]};
+        }
         return {radius - away, bottom + profile_height(operation_->tool, std::min(away, radius))};
     }
     if (operation_->strategy == "chamfer") {

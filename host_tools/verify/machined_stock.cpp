@@ -103,6 +103,73 @@ private:
     double slope_{0.0};
 };
 
+// A cone, with a flat or a ball at its tip, moving from one position to the next. The height over a point is a convex
+// function of the position, since the tool's profile is one of the distance: the lowest is where its slope is 0.
+class ConeSweep {
+public:
+    ConeSweep(const Tool& tool, Vec3d from, Vec3d to)
+        : from_{from}, profile_{tool, 0}, square_{tool.radius * tool.radius}
+    {
+        constexpr double kShortest = 1e-9;
+        const Vec2d along = in_plan(to) - in_plan(from);
+        length_ = norm(along);
+        if (length_ < kShortest) {
+            length_ = 0;
+            from_.z = std::min(from.z, to.z);
+            return;
+        }
+        way_ = along * (1.0 / length_);
+        slope_ = (to.z - from.z) / length_;
+    }
+
+    // z; kUnbounded where the tool does not pass.
+    double lowest(double x, double y) const
+    {
+        const Vec2d d{x - from_.x, y - from_.y};
+        const double along = dot(d, way_);
+        const double away = d.y * way_.x - d.x * way_.y;
+        const double half = half_chord(square_, away);
+        const double begin = std::max(0.0, along - half);
+        const double end = std::min(length_, along + half);
+        if (away * away > square_ || begin > end) {
+            return kUnbounded;
+        }
+        const double at = std::clamp(along - behind(std::abs(away)), begin, end);
+        const double squared = (along - at) * (along - at) + away * away;
+        return from_.z + slope_ * at + profile_.at(squared);
+    }
+
+private:
+    // mm along the way, from the position that cuts a point lowest to the point: where the profile is as steep as the
+    // way. The first of flat, ball and flank on which it is.
+    double behind(double away) const
+    {
+        if (slope_ == 0.0) {
+            return 0.0;
+        }
+        const double steep = std::abs(slope_);
+        const double side = slope_ > 0 ? 1.0 : -1.0;
+        const double ball = steep * half_chord(profile_.corner * profile_.corner, away) /
+                            std::sqrt(1 + steep * steep);
+        if (profile_.corner > 0 && ball * ball + away * away <= profile_.join * profile_.join) {
+            return side * ball;
+        }
+        if (steep >= profile_.rise) {
+            return side * kUnbounded;
+        }
+        const double q = steep / profile_.rise;
+        const double flank = q * away / std::sqrt(1 - q * q);
+        return side * std::max(flank, half_chord(profile_.flat * profile_.flat, away));
+    }
+
+    Vec3d from_;
+    Profile profile_;
+    double square_;
+    Vec2d way_{1.0, 0.0};
+    double length_{};
+    double slope_{0.0};
+};
+
 }  // namespace
 
 MachinedStock::MachinedStock(const HeightGrid& grid, double top)
@@ -234,33 +301,22 @@ void MachinedStock::sweep_flat(
     }
 }
 
-// Each point is cut from the position nearest to it in plan: exact on level moves, and no deeper
-// than the tool cuts on others.
+// Exact on straight moves: where a cone goes down or up, a point is cut lowest from a position ahead of the nearest.
 void MachinedStock::sweep_cone(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double rise = 1 / std::tan(tool.tip_angle / 2);
     const double reach = std::min(
         tool.radius, tool.tip_radius + tool.corner_radius + (top_ - std::min(from.z, to.z)) / rise);
-    const Vec2d a = in_plan(from);
-    const Vec2d along = in_plan(to) - a;
-    const double squared = dot(along, along);
+    const ConeSweep sweep{tool, from, to};
     const auto [x_low, x_high] = std::minmax(from.x, to.x);
     const auto [y_low, y_high] = std::minmax(from.y, to.y);
     const std::size_t last = std::min(end, grid_.end_column(x_high + reach));
     for (std::size_t i = std::max(begin, grid_.first_column(x_low - reach)); i < last; ++i) {
         for (std::size_t j = grid_.first_row(y_low - reach); j < grid_.end_row(y_high + reach);
              ++j) {
-            const Vec2d p = Vec2d{grid_.x(i, j), grid_.y(i, j)} - a;
-            const double share = squared > 0 ? std::clamp(dot(p, along) / squared, 0.0, 1.0) : 0.0;
-            const double away = norm(p - share * along);
-            if (away <= tool.radius) {
-                double& height = heights_[grid_.index(i, j)];
-                const double up = tool.corner_radius > 0
-                                      ? profile_height(tool, away)
-                                      : rise * std::max(0.0, away - tool.tip_radius);
-                height = std::min(height, from.z + share * (to.z - from.z) + up);
-            }
+            double& height = heights_[grid_.index(i, j)];
+            height = std::min(height, sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
         }
     }
 }

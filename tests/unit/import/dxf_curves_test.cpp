@@ -170,6 +170,24 @@ TEST(DxfCurves, LeaveHiddenLayersOutAndTakeTheLayerAskedFor)
                     cusp::test::refusal([&] { read_loop(file + "#holes"); }).c_str());
 }
 
+TEST(DxfCurves, TakeALayerWithANumberSignInItsName)
+{
+    const std::string file =
+        folder.with("e.dxf", drawing("0\nCIRCLE\n8\nholes # 3\n10\n0\n20\n0\n40\n2\n"));
+    DOUBLES_EQUAL(4 * kPi, signed_area(loop_polyline(read_loop(file + "#holes # 3"), 1e-5)), 1e-3);
+}
+
+TEST(DxfCurves, SayWhatIsOnALayerWithoutCurves)
+{
+    const std::string file =
+        folder.with("f.dxf", drawing("0\nTEXT\n8\nlabel\n10\n0\n20\n0\n40\n3\n1\nHello\n"
+                                     "0\nCIRCLE\n8\ncut\n10\n0\n20\n0\n40\n2\n"));
+    STRCMP_CONTAINS(
+        "no curve on the layer \"label\"; it holds TEXT: convert text to curves in the drawing "
+        "program",
+        cusp::test::refusal([&] { read_loop(file + "#label"); }).c_str());
+}
+
 namespace {
 
 std::string with_blocks(const std::string& blocks, const std::string& entities)
