@@ -304,6 +304,11 @@ max_engagement = 90.0
   write("outline.dxf", outline([[2, 2], [48, 2], [48, 38], [2, 38]]));
   const program = write("slot.ngc", "G21 G90 F600\nG0 Z5\nG0 X5 Y20\nG1 Z-2\nG1 X45\nG1 X5\nG1 Y21.5\nG1 X45\nG1 X5\nG0 Z5\nM30\n");
   const { page, faults, close } = await openPage(browser, pageOf(program, "--job", job).file);
+  assert.ok(await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+    const list = document.querySelector(".program-list").getBoundingClientRect();
+    const row = document.querySelector(".program-row[aria-selected=true]")?.getBoundingClientRect();
+    done(row !== undefined && row.top >= list.top - 1 && row.bottom <= list.bottom + 1);
+  })))), "the line at the cursor is in sight, beside five charts too");
   const expected = { 2: 0, 3: 0, 5: 180, 6: 0, 8: 60, 9: 0 };
   for (const [line, degrees] of Object.entries(expected)) {
     for (const share of [0.3, 0.5, 0.7]) {

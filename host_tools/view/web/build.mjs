@@ -46,7 +46,7 @@ const inlined = {
 
 // The licences of bundled packages.
 function licences() {
-  return ["fflate", "three", "uplot"].map((name) => {
+  return ["three", "uplot"].map((name) => {
     const folder = join(here, "node_modules", name);
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     return `${name} ${version}\n\n${readFileSync(join(folder, "LICENSE"), "utf8").trim()}\n`;

@@ -13,13 +13,15 @@ export const colouringNames: Record<Colouring, string> = {
 
 interface Scale { name: ScaleName; title: string; unit: string; low: number; high: number; value: (vertex: number) => number }
 
+// mm: height of a vertex.
+const heightOf = ({ run }: Timeline, vertex: number) => (run.axes[2][run.vertexTick[vertex]] + run.origin[2]) * 1e-6;
+
 // Least and greatest height of the vertices that cut.
-function heights(timeline: Timeline): [number, number] {
-  const { run } = timeline;
+function heights(timeline: Timeline, rapid: Uint8Array): [number, number] {
   let low = Infinity, high = -Infinity;
-  for (let k = 1; k < run.vertexTick.length; ++k) {
-    if (run.rapid[timeline.lineOf(run.vertexTick[k])]) continue;
-    const z = timeline.place(run.vertexTick[k])[2];
+  for (let k = 1; k < rapid.length; ++k) {
+    if (rapid[k]) continue;
+    const z = heightOf(timeline, k);
     low = Math.min(low, z);
     high = Math.max(high, z);
   }
@@ -32,7 +34,7 @@ function most(values: Float32Array): number {
   return out;
 }
 
-function scaleOf(colouring: Colouring, timeline: Timeline): Scale {
+function scaleOf(colouring: Colouring, timeline: Timeline, rapid: Uint8Array): Scale {
   const { run } = timeline;
   const from0 = (name: ScaleName, title: string, unit: string, values: Float32Array, high: number, factor: number): Scale =>
     ({ name, title, unit, low: 0, high: high * factor, value: (k) => values[k] / (high || 1) });
@@ -45,15 +47,15 @@ function scaleOf(colouring: Colouring, timeline: Timeline): Scale {
       value: (k) => timeline.facts.reading.sections.indexOf(timeline.sectionOf(timeline.lineOf(run.vertexTick[k]))) / 255,
     };
     default: {
-      const [low, high] = heights(timeline);
-      return { name: "viridis", title: "Height", unit: "mm", low, high, value: (k) => (timeline.place(run.vertexTick[k])[2] - low) / (high - low) };
+      const [low, high] = heights(timeline, rapid);
+      return { name: "viridis", title: "Height", unit: "mm", low, high, value: (k) => (heightOf(timeline, k) - low) / (high - low) };
     }
   }
 }
 
 // Colours path and surfaces; returns the legend.
 export function applyColouring(colouring: Colouring, timeline: Timeline, scene: Scene, look: Look): HTMLElement[] {
-  const left = colouring === "left", scale = scaleOf(left ? "height" : colouring, timeline);
+  const left = colouring === "left", scale = scaleOf(left ? "height" : colouring, timeline, scene.path.rapidVertex);
   scene.dress(scale.name, look, left);
   scene.path.colour(scale.value);
   const bounds = scene.leftBounds();
@@ -69,6 +71,6 @@ export function applyColouring(colouring: Colouring, timeline: Timeline, scene: 
       element("div", { class: "legend-kind" }, swatch(cssOf(table, Math.min(k, 255))), section.title || "Before the first tool"));
     return [element("div", { class: "legend-title" }, "Operation"), ...items.slice(items.length > 1 ? 1 : 0, 12)];
   }
-  const middle = (scale.low + scale.high) / 2;
-  return legendBar(gradientOf(table), `${scale.title}, ${scale.unit}`, [scale.low, middle, scale.high].map((value) => figure(value, 3)));
+  const middle = (scale.low + scale.high) / 2, rounding = 1e-3 * (scale.high - scale.low);
+  return legendBar(gradientOf(table), `${scale.title}, ${scale.unit}`, [scale.low, middle, scale.high].map((value) => figure(Math.abs(value) < rounding ? 0 : value, 3)));
 }

@@ -47,78 +47,127 @@ function floatTexture(values: Float32Array, width: number, height: number): THRE
   return texture;
 }
 
+// What is left, by cells, for HeightField.
+export function leftTexture({ nx, ny }: Stock, left: Float32Array): THREE.DataTexture {
+  return floatTexture(left.map((v) => Number.isNaN(v) ? kNone : v === Infinity ? kFar : v), ny, nx);
+}
+
+export function fieldMaterial(): THREE.ShaderMaterial {
+  const uniforms: Record<string, THREE.IUniform> = {
+    heights: { value: null }, left: { value: null }, table: { value: null },
+    nx: { value: 1 }, ny: { value: 1 }, pitch: { value: 1 }, low: { value: 0 }, dz: { value: 0 },
+    plain: { value: new THREE.Color(0.6, 0.62, 0.66) }, useLeft: { value: 0 }, gouge: { value: 1 }, scallop: { value: 1 },
+  };
+  return new THREE.ShaderMaterial({
+    glslVersion: THREE.GLSL3, vertexShader, fragmentShader, uniforms, side: THREE.DoubleSide,
+    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2,
+  });
+}
+
+// Top and walls of any solid on this grid; the shader adds the heights. The cells' points come first, then two for each
+// cell of the border.
+function fieldGeometry({ nx, ny, x0, y0, pitch }: Stock, centre: Triple): THREE.BufferGeometry {
+  const size = nx * ny, points = size + 4 * (nx + ny);
+  const places = new Float32Array(3 * points), cells = new Float32Array(points), feet = new Float32Array(points), sides = new Float32Array(3 * points);
+  const index = new Uint32Array(6 * ((nx - 1) * (ny - 1) + 2 * (nx - 1) + 2 * (ny - 1)));
+  let used = 0;
+  const triangles = (a: number, b: number, c: number, d: number, e: number, f: number) => {
+    index[used++] = a; index[used++] = b; index[used++] = c;
+    index[used++] = d; index[used++] = e; index[used++] = f;
+  };
+  const put = (at: number, i: number, j: number) => {
+    cells[at] = i * ny + j;
+    places[3 * at] = x0 + i * pitch - centre[0];
+    places[3 * at + 1] = y0 + j * pitch - centre[1];
+  };
+  for (let i = 0; i < nx; ++i) {
+    for (let j = 0; j < ny; ++j) {
+      const a = i * ny + j, b = a + ny;
+      put(a, i, j);
+      if (i + 1 < nx && j + 1 < ny) triangles(a, b, b + 1, a, b + 1, a + 1);
+    }
+  }
+  let at = size;
+  const wall = (count: number, i0: number, j0: number, along: 0 | 1, x: number, y: number) => {
+    for (let n = 0; n < count; ++n, at += 2) {
+      for (let foot = 0; foot < 2; ++foot) {
+        put(at + foot, along ? i0 : i0 + n, along ? j0 + n : j0);
+        feet[at + foot] = foot;
+        sides[3 * (at + foot)] = x;
+        sides[3 * (at + foot) + 1] = y;
+      }
+      if (n > 0) triangles(at - 2, at, at + 1, at - 2, at + 1, at - 1);
+    }
+  };
+  wall(ny, 0, 0, 1, -1, 0);
+  wall(ny, nx - 1, 0, 1, 1, 0);
+  wall(nx, 0, 0, 0, 0, -1);
+  wall(nx, 0, ny - 1, 0, 0, 1);
+  return new THREE.BufferGeometry()
+    .setAttribute("position", new THREE.BufferAttribute(places, 3))
+    .setAttribute("cell", new THREE.BufferAttribute(cells, 1))
+    .setAttribute("foot", new THREE.BufferAttribute(feet, 1))
+    .setAttribute("side", new THREE.BufferAttribute(sides, 3))
+    .setIndex(new THREE.BufferAttribute(index, 1));
+}
+
+// The triangles of every second row and column, and the walls: a quarter of the work.
+function halfIndex(whole: THREE.BufferAttribute, { nx, ny }: Stock): THREE.BufferAttribute {
+  const walls = whole.array.subarray(6 * (nx - 1) * (ny - 1)), rows = Math.ceil((nx - 1) / 2), columns = Math.ceil((ny - 1) / 2);
+  const index = new Uint32Array(6 * rows * columns + walls.length);
+  let used = 0;
+  for (let i = 0; i + 1 < nx; i += 2) {
+    for (let j = 0; j + 1 < ny; j += 2) {
+      const i1 = Math.min(i + 2, nx - 1), j1 = Math.min(j + 2, ny - 1);
+      for (const k of [i * ny + j, i1 * ny + j, i1 * ny + j1, i * ny + j, i1 * ny + j1, i * ny + j1]) index[used++] = k;
+    }
+  }
+  index.set(walls, used);
+  return new THREE.BufferAttribute(index, 1);
+}
+
+// Geometry of a grid in whole and half detail.
+export class FieldDetail {
+  readonly geometry: THREE.BufferGeometry;
+  private readonly whole: THREE.BufferAttribute;
+  private half: THREE.BufferAttribute | null = null;
+  constructor(private readonly grid: Stock, centre: Triple) {
+    this.geometry = fieldGeometry(grid, centre);
+    this.whole = this.geometry.getIndex()!;
+  }
+  set halved(on: boolean) {
+    this.geometry.setIndex(on ? this.half ??= halfIndex(this.whole, this.grid) : this.whole);
+  }
+}
+
 export class HeightField {
-  readonly mesh: THREE.Mesh;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   readonly heights: Float32Array;  // z relative to the centre
   private readonly texture: THREE.DataTexture;
-  private readonly material: THREE.ShaderMaterial;
 
-  // foot  z of the lower end
-  constructor(private readonly grid: Stock, private readonly centre: Triple, foot: number, table: THREE.Texture, left: Float32Array | null) {
-    const { nx, ny, x0, y0, pitch } = grid, size = nx * ny;
-    this.heights = new Float32Array(size);
+  // foot  z of the lower end, relative to the centre, mm
+  constructor({ nx, ny, pitch }: Stock, foot: number, geometry: THREE.BufferGeometry, table: THREE.Texture, left: THREE.Texture) {
+    this.heights = new Float32Array(nx * ny);
     this.texture = floatTexture(this.heights, ny, nx);
-    const leftValues = left ? left.map((v) => Number.isNaN(v) ? kNone : v === Infinity ? kFar : v) : new Float32Array(size).fill(kNone);
-    this.material = new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3, vertexShader, fragmentShader, side: THREE.DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2,
-      uniforms: {
-        heights: { value: this.texture }, left: { value: floatTexture(leftValues, ny, nx) }, table: { value: table },
-        nx: { value: nx }, ny: { value: ny }, pitch: { value: pitch }, low: { value: foot - centre[2] }, dz: { value: 0 },
-        plain: { value: new THREE.Color(0.6, 0.62, 0.66) }, useLeft: { value: 0 }, gouge: { value: 1 }, scallop: { value: 1 },
-      },
-    });
-    const cells: number[] = [], feet: number[] = [], sides: number[] = [], index: number[] = [];
-    for (let k = 0; k < size; ++k) { cells.push(k); feet.push(0); sides.push(0, 0, 0); }
-    for (let i = 0; i + 1 < nx; ++i) {
-      for (let j = 0; j + 1 < ny; ++j) {
-        const a = i * ny + j, b = a + ny;
-        index.push(a, b, b + 1, a, b + 1, a + 1);
-      }
-    }
-    const wall = (border: number[], x: number, y: number) => {
-      border.forEach((k, n) => {
-        const at = cells.length;
-        cells.push(k, k); feet.push(0, 1); sides.push(x, y, 0, x, y, 0);
-        if (n > 0) index.push(at - 2, at, at + 1, at - 2, at + 1, at - 1);
-      });
-    };
-    const range = (count: number, at: (n: number) => number) => Array.from({ length: count }, (_, n) => at(n));
-    wall(range(ny, (j) => j), -1, 0);
-    wall(range(ny, (j) => (nx - 1) * ny + j), 1, 0);
-    wall(range(nx, (i) => i * ny), 0, -1);
-    wall(range(nx, (i) => i * ny + ny - 1), 0, 1);
-    const places = new Float32Array(3 * cells.length);
-    cells.forEach((k, n) => {
-      places[3 * n] = x0 + Math.floor(k / ny) * pitch - centre[0];
-      places[3 * n + 1] = y0 + k % ny * pitch - centre[1];
-    });
-    const geometry = new THREE.BufferGeometry()
-      .setAttribute("position", new THREE.BufferAttribute(places, 3))
-      .setAttribute("cell", new THREE.Float32BufferAttribute(cells, 1))
-      .setAttribute("foot", new THREE.Float32BufferAttribute(feet, 1))
-      .setAttribute("side", new THREE.Float32BufferAttribute(sides, 3));
-    geometry.setIndex(index);
-    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.mesh = new THREE.Mesh(geometry, fieldMaterial());
     this.mesh.frustumCulled = false;
+    const values = { heights: this.texture, left, table, nx, ny, pitch, low: foot };
+    for (const [name, value] of Object.entries(values)) this.mesh.material.uniforms[name].value = value;
   }
 
-  // Sets z of each point; NaN: none.
-  set(z: (k: number) => number): void {
-    for (let k = 0; k < this.heights.length; ++k) {
-      const value = z(k);
-      this.heights[k] = Number.isNaN(value) ? kNone : value - this.centre[2];
-    }
-    this.changed();
-  }
   changed(): void { this.texture.needsUpdate = true; }
 
   // Limits of gouge and stock left, mm; null: one colour.
   showLeft(bounds: { gouge: number; scallop: number } | null): void {
-    const { uniforms } = this.material;
+    const { uniforms } = this.mesh.material;
     uniforms.useLeft.value = bounds ? 1 : 0;
     if (bounds) [uniforms.gouge.value, uniforms.scallop.value] = [bounds.gouge, bounds.scallop];
   }
-  set plain(colour: THREE.Color) { (this.material.uniforms.plain.value as THREE.Color).copy(colour); }
-  get size(): [number, number] { return [this.grid.nx, this.grid.ny]; }
+  set plain(colour: THREE.Color) { (this.mesh.material.uniforms.plain.value as THREE.Color).copy(colour); }
+
+  // Sets z of each point; NaN: none.
+  set(z: Float32Array, centre: number): void {
+    for (let k = 0; k < z.length; ++k) this.heights[k] = Number.isNaN(z[k]) ? kNone : z[k] - centre;
+    this.changed();
+  }
 }

@@ -24,21 +24,22 @@ function documentRead(): Promise<void> {
   });
 }
 
-export async function loadRun(facts: PageFacts): Promise<Run> {
-  await documentRead();
-  if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old: it has no DecompressionStream");
-  const request: UnpackRequest = {
-    samples: takeBlock("samples"), lines: takeBlock("lines"), path: takeBlock("path"), program: takeBlock("program"),
-    rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"), engagement: takeBlock("engagement"),
-    limits: [facts.limits.velocity, facts.limits.acceleration, facts.limits.jerk],
-    farthest: facts.farthest_nm,
-  };
+// Unpacks the run. `begun` is called when the worker has the data: a worker starts only while this thread is free.
+export async function loadRun(facts: PageFacts, begun: () => void): Promise<Run> {
   const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
-  const worker = new Worker(address);
+  const worker = new Worker(address);  // it starts while the document is still being read
   try {
+    await documentRead();
+    const request: UnpackRequest = {
+      samples: takeBlock("samples"), lines: takeBlock("lines"), path: takeBlock("path"), program: takeBlock("program"),
+      rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"), engagement: takeBlock("engagement"),
+      limits: [facts.limits.velocity, facts.limits.acceleration, facts.limits.jerk],
+      farthest: facts.farthest_nm,
+    };
     return await new Promise<Run>((done, fail) => {
       worker.onmessage = (event: MessageEvent<UnpackAnswer>) => {
-        if ("run" in event.data) done(event.data.run);
+        if ("begun" in event.data) begun();
+        else if ("run" in event.data) done(event.data.run);
         else fail(new Error("the data of this page are damaged: " + event.data.failed));
       };
       worker.onerror = (event) => fail(new Error("the data of this page can't be read: " + event.message));

@@ -26,6 +26,16 @@ const kLevels = 10;
 const kFinest = 0.001;  // mm: deviation of level 0; four times more at each further level
 const kMostWhileMoving = 150000, kMostAtRest = 1200000;
 
+export function pathMaterial(rapid: number, table: THREE.Texture | null): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    glslVersion: THREE.GLSL3, vertexShader, fragmentShader, transparent: true, depthWrite: false,
+    uniforms: {
+      cursor: { value: 0 }, table: { value: table }, plain: { value: new THREE.Color(0.5, 0.5, 0.5) },
+      usePlain: { value: rapid }, strength: { value: rapid ? 0.55 : 1 }, strengthAhead: { value: rapid ? 0.3 : 0.35 },
+    },
+  });
+}
+
 export class PathLines {
   readonly group = new THREE.Group();
   private readonly values: THREE.BufferAttribute;
@@ -33,7 +43,7 @@ export class PathLines {
   private readonly materials: THREE.ShaderMaterial[];
   private readonly indices: (THREE.BufferAttribute[] | null)[] = new Array<null>(kLevels).fill(null);
   private readonly counts = new Array<number>(kLevels).fill(0);
-  private readonly rapidVertex: Uint8Array;
+  readonly rapidVertex: Uint8Array;
   private level = -1;
 
   constructor(private readonly timeline: Timeline, centre: Triple, table: THREE.Texture) {
@@ -55,13 +65,7 @@ export class PathLines {
     const position = new THREE.BufferAttribute(places, 3), tick = new THREE.BufferAttribute(ticks, 1);
     this.geometries = [0, 1].map(() => new THREE.BufferGeometry().setAttribute("position", position)
       .setAttribute("tick", tick).setAttribute("value", this.values));
-    this.materials = [0, 1].map((rapid) => new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3, vertexShader, fragmentShader, transparent: true, depthWrite: false,
-      uniforms: {
-        cursor: { value: 0 }, table: { value: table }, plain: { value: new THREE.Color(0.5, 0.5, 0.5) },
-        usePlain: { value: rapid }, strength: { value: rapid ? 0.55 : 1 }, strengthAhead: { value: rapid ? 0.3 : 0.35 },
-      },
-    }));
+    this.materials = [0, 1].map((rapid) => pathMaterial(rapid, table));
     this.geometries.forEach((geometry, k) => {
       const lines = new THREE.LineSegments(geometry, this.materials[k]);
       lines.frustumCulled = false;

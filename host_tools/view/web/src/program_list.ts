@@ -14,6 +14,7 @@ export class ProgramList {
   private readonly decoder = new TextDecoder();
   private marked = 0;
   private asked = false;
+  private inSight = true;  // the marked line, when last drawn
 
   constructor(private readonly host: HTMLElement, private readonly timeline: Timeline, private readonly pick: (line: number) => void) {
     this.lines = timeline.run.lineStart.length - 1;
@@ -29,7 +30,10 @@ export class ProgramList {
       const row = (event.target as HTMLElement).closest<HTMLElement>("[data-line]");
       if (row) this.pick(Number(row.dataset.line));
     });
-    new ResizeObserver(() => this.ask()).observe(host);
+    new ResizeObserver(() => {
+      if (this.inSight) this.reveal(this.marked);
+      this.ask();
+    }).observe(host);
     timeline.onChange(() => this.follow());
     this.follow();
     this.ask();
@@ -50,9 +54,13 @@ export class ProgramList {
     const line = this.timeline.lineOf(this.timeline.tick);
     if (line === this.marked) return;
     this.marked = line;
+    this.reveal(line);
+    this.ask();
+  }
+
+  private reveal(line: number): void {
     const top = this.top;
     if (line > 0 && (line - 1 < top + 1 || line > top + this.seen - 1)) this.scrollTo(line);
-    this.ask();
   }
 
   // No row is cut off at the top.
@@ -82,6 +90,7 @@ export class ProgramList {
     this.rows.replaceChildren(...rows);
     this.rows.style.transform = `translateY(${this.host.scrollTop - (top - first) * kRow}px)`;
     const here = document.getElementById("line-" + String(this.marked));
+    this.inSight = here !== null && this.marked > first && this.marked <= first + this.seen + 1;
     if (here) this.host.setAttribute("aria-activedescendant", here.id);
     else this.host.removeAttribute("aria-activedescendant");
   }

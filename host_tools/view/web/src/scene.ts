@@ -1,17 +1,15 @@
 // The scene: path, stock, part and tool in parallel projection; drawn after each change.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { HeightField } from "./height_field";
+import { FieldDetail, HeightField, leftTexture } from "./height_field";
 import { PathLines } from "./path_lines";
+import { backgroundOf, drawsInSoftware, sizeOf } from "./renderer";
 import { StockAtCursor } from "./stock_at_cursor";
-import { toolAt, toolGeometry } from "./tool_shape";
+import { toolAt, toolGeometry, toolLights, toolMaterial } from "./tool_shape";
 import type { Timeline } from "./timeline";
 import type { Triple } from "./run_data";
 import type { ScaleName } from "./colours";
 import { scaleTable } from "./colours";
-
-// The colour tables are in the colour space of the screen.
-THREE.ColorManagement.enabled = false;
 
 // Direction and up vector of the views 1 to 7.
 const views: [Triple, Triple][] = [
@@ -20,12 +18,31 @@ const views: [Triple, Triple][] = [
 ];
 export const viewNames = ["Corner", "Top", "Front", "Back", "Left", "Right", "Below"];
 
+// Of the path, and of the stock if there is one.
+function boxOf({ run }: Timeline): THREE.Box3 {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let c = 0; c < 3; ++c) {
+    const places = run.axes[c];
+    for (const tick of run.vertexTick) {
+      if (places[tick] < low[c]) low[c] = places[tick];
+      if (places[tick] > high[c]) high[c] = places[tick];
+    }
+  }
+  const point = (at: number[]) => new THREE.Vector3().fromArray(at.map((nm, c) => (nm + run.origin[c]) * 1e-6));
+  const box = new THREE.Box3(point(low), point(high));
+  if (run.stock) {
+    const { x0, y0, nx, ny, pitch, low: foot, high: top } = run.stock;
+    box.expandByPoint(new THREE.Vector3(x0, y0, foot)).expandByPoint(new THREE.Vector3(x0 + nx * pitch, y0 + ny * pitch, top));
+  }
+  return box;
+}
+
 export interface Shown { stock: boolean; part: boolean; path: boolean; rapids: boolean; tool: boolean }
 
 export class Scene {
   readonly path: PathLines;
   shown: Shown;
-  private readonly renderer: THREE.WebGLRenderer;
+  private readonly box: THREE.Box3;
   private readonly camera = new THREE.OrthographicCamera();
   private readonly controls: OrbitControls;
   private readonly world = new THREE.Scene();
@@ -35,61 +52,52 @@ export class Scene {
   private readonly leftTable = new THREE.DataTexture(new Uint8Array(1024), 256, 1);
   private readonly stock: HeightField | null = null;
   private readonly part: HeightField | null = null;
+  private readonly detail: FieldDetail | null = null;
   private readonly cutting: StockAtCursor | null = null;
-  private readonly tool = new THREE.Mesh(undefined, new THREE.MeshLambertMaterial({ color: 0xffffff }));
+  private readonly tool = new THREE.Mesh(undefined, toolMaterial());
   private readonly place = new THREE.Mesh(new THREE.TorusGeometry(1, 0.12, 8, 40), new THREE.MeshBasicMaterial({ color: 0xff00aa, depthTest: false }));
   private toolNumber = NaN;
   private asked = false;
   private movedAt = -1e9;
-  private readonly drawn: (() => void)[] = [];
+  private readonly drawn: { done: () => void; roughly: boolean }[] = [];
+  private readonly slow: boolean;  // no hardware draws
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly timeline: Timeline) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly timeline: Timeline) {
     const { run } = timeline;
-    const box = this.box();
-    this.centre = box.getCenter(new THREE.Vector3()).toArray();
-    this.extent = Math.max(box.getSize(new THREE.Vector3()).length(), 1e-3);
+    this.slow = drawsInSoftware(renderer);
+    this.box = boxOf(timeline);
+    this.centre = this.box.getCenter(new THREE.Vector3()).toArray();
+    this.extent = Math.max(this.box.getSize(new THREE.Vector3()).length(), 1e-3);
     this.shown = { stock: run.stock !== null, part: false, path: true, rapids: true, tool: true };
     this.path = new PathLines(timeline, this.centre, this.pathTable);
     this.world.add(this.path.group);
     if (run.stock && run.left) {
-      const foot = run.stock.low - 0.04 * Math.max(this.extent, 1);
-      this.stock = new HeightField(run.stock, this.centre, foot, this.leftTable, run.left.left);
-      this.part = new HeightField(run.stock, this.centre, foot, this.leftTable, run.left.left);
-      this.part.set((k) => run.left!.part[k]);
+      const foot = run.stock.low - 0.04 * Math.max(this.extent, 1) - this.centre[2];
+      const left = leftTexture(run.stock, run.left.left), { geometry } = this.detail = new FieldDetail(run.stock, this.centre);
+      this.stock = new HeightField(run.stock, foot, geometry, this.leftTable, left);
+      this.part = new HeightField(run.stock, foot, geometry, this.leftTable, left);
+      this.part.set(run.left.part, this.centre[2]);
       this.cutting = new StockAtCursor(timeline, run.stock, this.stock, this.centre[2]);
       this.world.add(this.stock.mesh, this.part.mesh);
     }
-    const toolLight = new THREE.DirectionalLight(0xffffff, 1.8);
-    toolLight.position.set(-0.5, -0.6, 0.8);
-    this.world.add(toolLight, new THREE.AmbientLight(0xffffff, 1.7), this.tool, this.place);
+    this.world.add(...toolLights(), this.tool, this.place);
     this.tool.renderOrder = 3;
     this.place.visible = false;
     this.place.renderOrder = 4;
     this.camera.near = -20 * this.extent;
     this.camera.far = 20 * this.extent;
-    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.moved());
     const bounds = this.leftBounds();
     if (bounds) this.part?.showLeft(bounds);
     timeline.onChange(() => this.ask());
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement!);
     this.resize();
     this.view(0);
   }
 
-  // Bounding box of the path, and of the stock if there is one.
-  private box(): THREE.Box3 {
-    const { run } = this.timeline, box = new THREE.Box3();
-    for (const tick of run.vertexTick) box.expandByPoint(new THREE.Vector3(...this.timeline.place(tick)));
-    if (run.stock) {
-      const { x0, y0, nx, ny, pitch, low, high } = run.stock;
-      box.expandByPoint(new THREE.Vector3(x0, y0, low)).expandByPoint(new THREE.Vector3(x0 + nx * pitch, y0 + ny * pitch, high));
-    }
-    return box;
-  }
+  private get canvas(): HTMLCanvasElement { return this.renderer.domElement; }
 
   // mm: limits of gouge and stock left.
   leftBounds(): { gouge: number; scallop: number } | null {
@@ -104,7 +112,7 @@ export class Scene {
     this.pathTable.image.data!.set(scaleTable(scale, look));
     this.leftTable.image.data!.set(scaleTable("left", look));
     this.pathTable.needsUpdate = this.leftTable.needsUpdate = true;
-    this.world.background = new THREE.Color(look.dark ? 0x15181d : 0xeef1f4);
+    this.world.background = backgroundOf(look.dark);
     this.path.plain = new THREE.Color(look.dark ? 0x9aa3ad : 0x77808a);
     if (this.stock && this.part) {
       this.stock.plain = new THREE.Color(look.dark ? 0x7d8794 : 0xc9d0d8);
@@ -134,7 +142,7 @@ export class Scene {
 
   // Zooms so that the box fills the canvas.
   fit(): void {
-    const box = this.box().translate(new THREE.Vector3(...this.centre).negate());
+    const box = this.box.clone().translate(new THREE.Vector3(...this.centre).negate());
     this.camera.updateMatrixWorld();
     const shape = new THREE.Box3();
     for (let k = 0; k < 8; ++k) {
@@ -186,10 +194,11 @@ export class Scene {
   }
 
   private resize(): void {
-    const box = this.canvas.parentElement!.getBoundingClientRect();
-    const width = Math.max(box.width, 1), height = Math.max(box.height, 1);
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
+    const { width, height } = sizeOf(this.canvas), ratio = Math.min(devicePixelRatio, 2), now = this.renderer.getSize(new THREE.Vector2());
+    if (now.x !== width || now.y !== height || this.renderer.getPixelRatio() !== ratio) {
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(width, height, false);
+    }
     const half = this.extent / 2;
     [this.camera.left, this.camera.right] = [-half * width / height, half * width / height];
     [this.camera.top, this.camera.bottom] = [half, -half];
@@ -216,16 +225,21 @@ export class Scene {
     });
   }
 
-  // Resolves when the present state is drawn.
-  whenDrawn(): Promise<void> {
+  // Resolves when the present state is drawn. roughly: in software, solids may be at half detail, until 300 ms later.
+  whenDrawn(roughly = false): Promise<void> {
     return new Promise((done) => {
-      this.drawn.push(done);
+      this.drawn.push({ done, roughly });
       this.ask();
     });
   }
 
   private draw(): void {
     const moving = this.timeline.playing || performance.now() - this.movedAt < 250;
+    if (this.detail) {
+      const halved = this.slow && this.drawn.every(({ roughly }) => roughly) && (moving || this.drawn.length > 0);
+      this.detail.halved = halved;
+      if (halved) setTimeout(() => this.ask(), 300);
+    }
     this.path.refine(this.millimetresPerPixel * (moving ? 2 : 1), moving);
     this.path.cursor = this.timeline.tick;
     this.path.group.visible = this.shown.path;
@@ -239,7 +253,7 @@ export class Scene {
     this.place.quaternion.copy(this.camera.quaternion);
     this.place.scale.setScalar(9 * this.millimetresPerPixel);
     this.renderer.render(this.world, this.camera);
-    for (const done of this.drawn.splice(0)) done();
+    for (const { done } of this.drawn.splice(0)) done();
   }
 
   private placeTool(): void {

@@ -49,3 +49,12 @@ export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeo
   }
   return new THREE.LatheGeometry(points, 40).rotateX(Math.PI / 2);
 }
+
+export const toolMaterial = (): THREE.MeshLambertMaterial => new THREE.MeshLambertMaterial({ color: 0xffffff });
+
+// The lights of the tool; path and solids are shaded by their own.
+export function toolLights(): THREE.Light[] {
+  const light = new THREE.DirectionalLight(0xffffff, 1.8);
+  light.position.set(-0.5, -0.6, 0.8);
+  return [light, new THREE.AmbientLight(0xffffff, 1.7)];
+}

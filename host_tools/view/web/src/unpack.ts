@@ -1,4 +1,5 @@
 // Decodes the page's data to arrays: the counterpart of host_tools/view/byte_text.hpp, sample_blocks.hpp and path_vertices.hpp.
+import { inflate } from "./inflate";
 import { kBucket, kBucketStep, kChannels, kEngagementChannel, kSpeedChannel } from "./run_data";
 import type { Axis, LeftMap, Run, Stock, Triple } from "./run_data";
 
@@ -15,11 +16,6 @@ export function bytesOfText(text: string): Uint8Array {
     }
   }
   return out;
-}
-
-export async function inflate(bytes: Uint8Array): Promise<Uint8Array> {
-  const stream = new Blob([bytes as BlobPart]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 export class Reader {
@@ -53,6 +49,42 @@ function readRepetitions(reader: Reader): Triple[] {
   return Array.from({ length: reader.varint() }, () => [reader.varint(), reader.varint(), reader.varint()]);
 }
 
+// Third differences from `depth` byte planes of `count` values that start at `at`.
+function thirds(planes: Uint8Array, at: number, depth: number, count: number): Int32Array | Float64Array {
+  const out = depth < 4 ? new Int32Array(count) : new Float64Array(count);
+  for (let plane = 0, scale = 1; plane < depth; ++plane, scale *= 256) {
+    for (let k = 0, from = at + plane * count; k < count; ++k) out[k] += planes[from + k] * scale;
+  }
+  if (out instanceof Int32Array) for (let k = 0; k < count; ++k) out[k] = out[k] >> 1 ^ -(out[k] & 1);
+  else for (let k = 0; k < count; ++k) out[k] = zigzag(out[k]);
+  return out;
+}
+
+// Sums third differences up to the places of ticks begin to end; repeated ticks take the differences of earlier ones.
+function sumThirds(out: Axis, begin: number, end: number, start: Triple, third: Int32Array | Float64Array, repetitions: Triple[]): void {
+  let [place, velocity, acceleration] = start;
+  const placeAt = (tick: number) => out[Math.max(tick, 0)];
+  out[begin] = place;
+  for (let r = 0, tick = begin + 1, k = 0; r <= repetitions.length; ++r) {
+    const [before, repeated, ago] = r < repetitions.length ? repetitions[r] : [end - tick, 0, 0];
+    for (const to = tick + before; tick < to; ++tick, ++k) {
+      acceleration += third[k];
+      velocity += acceleration;
+      place += velocity;
+      out[tick] = place;
+    }
+    // Before the first tick nothing moves.
+    for (const to = tick + repeated; tick < to; ++tick) {
+      const at = tick - ago;
+      acceleration += at >= 3 ? out[at] - out[at - 3] + 3 * (out[at - 2] - out[at - 1])
+        : placeAt(at) - placeAt(at - 3) + 3 * (placeAt(at - 2) - placeAt(at - 1));
+      velocity += acceleration;
+      place += velocity;
+      out[tick] = place;
+    }
+  }
+}
+
 export async function unpackSamples(bytes: Uint8Array, farthest: number): Promise<Samples> {
   const reader = new Reader(bytes);
   const ticks = reader.u32(), block = reader.u32();
@@ -65,37 +97,10 @@ export async function unpackSamples(bytes: Uint8Array, farthest: number): Promis
     const packed = new Reader(await inflate(reader.take(reader.u32())));
     const repetitions = readRepetitions(packed), planes = packed.rest();
     const count = repetitions.reduce((left, [, repeated]) => left - repeated, end - begin - 1);
-    let at = 0;
-    for (let axis = 0; axis < 3; ++axis) {
-      if (begin === 0) origin[axis] = seeds[axis][0];
-      let place = seeds[axis][0] - origin[axis], velocity = seeds[axis][1], acceleration = seeds[axis][2];
-      const depth = seeds[axis][3], out = axes[axis];
-      // Before the first tick nothing moves.
-      const placeAt = (tick: number) => out[tick < 0 ? 0 : tick];
-      let tick = begin, k = 0;
-      out[tick++] = place;
-      const step = (third: number) => {
-        acceleration += third;
-        velocity += acceleration;
-        place += velocity;
-        out[tick++] = place;
-      };
-      const read = (to: number) => {
-        while (tick < to) {
-          let value = 0;
-          for (let plane = depth - 1; plane >= 0; --plane) value = value * 256 + planes[at + plane * count + k];
-          ++k;
-          step(depth === 1 ? value >> 1 ^ -(value & 1) : zigzag(value));
-        }
-      };
-      for (const [before, repeated, ago] of repetitions) {
-        read(tick + before);
-        for (const to = tick + repeated; tick < to;) {
-          const from = tick - ago;
-          step(placeAt(from) - placeAt(from - 3) + 3 * (placeAt(from - 2) - placeAt(from - 1)));
-        }
-      }
-      read(end);
+    for (let axis = 0, at = 0; axis < 3; ++axis) {
+      const [place, velocity, acceleration, depth] = seeds[axis];
+      if (begin === 0) origin[axis] = place;
+      sumThirds(axes[axis], begin, end, [place - origin[axis], velocity, acceleration], thirds(planes, at, depth, count), repetitions);
       at += depth * count;
     }
   }
@@ -145,30 +150,42 @@ export function measure(samples: Samples, vertexTick: Uint32Array, limits: Tripl
     // fractions of the limits for a nanometre per tick, tick^2, tick^3
     const ofV = 1e-3 / limits[0][axis], ofA = 1 / limits[1][axis], ofJ = 1e3 / limits[2][axis];
     let place = places[0], velocity = 0, acceleration = 0, vertex = 0, share = 0;
-    for (let k = 0; k < ticks; ++k) {
-      const bucket = k / kBucket | 0;
-      const v = places[k] - place, a = v - velocity, j = Math.abs(a - acceleration);
-      place = places[k]; velocity = v; acceleration = a;
-      const speed = Math.abs(v), push = Math.abs(a);
-      if (speed * 1e-3 > velocities[bucket]) velocities[bucket] = speed * 1e-3;
-      if (push > accelerations[bucket]) accelerations[bucket] = push;
-      if (j * 1e3 > jerks[bucket]) jerks[bucket] = j * 1e3;
-      share = Math.max(share, speed * ofV, push * ofA, j * ofJ);
-      if (k === vertexTick[vertex]) {
-        if (share > vertexShare[vertex]) vertexShare[vertex] = share;
+    // Stretches that end at a vertex or with a bucket: the loop inside only finds maxima.
+    for (let k = 0; k < ticks;) {
+      const bucket = k / kBucket | 0, atVertex = vertexTick[vertex] + 1;
+      const end = Math.min((bucket + 1) * kBucket, ticks, vertex < vertexTick.length ? atVertex : ticks);
+      let v = 0, a = 0, j = 0;
+      for (; k < end; ++k) {
+        const nextVelocity = places[k] - place, nextAcceleration = nextVelocity - velocity;
+        const speed = Math.abs(nextVelocity), push = Math.abs(nextAcceleration), jerk = Math.abs(nextAcceleration - acceleration);
+        if (speed > v) v = speed;
+        if (push > a) a = push;
+        if (jerk > j) j = jerk;
+        place = places[k]; velocity = nextVelocity; acceleration = nextAcceleration;
+      }
+      velocities[bucket] = Math.max(velocities[bucket], v * 1e-3);
+      accelerations[bucket] = Math.max(accelerations[bucket], a);
+      jerks[bucket] = Math.max(jerks[bucket], j * 1e3);
+      share = Math.max(share, v * ofV, a * ofA, j * ofJ);
+      if (k >= atVertex) {
+        vertexShare[vertex] = Math.max(vertexShare[vertex], share);
         ++vertex;
         share = 0;
       }
     }
   }
   const [x, y, z] = axes, speeds = level[kSpeedChannel];
-  for (let k = 1, vertex = 0; k < ticks; ++k) {
-    const bucket = k / kBucket | 0;
-    const dx = x[k] - x[k - 1], dy = y[k] - y[k - 1], dz = z[k] - z[k - 1];
-    const speed = Math.sqrt(dx * dx + dy * dy + dz * dz) * 1e-3;
-    if (speed > speeds[bucket]) speeds[bucket] = speed;
-    while (vertexTick[vertex] < k) ++vertex;
-    if (k === vertexTick[vertex]) vertexSpeed[vertex] = speed;
+  const squareAt = (k: number) => (x[k] - x[k - 1]) ** 2 + (y[k] - y[k - 1]) ** 2 + (z[k] - z[k - 1]) ** 2;
+  for (let k = 1, bucket = 0; k < ticks; ++bucket) {
+    let square = 0;
+    for (const end = Math.min((bucket + 1) * kBucket, ticks); k < end; ++k) {
+      const next = squareAt(k);
+      if (next > square) square = next;
+    }
+    speeds[bucket] = Math.sqrt(square) * 1e-3;
+  }
+  for (let vertex = 0; vertex < vertexTick.length; ++vertex) {
+    if (vertexTick[vertex] > 0) vertexSpeed[vertex] = Math.sqrt(squareAt(vertexTick[vertex])) * 1e-3;
   }
   if (engagement) level[kEngagementChannel].set(engagement);
   while (peaks[peaks.length - 1][0].length > 512) {
@@ -195,7 +212,7 @@ export async function unpackStock(bytes: Uint8Array): Promise<Stock> {
   const frames = [new Uint16Array(size).fill(high > low ? 65535 : 0)];
   for (let f = 1; f < count; ++f) {
     const next = frames[f - 1].slice(), at = (f - 1) * 2 * size;
-    for (let k = 0; k < size; ++k) next[k] -= joined(planes, at, size, k);
+    for (let k = 0; k < size; ++k) next[k] -= planes[at + k] + 256 * planes[at + size + k];
     frames.push(next);
   }
   return { nx, ny, x0, y0, pitch, low, high, frameTicks, frames };

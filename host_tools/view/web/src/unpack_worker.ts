@@ -1,13 +1,14 @@
 // The worker that unpacks a run from the page's text to arrays.
+import { inflate } from "./inflate";
 import type { Run, Triple } from "./run_data";
-import { bytesOfText, inflate, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
+import { bytesOfText, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
 
 export interface UnpackRequest {
   samples: string; lines: string; path: string; program: string; rapid: string; stock: string; left: string; engagement: string;
   limits: Triple[];  // velocity, acceleration, jerk
   farthest: number;  // nm from the first set point
 }
-export type UnpackAnswer = { run: Run } | { failed: string };
+export type UnpackAnswer = { begun: true } | { run: Run } | { failed: string };
 
 async function unpack(request: UnpackRequest): Promise<Run> {
   const inflated = (text: string) => inflate(bytesOfText(text));
@@ -32,6 +33,7 @@ function buffersOf(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuf
 }
 
 self.onmessage = (event: MessageEvent<UnpackRequest>) => {
+  self.postMessage({ begun: true } satisfies UnpackAnswer);
   unpack(event.data).then(
     (run) => self.postMessage({ run } satisfies UnpackAnswer, { transfer: [...buffersOf(run)] }),
     (error: unknown) => self.postMessage({ failed: String(error) } satisfies UnpackAnswer));

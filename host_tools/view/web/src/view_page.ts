@@ -12,6 +12,7 @@ import { runProgram } from "./core/run_program";
 import { loadRun, pageFacts } from "./page_data";
 import { ProgramList } from "./program_list";
 import type { MainFacts, Triple, WorstPlace } from "./run_data";
+import { rendererOn, warmUp } from "./renderer";
 import { Scene } from "./scene";
 import { Timeline } from "./timeline";
 import type { RunState } from "./timeline";
@@ -38,6 +39,8 @@ const later: { line: (line: number) => void; place: (place: WorstPlace) => void 
 const restyle: (() => void)[] = [];
 
 function frame(): { help: () => void } {
+  // Charts come later and must not move the rest.
+  document.documentElement.style.setProperty("--chart-rows", facts.verification?.engagement ? "5" : "4");
   document.title = `${facts.program} – cusp view`;
   const keys = dialog("Keys", element("dl", { class: "keys" }, ...keyHelp.flatMap(([key, what]) => [element("dt", {}, key), element("dd", {}, what)])));
   const [themed, rights] = frameButtons(() => { for (const act of restyle) act(); });
@@ -64,10 +67,10 @@ function fail(reason: unknown): never {
   throw reason;
 }
 
-// The scene; null without WebGL, with the reason shown in the page.
-function sceneOf(canvas: HTMLCanvasElement, timeline: Timeline): Scene | null {
+// Null without WebGL, with the reason shown in the page.
+function rendererOr(canvas: HTMLCanvasElement): ReturnType<typeof rendererOn> | null {
   try {
-    return new Scene(canvas, timeline);
+    return rendererOn(canvas);
   } catch (error) {
     status.textContent = `No picture: ${error instanceof Error ? error.message : String(error)}`;
     return null;
@@ -75,12 +78,17 @@ function sceneOf(canvas: HTMLCanvasElement, timeline: Timeline): Scene | null {
 }
 
 async function open(help: () => void): Promise<void> {
-  const run = await loadRun(facts);
+  const canvas = element("canvas", { role: "img", "aria-label": "Path, stock and tool of the run", tabindex: "0" });
+  let renderer = null as ReturnType<typeof rendererOr>;
+  const run = await loadRun(facts, () => {
+    canvas.style.visibility = "hidden";  // black until the first frame
+    parts.stage.prepend(canvas);
+    renderer = rendererOr(canvas);
+    if (renderer) warmUp(renderer, facts.verification !== undefined);
+  });
   if (run.ticks === 0) throw new Error("the run has no set point");
   const timeline = new Timeline(run, facts);
-  const canvas = element("canvas", { role: "img", "aria-label": "Path, stock and tool of the run", tabindex: "0" });
-  parts.stage.prepend(canvas);
-  const scene = sceneOf(canvas, timeline);
+  const scene = renderer ? new Scene(renderer, timeline) : null;
   const goTo = (line: number) => {
     timeline.play(false);
     const ticks = timeline.ticksOfLine(line);
@@ -144,9 +152,11 @@ async function open(help: () => void): Promise<void> {
     },
   });
   if (!scene) throw new Error(status.textContent);
-  await scene.whenDrawn();
+  canvas.style.visibility = "";
+  const still = location.hash === "#still";
+  await scene.whenDrawn(!still);
   status.remove();
-  if (location.hash === "#still") document.documentElement.classList.add("still");
+  if (still) document.documentElement.classList.add("still");
 }
 
 // A click on the path moves the cursor there; a drag turns the scene.
