@@ -13,7 +13,7 @@ namespace cusp::verify {
 class PocketWalls {
 public:
     // Islands of the same boundary belong together, whatever operation has them. An island without a
-    // boundary stands in every pocket.
+    // boundary is in every pocket.
     //
     // boundary  its name, empty for an island without one
     // wall      the boundary itself, or an island in it
