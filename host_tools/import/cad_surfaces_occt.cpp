@@ -258,10 +258,28 @@ std::vector<Curve> loop_of(const TopoDS_Wire& wire,
     return all;
 }
 
+// Whether the wire runs along seams and poles alone: the edge of the whole of a ball or ring, which
+// trims nothing. Open CASCADE's curves of such seams are up to a tenth of a millimetre beside them.
+bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
+{
+    bool any = false;
+    for (TopExp_Explorer edges{wire, TopAbs_EDGE}; edges.More(); edges.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+        if (!BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, face)) {
+            return false;
+        }
+        any = true;
+    }
+    return any;
+}
+
 void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface)
 {
     std::vector<Curve> curves;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
+        if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
+            continue;
+        }
         std::vector<Curve> loop = loop_of(TopoDS::Wire(wires.Current()), face, place);
         shift_into_domain(loop, face, surface);
         if (loop.empty()) {

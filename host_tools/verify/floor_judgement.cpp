@@ -19,15 +19,6 @@ namespace {
 
 constexpr double kFlush = 1e-6;  // mm: files are not exact
 
-double clearance(const std::vector<WallDistance>& walls, double x, double y)
-{
-    double least = kInfinite;
-    for (const WallDistance& wall : walls) {
-        least = std::min(least, wall.at(x, y));
-    }
-    return least;
-}
-
 // The grid grown by `n` points on every side, without shifts.
 HeightGrid grown(const HeightGrid& grid, std::size_t n)
 {
@@ -57,7 +48,7 @@ std::vector<double> best_heights(const FloorQuestion& q,
         for_each_band(wide.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
                 for (std::size_t j = 0; j < wide.ny; ++j) {
-                    const double c = clearance(q.walls, wide.x(i, j), wide.y(i, j));
+                    const double c = q.walls.at(wide.x(i, j), wide.y(i, j));
                     forbidden[wide.index(i, j)] = c < tool.radius ? 1 : 0;
                 }
             }
@@ -276,7 +267,7 @@ std::vector<double> wall_clearances(const FloorQuestion& q)
     for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
             for (std::size_t j = 0; j < q.grid.ny; ++j) {
-                clear[q.grid.index(i, j)] = clearance(q.walls, q.grid.x(i, j), q.grid.y(i, j));
+                clear[q.grid.index(i, j)] = q.walls.at(q.grid.x(i, j), q.grid.y(i, j));
             }
         }
     });

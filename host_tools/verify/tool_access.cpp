@@ -27,7 +27,7 @@ constexpr int kAgain = 8;
 ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
                        const std::vector<std::array<Vec3d, 3>>& mesh,
                        const std::vector<Tool>& tools,
-                       const std::vector<WallDistance>& walls,
+                       const PocketWalls& walls,
                        const FloorSamples& samples,
                        double path_clearance)
     : surfaces_{surfaces},
@@ -60,9 +60,7 @@ ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
 
 bool ToolAccess::within_walls(const Cutter& cutter, double x, double y) const
 {
-    return std::none_of(walls_.begin(), walls_.end(), [&](const WallDistance& wall) {
-        return wall.at(x, y) < cutter.tool.radius;
-    });
+    return !(walls_.at(x, y) < cutter.tool.radius);
 }
 
 LowestPositionSearch::DroppedTool ToolAccess::drop_on_samples(const Cutter& cutter,

@@ -25,7 +25,7 @@ public:
     ToolAccess(const std::vector<nurbs::Surface>& surfaces,
                const std::vector<std::array<Vec3d, 3>>& mesh,
                const std::vector<toolpath::Tool>& tools,
-               const std::vector<WallDistance>& walls,
+               const PocketWalls& walls,
                const FloorSamples& samples,
                double path_clearance);
     ToolAccess(const ToolAccess&) = delete;  // its searches drop tools of its own
@@ -56,7 +56,7 @@ private:
 
     const std::vector<nurbs::Surface>& surfaces_;
     const std::vector<std::array<Vec3d, 3>>& mesh_;
-    const std::vector<WallDistance>& walls_;
+    const PocketWalls& walls_;
     const FloorSamples& samples_;
     double path_clearance_;
     std::optional<part_model::PartModel> model_;  // of the mesh

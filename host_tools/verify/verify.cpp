@@ -11,8 +11,8 @@
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/level_judgement.hpp"
+#include "host_tools/verify/pocket_walls.hpp"
 #include "host_tools/verify/stock_grid.hpp"
-#include "host_tools/verify/wall_distance.hpp"
 
 #include "fmt/format.h"
 
@@ -36,11 +36,17 @@ constexpr double kJudgement = 5e-4;
 // Share of the floor that may be above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
 
+struct Wall {
+    std::string boundary;  // the pocket's; empty where it has none
+    Loop loop;
+    bool outer;  // the boundary itself
+};
+
 // The parts and walls of all operations, each file once.
 struct Scene {
     std::vector<Surface> surfaces;
     std::vector<std::array<Vec3d, 3>> mesh;
-    std::vector<std::pair<Loop, bool>> loops;  // true: a boundary
+    std::vector<Wall> walls;
     double floor_tolerance{};
     double plan_tolerance{};
     std::optional<double> scallop;
@@ -56,7 +62,8 @@ Scene scene_of(const Job& job)
     using Files = std::vector<std::string>;
     std::set<std::pair<Files, Files>> floors;
     std::set<Files> meshes;
-    std::set<std::string> loops;
+    std::set<std::string> boundaries;
+    std::set<std::pair<std::string, std::string>> islands;  // each of its boundary
     for (const Operation& operation : job.operations) {
         scene.floor_tolerance = std::max(scene.floor_tolerance, operation.floor_tolerance);
         scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
@@ -72,12 +79,13 @@ Scene scene_of(const Job& job)
             scene.surfaces.insert(scene.surfaces.end(), operation.floor.begin(),
                                   operation.floor.end());
         }
-        if (operation.boundary && loops.insert(operation.boundary_file).second) {
-            scene.loops.emplace_back(*operation.boundary, true);
+        const std::string pocket = operation.boundary ? operation.boundary_file : "";
+        if (operation.boundary && boundaries.insert(pocket).second) {
+            scene.walls.push_back({pocket, *operation.boundary, true});
         }
         for (std::size_t i = 0; i < operation.islands.size(); ++i) {
-            if (loops.insert(operation.island_files[i]).second) {
-                scene.loops.emplace_back(operation.islands[i], false);
+            if (islands.emplace(pocket, operation.island_files[i]).second) {
+                scene.walls.push_back({pocket, operation.islands[i], false});
             }
         }
         if (operation.scallop) {
@@ -199,18 +207,13 @@ double most_left(const Scene& scene, const std::vector<Tool>& tools, double spac
            spacing * spacing / (8 * least);
 }
 
-double wall_gouge(const std::vector<WallDistance>& walls,
-                  const std::vector<ToolPositions>& runs,
-                  double top)
+double wall_gouge(const PocketWalls& walls, const std::vector<ToolPositions>& runs, double top)
 {
     double worst = 0;
     for (const ToolPositions& run : runs) {
         for (const Vec3d tip : run.tips) {
-            if (!(tip.z < top - 1e-9)) {
-                continue;
-            }
-            for (const WallDistance& wall : walls) {
-                worst = std::max(worst, run.tool.radius - wall.at(tip.x, tip.y));
+            if (tip.z < top - 1e-9) {
+                worst = std::max(worst, run.tool.radius - walls.at(tip.x, tip.y));
             }
         }
     }
@@ -376,7 +379,7 @@ void sum_engagement(const Job& job,
 void judge_surfaces(const Job& job,
                     const Scene& scene,
                     const std::vector<ToolPositions>& runs,
-                    const std::vector<WallDistance>& walls,
+                    const PocketWalls& walls,
                     const std::vector<Tool>& tools,
                     double spacing,
                     const std::vector<double>& heights,
@@ -453,9 +456,10 @@ Verification verify(const Job& job,
     for (const ToolPositions& run : runs) {
         widest = std::max(widest, run.tool.radius);
     }
-    std::vector<WallDistance> walls;
-    for (const auto& [loop, outer] : scene.loops) {
-        walls.emplace_back(loop, outer, widest + 2 * result.grid.pitch);
+    PocketWalls walls;
+    for (const Wall& wall : scene.walls) {
+        walls.add(wall.boundary,
+                  WallDistance{wall.loop, wall.outer, widest + 2 * result.grid.pitch});
     }
     const std::vector<double> heights = heights_to_judge(job, stock);
     if (scene.has_floor() || !scene.has_levels) {

@@ -7,7 +7,9 @@
 #include "opencascade/BRepAlgoAPI_Common.hxx"
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepAlgoAPI_Fuse.hxx"
+#include "opencascade/BRepBuilderAPI_MakeEdge.hxx"
 #include "opencascade/BRepBuilderAPI_MakeFace.hxx"
+#include "opencascade/BRepBuilderAPI_MakeWire.hxx"
 #include "opencascade/BRepBuilderAPI_Transform.hxx"
 #include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
@@ -18,6 +20,7 @@
 #include "opencascade/GProp_GProps.hxx"
 #include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/Geom_SphericalSurface.hxx"
 #include "opencascade/IGESControl_Controller.hxx"
 #include "opencascade/IGESControl_Writer.hxx"
 #include "opencascade/Interface_Static.hxx"
@@ -26,8 +29,11 @@
 #include "opencascade/TColgp_Array2OfPnt.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS_Compound.hxx"
+#include "opencascade/TopoDS_Wire.hxx"
 #include "opencascade/gp_Ax1.hxx"
 #include "opencascade/gp_Ax2.hxx"
+#include "opencascade/gp_Ax3.hxx"
+#include "opencascade/gp_Circ.hxx"
 #include "opencascade/gp_Trsf.hxx"
 // CppUTest's macros come last
 #include "CppUTest/TestHarness.h"
@@ -270,6 +276,26 @@ TEST(CadSurfaces, OfABallFusedIntoABlockAreWholeOrRefused)
         }
     }
     CHECK(read >= 5);
+}
+
+// A face without a seam, as other systems write it: all of the ball but the cap, not the cap.
+TEST(CadSurfaces, OfABallWithAHoleWithoutASeamAreAllButTheHole)
+{
+    const gp_Dir towards(2, 2, 1.5);
+    const gp_Ax2 rim(gp_Pnt(gp_XYZ(towards.XYZ() * 9)), towards);
+    const double radius = std::sqrt(19.0);  // 9 from the middle of a ball of radius 10
+    TopoDS_Wire wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(rim, radius)));
+    wire.Reverse();
+    const Handle(Geom_SphericalSurface) ball =
+        new Geom_SphericalSurface(gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 10);
+    STEPControl_Controller::Init();
+    Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // the rim has no curve in (u, v)
+    const std::string file = step(BRepBuilderAPI_MakeFace(ball, wire, false).Shape());
+    Interface_Static::SetIVal("write.surfacecurve.mode", 1);
+    constexpr double kPi = 3.141592653589793;
+    // both halves, without the cap's disc seen from above
+    DOUBLES_EQUAL(kPi * (2 * 100 - 19 * towards.Z()), seen_from_above(read_surfaces(file)).area,
+                  1.0);
 }
 
 // The arc's control point lies 0.098 mm outside the face, the arc inside.

@@ -55,6 +55,32 @@ std::string passes(double z, double step, double begin = 0, double end = 20)
     return text + "G0 Z5\nM30\n";
 }
 
+// A square pocket of 14 mm, its lower left corner at x, 3.
+std::string pocket_at(int x)
+{
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  R"({"shape": {"type": "curve", "count": 1, "data": [{"degree": 1,
+        "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points":
+        [[%d, 3], [%d, 3], [%d, 17], [%d, 17], [%d, 3]]}}]}})",
+                  x, x + 14, x + 14, x, x);
+    return text;
+}
+
+// Passes inside such a pocket, the ball of radius 3 along its walls.
+std::string pocketed(int x)
+{
+    std::string text;
+    char line[120];
+    std::snprintf(line, sizeof line, "G0 Z5\nG0 X%d Y6\n", x + 3);
+    text += line;
+    for (int y = 6; y <= 14; ++y) {
+        std::snprintf(line, sizeof line, "G1 X%d Y%d Z-5 F1000\nG1 X%d\n", x + 3, y, x + 11);
+        text += line;
+    }
+    return text;
+}
+
 }  // namespace
 
 TEST_GROUP(Verify)
@@ -336,6 +362,29 @@ TEST(Verify, FindsTheToolInAWall)
         inside += line;
     }
     DOUBLES_EQUAL(0, *verdict(inside, wall).figures.wall_gouge_max, 1e-6);
+}
+
+TEST(Verify, JudgesEachOfSeveralPocketsByItsOwnWalls)
+{
+    folder.with("left.json", pocket_at(0));
+    folder.with("right.json", pocket_at(16));
+    const std::string both = "boundary = \"left.json\"\n" +
+                             kJob.substr(kJob.find("[[operation]]")) +
+                             "boundary = \"right.json\"\n";
+    const std::string good = "G21 G90\n" + pocketed(0) + pocketed(16) + "G0 Z5\nM30\n";
+    const Verification result = verdict(good, both);
+    LONGS_EQUAL(0, result.broken.size());
+    DOUBLES_EQUAL(0, *result.figures.wall_gouge_max, 1e-9);
+    CHECK(result.figures.cells > 500);
+
+    // the second pocket is left out
+    const Verification half = verdict("G21 G90\n" + pocketed(0) + "G0 Z5\nM30\n", both);
+    CHECK(half.figures.uncovered_share > 0.3);
+
+    // through the web of 2 mm between them, whose middle is 1 mm from either
+    const Verification through =
+        verdict("G21 G90\n" + pocketed(0) + "G1 X27\n" + pocketed(16) + "G0 Z5\nM30\n", both);
+    DOUBLES_EQUAL(3 + 1, *through.figures.wall_gouge_max, 0.05);
 }
 
 TEST(Verify, RefusesAToolThatTheJobLacks)
