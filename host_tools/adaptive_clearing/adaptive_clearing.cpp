@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/mirrored_path.hpp"
 #include "host_tools/adaptive_clearing/open_places.hpp"
 #include "host_tools/adaptive_clearing/pass_starts.hpp"
 #include "host_tools/adaptive_clearing/steered_pass.hpp"
+#include "host_tools/adaptive_clearing/stock_spots.hpp"
 #include "host_tools/adaptive_clearing/swept_area.hpp"
 #include "host_tools/adaptive_clearing/wall_passes.hpp"
 #include "host_tools/clearing/clear_path.hpp"
+#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -25,6 +28,8 @@ using offset::box_of;
 using offset::connected_parts;
 using offset::Contour;
 using offset::Edge;
+using offset::edges_of;
+using offset::EdgeTree;
 using offset::grown;
 using offset::length;
 using offset::line_edge;
@@ -32,7 +37,6 @@ using offset::point_on;
 using offset::Region2d;
 using offset::RegionOffset;
 using offset::RegionPart;
-using offset::reversed;
 using offset::surrounds;
 
 namespace {
@@ -51,37 +55,6 @@ constexpr double kSteerShare = 0.995;  // of the engagement
 constexpr int kPoleGrid = 48;
 constexpr double kMoreLength = 1.3;  // times the area over the width of a straight cut
 constexpr double kMostProgress = 0.99;
-
-Edge mirrored(const Edge& e)
-{
-    return {
-        {-e.start.x, e.start.y}, {-e.end.x, e.end.y}, {-e.centre.x, e.centre.y}, e.radius, -e.turn};
-}
-
-// About the y axis; still to the left of its contours.
-Region2d mirrored(const Region2d& region)
-{
-    Region2d result;
-    for (const Contour& contour : region.contours) {
-        Contour other;
-        for (const Edge& edge : contour) {
-            other.push_back(mirrored(edge));
-        }
-        result.contours.push_back(reversed(other));
-    }
-    return result;
-}
-
-Box2d grown_box(Box2d box, double by)
-{
-    return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
-}
-
-double distance_to(const Box2d& box, Vec2d p)
-{
-    return std::hypot(std::max({box.x0 - p.x, 0.0, p.x - box.x1}),
-                      std::max({box.y0 - p.y, 0.0, p.y - box.y1}));
-}
 
 bool is_inside(const Region2d& region, const RegionPart& part, Vec2d point)
 {
@@ -236,6 +209,7 @@ private:
                 spots.push_back(grown_box(box_of(Region2d{{path}}), kSpot * radius_));
             }
         }
+        spots = joined(spots);
         while (!spots.empty()) {
             const auto next =
                 std::min_element(spots.begin(), spots.end(), [&](const Box2d& a, const Box2d& b) {
@@ -300,10 +274,11 @@ private:
         if (whole.contours.empty()) {
             return;
         }
+        const EdgeTree centres{edges_of(whole)};
         constexpr double kMargin = 0.02;
         for (const Vec2d p : swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_))) {
             if (!swept_.contains(p)) {
-                cut_sliver(p);
+                cut_sliver(p, centres);
             }
             if (!swept_.contains(p)) {
                 result_.left.push_back(p);
@@ -311,7 +286,7 @@ private:
         }
     }
 
-    void cut_sliver(Vec2d p)
+    void cut_sliver(Vec2d p, const EdgeTree& centres)
     {
         std::vector<std::pair<double, Vec2d>> near;
         for (const Vec2d place : places_) {
@@ -328,6 +303,22 @@ private:
         for (const auto& [d, place] : near) {
             const Edge way = line_edge(place, p - (p - place) * (0.98 * radius_ / d));
             if (is_path_clear(walls_, way, settings_.wall_clearance)) {
+                cut({way});
+                return;
+            }
+        }
+        cut_sliver_aside(p, centres.nearest_edge(p).point, near);
+    }
+
+    // No move towards the sliver is clear: a move to the place next to it.
+    //
+    // near  places with their distances, the nearest first
+    void cut_sliver_aside(Vec2d p, Vec2d beside, const std::vector<std::pair<double, Vec2d>>& near)
+    {
+        for (const auto& [d, place] : near) {
+            const Edge way = line_edge(place, beside);
+            if (norm(p - beside) < 0.99 * radius_ && length(way) > 0.0 &&
+                is_path_clear(walls_, way, settings_.wall_clearance)) {
                 cut({way});
                 return;
             }
@@ -465,23 +456,7 @@ AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& se
         open = mirrored(open);
     }
     AdaptivePath path = Planner{mirrored(region), other}.plan();
-    for (AdaptiveRun& run : path.runs) {
-        for (Edge& edge : run.path) {
-            edge = mirrored(edge);
-        }
-        for (LinkLeg& leg : run.link) {
-            leg.end.x = -leg.end.x;
-        }
-        if (run.helix) {
-            run.helix->centre.x = -run.helix->centre.x;
-        }
-    }
-    for (OverEngagement& over : path.over) {
-        over.at.x = -over.at.x;
-    }
-    for (Vec2d& place : path.left) {
-        place.x = -place.x;
-    }
+    mirror(path);
     return path;
 }
 

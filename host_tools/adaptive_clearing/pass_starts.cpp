@@ -30,6 +30,7 @@ constexpr double kUpstream = 0.5;                 // radii
 constexpr double kNear = 0.45;                    // radii
 constexpr int kMostUpstream = 4000;
 constexpr double kSame = 1e-9;
+constexpr double kFarthest = 2.0;  // radii: edges farther away are not looked for
 
 }  // namespace
 
@@ -49,16 +50,14 @@ PassStarts::PassStarts(const Box2d& box, const Region2d& target, double radius)
     const EdgeTree tree{edges};
     for (int j = 0; j < rows_; ++j) {
         const double y = corner_.y + (j + 0.5) * pitch_;
-        // Between two cells that no edge is near, inside stays inside.
-        bool known = false;
+        double known = 0.0;  // mm to the right in which no edge is met
         bool inside = false;
-        for (int i = 0; i < columns_; ++i) {
-            const Vec2d p{corner_.x + (i + 0.5) * pitch_, y};
-            const bool near = tree.any_nearer(p, pitch_);
-            if (!known || near) {
+        for (int i = 0; i < columns_; ++i, known -= pitch_) {
+            if (known <= 0.0) {
+                const Vec2d p{corner_.x + (i + 0.5) * pitch_, y};
                 inside = tree.surrounds(p);
+                known = tree.nearest(p, kFarthest * radius_);
             }
-            known = !near;
             target_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
                     static_cast<std::size_t>(i)] = inside;
         }

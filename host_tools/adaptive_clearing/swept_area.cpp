@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/offset/edge_tree.hpp"
@@ -22,6 +23,7 @@ constexpr int kArcs = 128;           // of the circle
 constexpr double kGrown = 0.025;     // radii: over half of such an arc
 constexpr double kPitch = 1.0 / 12;  // radii: of cells
 constexpr double kDiscSpacing = 0.05;
+constexpr double kMissed = 0.0004;  // radii: the width that discs miss beside the path
 constexpr double kShortestPiece = 0.001;
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
@@ -82,13 +84,18 @@ void SweptArea::add_disc(Vec2d centre, double radius)
     };
     for (int j = row(centre.y - outer); j <= row(centre.y + outer); ++j) {
         const double dy = corner_.y + (j + 0.5) * pitch_ - centre.y;
-        for (int i = column(centre.x - outer); i <= column(centre.x + outer); ++i) {
+        const double half = std::sqrt(std::max(0.0, outer * outer - dy * dy));
+        const std::size_t first = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_);
+        const int last = column(centre.x + half);
+        for (int i = column(centre.x - half); i <= last; ++i) {
+            i = next_open(first, i, last);
+            if (i > last) {
+                break;
+            }
             const double dx = corner_.x + (i + 0.5) * pitch_ - centre.x;
             const double d2 = dx * dx + dy * dy;
-            const std::size_t cell =
-                static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                static_cast<std::size_t>(i);
-            if (is_swept_[cell] != 0 || d2 > outer * outer) {
+            const std::size_t cell = first + static_cast<std::size_t>(i);
+            if (d2 > outer * outer) {
                 continue;
             }
             if (d2 <= inner * inner) {
@@ -99,6 +106,23 @@ void SweptArea::add_disc(Vec2d centre, double radius)
             }
         }
     }
+}
+
+// The first column from i on whose cell is not swept in the row that begins at `first`; over `last`
+// where there is none up to it.
+int SweptArea::next_open(std::size_t first, int i, int last) const
+{
+    constexpr int kTogether = 8;
+    constexpr std::uint64_t kAllSwept = 0x0101010101010101U;
+    const std::uint8_t* const row = is_swept_.data() + first;
+    while (i <= last && row[i] != 0) {
+        std::uint64_t some = 0;
+        if (i + kTogether <= last) {
+            std::memcpy(&some, row + i, kTogether);
+        }
+        i += some == kAllSwept ? kTogether : 1;
+    }
+    return i;
 }
 
 // Whether all points of the cell about `middle`, and within kGrown of it, are nearer to the other
@@ -126,10 +150,21 @@ void SweptArea::put(std::uint32_t disc, Discs& discs, Vec2d middle) const
     discs.push_back(disc);
 }
 
+// On the outer side of an arc of radius r discs at angles b apart miss the swept circle by
+// r b^2 / 8 (1 + r / R).
+int SweptArea::discs_along(const Edge& edge) const
+{
+    double pieces = length(edge) / (kDiscSpacing * radius_);
+    if (edge.turn != 0) {
+        pieces = std::max(pieces, sweep(edge) * std::sqrt(edge.radius * (edge.radius + radius_) /
+                                                          (8.0 * kMissed * radius_ * radius_)));
+    }
+    return std::max(1, static_cast<int>(std::ceil(pieces)));
+}
+
 void SweptArea::add(const Edge& edge, double tolerance)
 {
-    const double size = length(edge);
-    const int n = std::max(1, static_cast<int>(std::ceil(size / (kDiscSpacing * radius_))));
+    const int n = discs_along(edge);
     const double radius = radius_ - (edge.turn != 0 ? tolerance : 0.0);
     const bool goes_on = !discs_.empty() && norm(discs_.back().centre - edge.start) < 1e-9 &&
                          discs_.back().radius >= radius;

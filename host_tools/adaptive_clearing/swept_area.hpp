@@ -83,6 +83,8 @@ private:
     double open_angle(const Pose2d& pose, double most, const Cover& cover) const;
     int covered_front(const Disc& disc, const Pose2d& pose, double shrink, Interval* parts) const;
     void add_covered_at_both(const Disc& disc, const Pose2d* poses, double shrink) const;
+    int next_open(std::size_t first, int i, int last) const;
+    int discs_along(const offset::Edge& edge) const;
     int pieces_of(const offset::Edge& edge, double tolerance) const;
     bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
     void put(std::uint32_t disc, Discs& discs, Vec2d middle) const;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/clearing/clear_path.hpp"
@@ -200,6 +202,29 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Behind a corner in stock there is none to start from: the stretch from the first place that a
+// lead reaches, and that lead; none where there is no such place near.
+std::pair<std::vector<Edge>, std::optional<Edge>> begun_later(const Contour& contour,
+                                                              Stretch stretch,
+                                                              const WallSpace& space)
+{
+    constexpr double kLook = 0.2;   // radii
+    constexpr double kMost = 12.0;  // radii
+    const double radius = space.swept.radius();
+    const double end = std::min(stretch.to - kBeyond * radius, stretch.from + kMost * radius);
+    for (double from = stretch.from + kLook * radius; from < end; from += kLook * radius) {
+        std::vector<Edge> path = part_of(contour, {from, stretch.to});
+        if (const std::optional<Edge> lead = lead_in(path.front(), space)) {
+            return {std::move(path), lead};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
 WallPasses uncut_stretches(const Contour& contour, const WallSpace& space)
 {
     const double radius = space.swept.radius();
@@ -229,14 +254,19 @@ WallPasses uncut_stretches(const Contour& contour, const WallSpace& space)
         if (path.empty()) {
             continue;
         }
-        if (const std::optional<Edge> lead = lead_in(path.front(), space)) {
-            path.insert(path.begin(), *lead);
-        } else if (space.max_engagement < kPi && is_in_stock(path.front().start, space)) {
+        std::optional<Edge> lead = lead_in(path.front(), space);
+        if (!lead && space.max_engagement < kPi && is_in_stock(path.front().start, space)) {
             result.left = true;
-            continue;
+            std::tie(path, lead) = begun_later(contour, stretch, space);
+            if (!lead) {
+                continue;
+            }
         }
-        if (const std::optional<Edge> lead = lead_out(path.back(), space)) {
-            path.push_back(*lead);
+        if (lead) {
+            path.insert(path.begin(), *lead);
+        }
+        if (const std::optional<Edge> out = lead_out(path.back(), space)) {
+            path.push_back(*out);
         }
         result.paths.push_back(std::move(path));
     }

@@ -208,10 +208,10 @@ double feed_by_load(double feed, double degrees, const ChipLoad& limits)
     return std::clamp(feed * share, low, high);
 }
 
-bool wants_engagement(const Job& job)
+bool wants_engagement(const Job& job, bool with_stats)
 {
-    return std::any_of(job.operations.begin(), job.operations.end(), [](const Operation& o) {
-        return o.max_engagement.has_value() || o.chip_load.has_value();
+    return std::any_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
+        return (with_stats && o.max_engagement.has_value()) || o.chip_load.has_value();
     });
 }
 

@@ -179,16 +179,19 @@ void put_simulated_times(const std::string& program,
 }
 
 // The G-code. Sets the times in the plan to those on the controller.
-std::string program_of(
-    const Job& job, const std::string& title, double blend, const MachineRates& rates, Plan& plan)
+std::string program_of(const Job& job,
+                       const std::string& title,
+                       const PlanOutput& output,
+                       const MachineRates& rates,
+                       Plan& plan)
 {
     ProgramForm form{
         "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
     if (job.setup) {
         form.work_offset = job.setup->offset;
     }
-    if (blend > 0) {
-        form.blend_tolerance = blend * (job.inch ? kMillimetresPerInch : 1.0);
+    if (output.blend > 0) {
+        form.blend_tolerance = output.blend * (job.inch ? kMillimetresPerInch : 1.0);
     }
     std::string program;
     const auto write = [&] {
@@ -197,7 +200,7 @@ std::string program_of(
         program = lines.str();
         put_simulated_times(program, begins, plan);
     };
-    if (wants_engagement(job)) {
+    if (wants_engagement(job, !output.stats.empty())) {
         put_feeds_by_load(job, rates, plan, write);
     } else {
         write();
@@ -248,7 +251,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
          {overlap_warnings(job), reach_warnings(job, plan)}) {
         plan.warnings.insert(plan.warnings.end(), more.begin(), more.end());
     }
-    write_plan(job, program_of(job, title, output.blend, rates, plan), output, plan);
+    write_plan(job, program_of(job, title, output, rates, plan), output, plan);
     return plan;
 }
 

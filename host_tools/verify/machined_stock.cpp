@@ -193,6 +193,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Tools with round corners leave no more between positions than the square of their distance.
     const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
+    const bool is_cylinder = flat_radius(tool) >= tool.radius && !is_conical(tool);
     CutFigures figures;
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
         const Vec3d tip = positions.tips[k];
@@ -205,7 +206,9 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (contact != nullptr) {
             contact->look(heights_, k, band, begin, end);
         }
-        const double depth = cut_at(tool, tip, shrink, begin, end);
+        const bool goes_on = is_cylinder && k > 0 && positions.tips[k - 1].z <= tip.z;
+        const double depth =
+            cut_at(tool, tip, shrink, goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
         if (trace != nullptr && depth > 0) {
             trace->add_cut(k, band);
         }
@@ -221,8 +224,13 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     return figures;
 }
 
-double MachinedStock::cut_at(
-    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end)
+// Over 60 lines: the loops over rows share what holds for a column, and are vectorised with it.
+double MachinedStock::cut_at(const Tool& tool,
+                             Vec3d tip,
+                             double shrink,
+                             const Vec3d* before,
+                             std::size_t begin,
+                             std::size_t end)
 {
     // Rows that are compared together: most are below the tool.
     constexpr std::size_t kRun = 16;
@@ -234,38 +242,52 @@ double MachinedStock::cut_at(
     double deepest = 0;
     const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
     for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
-        const double column_x = grid_.x0 + static_cast<double>(i) * grid_.pitch - tip.x;
+        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+        const double column_x = x - tip.x;
         const double column_y = grid_.shift(i) - tip.y;
         const auto squared_at = [=](std::size_t j) {
             const double dx = column_x + row_x[j];
             const double dy = column_y + row_y[j];
             return dx * dx + dy * dy;
         };
-        const double half =
-            half_chord(profile.reach, std::max(0.0, std::abs(column_x) - grid_.pitch / 2));
-        const std::size_t high = grid_.end_row(tip.y + half);
         double* height = heights_.data() + i * grid_.ny;
-        for (std::size_t j0 = grid_.first_row(tip.y - half); j0 < high; j0 += kRun) {
-            const std::size_t j1 = std::min(high, j0 + kRun);
-            double over = 0;
+        const auto cut_rows = [&](std::size_t first, std::size_t high) {
+            for (std::size_t j0 = first; j0 < high; j0 += kRun) {
+                const std::size_t j1 = std::min(high, j0 + kRun);
+                double over = 0;
 #pragma omp simd reduction(max : over)
-            for (std::size_t j = j0; j < j1; ++j) {
-                const double squared = squared_at(j);
-                over = std::max(over, std::min(profile.reach - squared,
-                                               height[j] - tip.z - steepness * squared));
-            }
-            if (over <= 0) {
-                continue;
-            }
+                for (std::size_t j = j0; j < j1; ++j) {
+                    const double squared = squared_at(j);
+                    over = std::max(over, std::min(profile.reach - squared,
+                                                   height[j] - tip.z - steepness * squared));
+                }
+                if (over <= 0) {
+                    continue;
+                }
 #pragma omp simd reduction(max : deepest)
-            for (std::size_t j = j0; j < j1; ++j) {
-                const double squared = squared_at(j);
-                const double tracked = height[j] - tip.z - shrink - probe.at(squared);
-                deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
-                const double lower = tip.z + profile.at(squared);
-                height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
+                for (std::size_t j = j0; j < j1; ++j) {
+                    const double squared = squared_at(j);
+                    const double tracked = height[j] - tip.z - shrink - probe.at(squared);
+                    deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
+                    const double lower = tip.z + profile.at(squared);
+                    height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
+                }
             }
+        };
+        const double max_error = grid_.pitch / 2;
+        const double half =
+            half_chord(profile.reach, std::max(0.0, std::abs(column_x) - max_error));
+        const std::size_t first = grid_.first_row(tip.y - half);
+        const std::size_t high = grid_.end_row(tip.y + half);
+        if (before == nullptr) {
+            cut_rows(first, high);
+            continue;
         }
+        const double inner = half_chord(profile.reach, std::abs(x - before->x) + max_error);
+        const std::size_t done = grid_.end_row(before->y - inner);
+        const std::size_t open = std::max(done, grid_.first_row(before->y + inner));
+        cut_rows(first, std::min(done, high));
+        cut_rows(std::max(open, first), high);
     }
     return deepest;
 }
@@ -290,10 +312,13 @@ void MachinedStock::sweep_flat(
         const std::size_t high = grid_.end_row(y_high + outer);
         const std::size_t done = grid_.end_row(lower.y - inner);
         const std::size_t open = std::max(done, grid_.first_row(lower.y + inner));
+        const double shift = grid_.shift(i);
         const auto cut_rows = [&](std::size_t first, std::size_t stop) {
             for (std::size_t j = first; j < stop; ++j) {
                 double& height = heights_[grid_.index(i, j)];
-                height = std::min(height, sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
+                if (height > lower.z) {
+                    height = std::min(height, sweep.lowest(x + row_x_[j], row_y_[j] + shift));
+                }
             }
         };
         cut_rows(grid_.first_row(y_low - outer), std::min(done, high));

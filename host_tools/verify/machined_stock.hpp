@@ -51,9 +51,17 @@ private:
                         std::size_t band,
                         std::size_t begin,
                         std::size_t end);
-    // Returns the depth, mm. shrink: reduction of the measuring tool, mm.
-    double cut_at(
-        const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);
+    // Returns the depth, mm.
+    //
+    // shrink  mm: reduction of the measuring tool
+    // before  of a cylinder: where it has just cut, no higher. Only what lies outside is cut. May be
+    //         null.
+    double cut_at(const toolpath::Tool& tool,
+                  Vec3d tip,
+                  double shrink,
+                  const Vec3d* before,
+                  std::size_t begin,
+                  std::size_t end);
     void sweep_flat(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 

@@ -75,17 +75,17 @@ class AdaptiveLevels(unittest.TestCase):
             self.assertLess(found["over_engagement_mm"] - entries, 0.002 * plain["cut_length_mm"])
 
     def test_hull_rough(self):
-        self.judge("hull_rough", FLAT12, 5, "extra_subdivision = 2")
+        self.judge("hull_rough", FLAT12, 6.3, "extra_subdivision = 2")
 
     def test_hull_rough_with_round_ends(self):
-        self.judge("hull_rough", BULL12, 4, "extra_subdivision = 2")
-        self.judge("hull_rough", BALL10, 3, "extra_subdivision = 2", measured=False)
+        self.judge("hull_rough", BULL12, 9.4, "extra_subdivision = 2")
+        self.judge("hull_rough", BALL10, 9.4, "extra_subdivision = 2", measured=False)
 
     def test_hull_rough_with_two_tools(self):
-        self.judge("hull_rough", FLAT12 + FLAT5, 4, "extra_subdivision = 2\ntools = [1, 2]")
+        self.judge("hull_rough", FLAT12 + FLAT5, 9.4, "extra_subdivision = 2\ntools = [1, 2]")
 
     def test_isocurves(self):
-        self.judge("adaptive_isocurve", FLAT12 + BALL10.replace("shape", "number = 3\nshape"), 5,
+        self.judge("adaptive_isocurve", FLAT12 + BALL10.replace("shape", "number = 3\nshape"), 9.4,
                    "roughing = true\ntool = 3\ntools = [1]\nscallop = 0.5", measured=False)
 
     def test_what_has_no_meaning_is_refused(self):
@@ -94,6 +94,8 @@ class AdaptiveLevels(unittest.TestCase):
             return self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
         adaptive = 'clearing = "adaptive"\n'
         self.assertIn("overlap: does not go with", refused("hull_rough", adaptive + "overlap = 1"))
+        grid = f'boundary = "{PARTS / "choi-polygon-boundary.json"}"\ngrid = [1, 1]\n'
+        self.assertIn("rough with contour_pocket or hull_rough", refused("grid_pocket", adaptive + grid))
         self.assertIn('clearing: "adaptive" needs roughing = true',
                       refused("parallel_planes", adaptive + "scallop = 0.1"))
         self.assertIn("max_engagement: needs clearing", refused("hull_rough", "max_engagement = 60"))

@@ -146,7 +146,8 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
     return found;
 }
 
-void check(const Region2d& region, const AdaptiveSettings& settings, unsigned number)
+// Whether all holds; prints the case where it does not.
+bool holds(const Region2d& region, const AdaptiveSettings& settings, unsigned number)
 {
     const AdaptivePath path = clear_adaptively(region, settings);
     const Found found = judge(region, settings, path);
@@ -154,7 +155,8 @@ void check(const Region2d& region, const AdaptiveSettings& settings, unsigned nu
     for (const OverEngagement& over : path.over) {
         listed += over.length;
     }
-    const bool good = found.over <= 0.001 * found.way && found.uncut <= 0.0 && found.rapid <= 0.0 &&
+    const bool good = path.engagement_bound <= settings.max_engagement &&
+                      found.over <= 0.001 * found.way && found.uncut <= 0.0 && found.rapid <= 0.0 &&
                       (path.runs.empty() || found.nearest >= settings.wall_clearance - 1e-4);
     if (!good || std::getenv("CUSP_PROPERTY_PRINT") != nullptr) {
         std::printf(
@@ -167,8 +169,7 @@ void check(const Region2d& region, const AdaptiveSettings& settings, unsigned nu
             found.worst, found.worst_at.x, found.worst_at.y, found.uncut, found.uncut_at.x,
             found.uncut_at.y, found.nearest, found.nearest_at.x, found.nearest_at.y, found.rapid);
     }
-    CHECK(path.engagement_bound <= settings.max_engagement);
-    CHECK(good);
+    return good;
 }
 
 TEST_GROUP(RandomAdaptiveClearing){};
@@ -177,6 +178,7 @@ TEST(RandomAdaptiveClearing, KeepsItsBoundAndLeavesNothing)
 {
     constexpr unsigned kSeed = 26;
     const int cases = property_cases(4);
+    int wrong = 0;  // all are looked at, so that a campaign does not end at its first
     std::printf("%d random pockets, seeds from %u\n", cases, kSeed);
     for (int i = 0; i < cases; ++i) {
         Random random{kSeed + static_cast<unsigned>(i)};
@@ -189,8 +191,9 @@ TEST(RandomAdaptiveClearing, KeepsItsBoundAndLeavesNothing)
         settings.corner = 0.02;
         settings.direction =
             i % 2 == 0 ? job::CutDirection::kClimb : job::CutDirection::kConventional;
-        check(region, settings, kSeed + static_cast<unsigned>(i));
+        wrong += holds(region, settings, kSeed + static_cast<unsigned>(i)) ? 0 : 1;
     }
+    LONGS_EQUAL(0, wrong);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
@@ -74,6 +75,48 @@ TEST(AdaptiveClearing, ASlotAsWideAsTheToolIsCutAndListed)
 TEST(AdaptiveClearing, ATooLargeToolHasNoRuns)
 {
     CHECK(clear_adaptively(rectangle(30, 5.9), settings(60.0)).runs.empty());
+}
+
+TEST(AdaptiveClearing, NoPassIsMadeTwice)
+{
+    AdaptiveSettings exact = settings(60.0);
+    exact.wall_clearance = 3.005;
+    exact.corner = 0.005;
+    const AdaptivePath path = clear_adaptively(rectangle(90, 70), exact);
+    int same = 0;
+    for (std::size_t i = 0; i < path.runs.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const std::vector<Edge>& a = path.runs[i].path;
+            const std::vector<Edge>& b = path.runs[k].path;
+            same += !a.empty() && !b.empty() && distance(a.front().start, b.front().start) < 1e-6 &&
+                            distance(a.back().end, b.back().end) < 1e-6
+                        ? 1
+                        : 0;
+        }
+    }
+    LONGS_EQUAL(0, same);
+}
+
+// Each wall in one turn: so much of the way has its right side within a thin strip of a wall.
+TEST(AdaptiveClearing, WallsAreCutOnce)
+{
+    const AdaptivePath path = clear_adaptively(rectangle(40, 30), settings(60.0));
+    double beside = 0.0;
+    for (const AdaptiveRun& run : path.runs) {
+        for (const Edge& edge : run.path) {
+            const Vec2d middle = point_on(edge, 0.5);
+            const Vec2d heading = tangent_on(edge, 0.5);
+            const Vec2d wall{std::min(middle.x, 40.0 - middle.x),
+                             std::min(middle.y, 30.0 - middle.y)};
+            beside += std::min(wall.x, wall.y) < 3.01 + 0.1 &&
+                              std::max(std::abs(heading.x), std::abs(heading.y)) > 0.999
+                          ? length(edge)
+                          : 0.0;
+        }
+    }
+    const double around = 2 * (40.0 + 30.0 - 4 * 3.01);
+    CHECK(beside > 0.9 * around);
+    CHECK(beside < 1.25 * around);
 }
 
 TEST(AdaptiveClearing, ConventionalIsTheMirrorImage)

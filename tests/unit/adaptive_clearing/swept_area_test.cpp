@@ -45,6 +45,20 @@ TEST(SweptArea, ASlotHasHalfATurnAndTheLineItselfNone)
     CHECK(!swept.contains({14, 3.1}));
 }
 
+TEST(SweptArea, ATightTurnIsSweptToItsOuterSide)
+{
+    constexpr double kMissed = 0.0015;  // mm
+    for (const double radius : {0.02, 0.1, 0.9, 4.0}) {
+        SweptArea swept{{-20, -20, 20, 20}, 3.0};
+        swept.add(arc_edge({0, 0}, {radius, radius}, {0, radius}, 1));
+        for (int i = 0; i <= 40; ++i) {
+            const double angle = kPi * (i / 80.0 - 0.5);
+            const Vec2d out{std::cos(angle), std::sin(angle)};
+            CHECK(swept.contains(Vec2d{0, radius} + out * (3.0 + radius - kMissed)));
+        }
+    }
+}
+
 TEST(SweptArea, TheBoundOfAnEdgeIsNowherePassed)
 {
     constexpr unsigned kSeed = 7;
