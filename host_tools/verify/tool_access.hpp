@@ -11,7 +11,7 @@
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/floor_samples.hpp"
-#include "host_tools/verify/wall_distance.hpp"
+#include "host_tools/verify/pocket_walls.hpp"
 
 namespace cusp::verify {
 
