@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs what is missing, builds, cross-builds the images and runs the tests. See docs/testing.md.
 # usage: ./test.sh [--all]
-#   --all, or CI=true: also the long tests, the unit tests under ASan and UBSan, bounded fuzzing, the packages, and the
-#   demo and the packages in bare roots
+#   --all, or CI=true: also the long tests, the unit tests under ASan and UBSan, loops on several threads under
+#   ThreadSanitizer, bounded fuzzing, the packages, and the demo and the packages in bare roots
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -66,7 +66,7 @@ step() {
 leave_out() {
     echo "left to ./test.sh --all: $(ctest --preset dev -N -L long | sed -n 's/^Total Tests: //p') long tests" \
         "($(ctest --preset dev -N -L long | sed -n 's/^ *Test *#[0-9]*: //p' | tr '\n' ' ' | sed 's/ $//'))," \
-        "ASan and UBSan, fuzzing, the packages, bare roots"
+        "ASan and UBSan, ThreadSanitizer, fuzzing, the packages, bare roots"
     sed -n 's/^-- \(left out: \)/\1/p' build/configure-dev.log
 }
 
@@ -85,6 +85,10 @@ else
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz
     run_tests sanitize -L 'unit|fuzz'
+    echo "building (thread)"
+    quietly build/configure-thread.log cmake --preset thread
+    quietly build/build-thread.log cmake --build --preset thread -j "$jobs"
+    run_tests thread
     echo "building without Eigen, Open CASCADE and lib3mf, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
         -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF \

@@ -42,6 +42,35 @@ private:
     std::exception_ptr fault_;
 };
 
+using Body = std::function<void(std::size_t)>;
+
+// What the calls of one loop share. oneTBB orders them all; ThreadSanitizer does not see inside it, but sees `done`.
+struct Loop {
+    const Body& body;
+    FirstFault fault;
+    std::atomic<std::size_t> done;
+};
+
+void call(Loop& loop, std::size_t number)
+{
+    static_cast<void>(loop.done.load(std::memory_order_acquire));
+    try {
+        loop.body(number);
+    } catch (...) {
+        loop.fault.take(number, std::current_exception());
+    }
+    loop.done.fetch_add(1, std::memory_order_acq_rel);
+}
+
+// What oneTBB copies from thread to thread: read before ThreadSanitizer sees an order.
+struct LoopCall {
+    Loop* loop;
+    [[gnu::no_sanitize("thread")]] void operator()(std::size_t number) const
+    {
+        call(*loop, number);
+    }
+};
+
 }  // namespace
 
 void set_threads(int threads)
@@ -52,21 +81,11 @@ void set_threads(int threads)
 
 void for_each(std::size_t count, const std::function<void(std::size_t)>& body)
 {
-    FirstFault fault;
-    // oneTBB orders all this already. ThreadSanitizer does not see inside it, but sees this count.
-    std::atomic<std::size_t> done;
-    done.store(0, std::memory_order_release);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        static_cast<void>(done.load(std::memory_order_acquire));
-        try {
-            body(k);
-        } catch (...) {
-            fault.take(k, std::current_exception());
-        }
-        done.fetch_add(1, std::memory_order_acq_rel);
-    });
-    static_cast<void>(done.load(std::memory_order_acquire));
-    fault.rethrow();
+    Loop loop{body, {}, {}};
+    loop.done.store(0, std::memory_order_release);
+    tbb::parallel_for(std::size_t{0}, count, LoopCall{&loop});
+    static_cast<void>(loop.done.load(std::memory_order_acquire));
+    loop.fault.rethrow();
 }
 
 void both(const std::function<void()>& first, const std::function<void()>& second)
@@ -92,7 +111,7 @@ public:
             starts = !std::exchange(running_, true);
         }
         if (starts) {
-            group_.run([this] { run(); });
+            group_.run(Run{this});
         }
         if (full) {
             group_.wait();
@@ -109,6 +128,12 @@ public:
     }
 
 private:
+    // As LoopCall; then the mutex makes an order.
+    struct Run {
+        Implementation* queue;
+        [[gnu::no_sanitize("thread")]] void operator()() const { queue->run(); }
+    };
+
     // Runs tasks until the queue is empty.
     void run()
     {
