@@ -16,6 +16,9 @@ constexpr float kLongestTime = 100.0F;  // s; longer counts as this
 // looks at no more than 16 intervals a tick.
 constexpr float kShortestPiece = 1e-4F;
 constexpr float kShortestTime = kServoTick / 3.0F;
+// mm: what is carried so far counts for the whole of a block, which has at most 64. Below it, path units
+// fit 32 bits.
+constexpr float kWholeBlock = 60.0F;
 
 float shortest_piece(float greatest_speed) noexcept
 {
@@ -101,8 +104,9 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
         Allowance all = allowance;
         for (const Carry& carried : carries_) {
             all = stricter(all, carried.allowance);
-            const std::uint32_t reach = path_units(std::max(carried.distance, shortest));
-            piece = std::min(piece, carried.distance < 60.0F ? reach : piece);
+            if (carried.distance < kWholeBlock) {
+                piece = std::min(piece, path_units(std::max(carried.distance, shortest)));
+            }
         }
         if (millimetres(left - piece) < shortest) {
             piece = left;
