@@ -96,7 +96,11 @@ void both(const std::function<void()>& first, const std::function<void()>& secon
 class TaskQueue::Implementation {
 public:
     explicit Implementation(std::size_t most) : most_{most} {}
-    ~Implementation() { group_.wait(); }
+    ~Implementation()
+    {
+        group_.wait();
+        static_cast<void>(order_.load(std::memory_order_acquire));
+    }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 
@@ -111,6 +115,7 @@ public:
             starts = !std::exchange(running_, true);
         }
         if (starts) {
+            order_.fetch_add(1, std::memory_order_acq_rel);
             group_.run(Run{this});
         }
         if (full) {
@@ -128,7 +133,7 @@ public:
     }
 
 private:
-    // As LoopCall; then the mutex makes an order.
+    // As LoopCall.
     struct Run {
         Implementation* queue;
         [[gnu::no_sanitize("thread")]] void operator()() const { queue->run(); }
@@ -136,6 +141,13 @@ private:
 
     // Runs tasks until the queue is empty.
     void run()
+    {
+        static_cast<void>(order_.load(std::memory_order_acquire));
+        run_waiting();
+        order_.fetch_add(1, std::memory_order_acq_rel);
+    }
+
+    void run_waiting()
     {
         while (const std::function<void()> task = next()) {
             try {
@@ -167,6 +179,7 @@ private:
     std::deque<std::function<void()>> waiting_;
     bool running_{false};
     std::exception_ptr fault_;
+    std::atomic<std::size_t> order_{0};  // as Loop::done
     tbb::task_group group_;
 };
 
