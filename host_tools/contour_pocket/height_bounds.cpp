@@ -8,78 +8,19 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/part_model/bezier_cell.hpp"
-#include "host_tools/part_model/enclosure.hpp"
 
 namespace cusp::contour_pocket {
 
 using nurbs::BezierPatch;
 using nurbs::crease_knots;
 using nurbs::Surface;
-using nurbs::SurfacePoint;
 using offset::Box2d;
+using part_model::bend_bounds;
+using part_model::BendBounds;
 using part_model::BezierCell;
-using part_model::Enclosure;
+using part_model::kNoBendBounds;
 
 namespace {
-
-constexpr BendBounds kUnknown{kInfinite, kInfinite, kInfinite};
-
-struct EnclosureVector {
-    Enclosure x, y, z;
-};
-
-EnclosureVector around(Vec3d p, double spread)
-{
-    return {
-        {p.x - spread, p.x + spread}, {p.y - spread, p.y + spread}, {p.z - spread, p.z + spread}};
-}
-
-EnclosureVector cross(const EnclosureVector& a, const EnclosureVector& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Enclosure dot(const EnclosureVector& a, const EnclosureVector& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-// Along a line of the plan with unit direction e the second derivative of the height is
-//   N . (S_ss a^2 + 2 S_st a b + S_tt b^2) / N_z
-// with a = e x S_t / N_z, b = S_s x e / N_z and N = S_s x S_t.
-BendBounds bounds_of(const BezierCell& cell, const BezierCell::Spread& e)
-{
-    const SurfacePoint& m = cell.middle();
-    const EnclosureVector p = around(m.du, e.ds);
-    const EnclosureVector q = around(m.dv, e.dt);
-    const EnclosureVector n = cross(p, q);
-    if (n.z.low <= 0.0 && n.z.high >= 0.0) {
-        return kUnknown;
-    }
-    const Enclosure inverse_z = inverse(n.z);
-    const EnclosureVector unit{n.x * inverse_z, n.y * inverse_z, {1.0, 1.0}};
-    const Enclosure ss = dot(unit, around(m.duu, e.dss));
-    const Enclosure st = dot(unit, around(m.duv, e.dst));
-    const Enclosure tt = dot(unit, around(m.dvv, e.dtt));
-    const Enclosure px = p.x * inverse_z;
-    const Enclosure py = p.y * inverse_z;
-    const Enclosure qx = q.x * inverse_z;
-    const Enclosure qy = q.y * inverse_z;
-    const Enclosure xx = ss * (qy * qy) - 2.0 * (st * (qy * py)) + tt * (py * py);
-    const Enclosure xy = st * (qy * px + qx * py) - ss * (qx * qy) - tt * (px * py);
-    const Enclosure yy = ss * (qx * qx) - 2.0 * (st * (qx * px)) + tt * (px * px);
-    const auto largest = [&](double a, double b) {
-        return 0.5 * (a + b) + std::hypot(0.5 * (a - b), magnitude(xy));
-    };
-    return {std::hypot(magnitude(unit.x), magnitude(unit.y)),
-            std::max(0.0, largest(xx.high, yy.high)), std::max(0.0, largest(-xx.low, -yy.low))};
-}
-
-void widen(BendBounds& bounds, const BendBounds& by)
-{
-    bounds = {std::max(bounds.slope, by.slope), std::max(bounds.up, by.up),
-              std::max(bounds.down, by.down)};
-}
 
 Box2d plan_box(const BezierCell& cell)
 {
@@ -150,8 +91,8 @@ void HeightBounds::subdivide(const BezierCell& cell, int halvings, std::vector<C
     constexpr double kLoose = 1.1;
     const double slack = 0.01 / reach_;
     const Box2d box = plan_box(cell);
-    const BendBounds bounds = bounds_of(cell, cell.spread());
-    const BendBounds middle = bounds_of(cell, {});
+    const BendBounds bounds = bend_bounds(cell, cell.spread());
+    const BendBounds middle = bend_bounds(cell, {});
     const bool tight = bounds.up <= kLoose * middle.up + slack &&
                        bounds.down <= kLoose * middle.down + slack &&
                        bounds.slope <= kLoose * middle.slope + 0.01;
@@ -201,7 +142,7 @@ BendBounds HeightBounds::near(const Box2d& box) const
     const bool whole = box.x0 - reach_ >= field_.x0 && box.y0 - reach_ >= field_.y0 &&
                        box.x1 + reach_ <= field_.x1 && box.y1 + reach_ <= field_.y1;
     if (bins_.empty() || !whole) {
-        return kUnknown;
+        return kNoBendBounds;
     }
     BendBounds bounds;
     visit(box, [&](std::size_t bin) { widen(bounds, bins_[bin]); });

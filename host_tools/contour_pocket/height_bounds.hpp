@@ -6,19 +6,9 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/offset/contour.hpp"
-
-namespace cusp::part_model {
-class BezierCell;
-}
+#include "host_tools/part_model/bend_bounds.hpp"
 
 namespace cusp::contour_pocket {
-
-// Bounds of the floor as a height z(x, y), in any plan direction; infinite where nothing is proved.
-struct BendBounds {
-    double slope{};
-    double up{};    // largest second derivative, 1/mm
-    double down{};  // minus the least second derivative, 1/mm
-};
 
 // Largest plan distance, mm, between places of the ball's axis and the nearest pass for which the
 // scallop on the floor is at most `scallop_height`, along the normal; 0 where nothing is proved.
@@ -29,7 +19,7 @@ struct BendBounds {
 // the height g d + r, with r between -down d^2 / 2 and up d^2 / 2. With q = R - scallop_height, its
 // ball reaches the point `scallop_height` above the floor where
 //   q^2 + 2 q r cos(slope) + d^2 + (g d + r)^2 <= R^2.
-double proven_reach(double radius, double scallop_height, const BendBounds& bounds);
+double proven_reach(double radius, double scallop_height, const part_model::BendBounds& bounds);
 
 class HeightBounds {
 public:
@@ -38,12 +28,12 @@ public:
 
     // Bounds within reach of the box. Finite only for a single surface without trims or inner
     // creases, away from its ends.
-    BendBounds near(const offset::Box2d& box) const;
+    part_model::BendBounds near(const offset::Box2d& box) const;
 
 private:
     struct Cell {
         offset::Box2d box;
-        BendBounds bounds;
+        part_model::BendBounds bounds;
     };
     void subdivide(const part_model::BezierCell& cell,
                    int halvings,
@@ -57,7 +47,7 @@ private:
     offset::Box2d field_;
     int columns_{};
     int rows_{};
-    std::vector<BendBounds> bins_;
+    std::vector<part_model::BendBounds> bins_;
 };
 
 }  // namespace cusp::contour_pocket

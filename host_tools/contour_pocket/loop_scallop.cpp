@@ -65,7 +65,7 @@ LoopScallop::LoopScallop(const DropCutter& floor,
 }
 
 // mm: distance from a pass within which no scallop is too high.
-double LoopScallop::proven(const BendBounds& bounds) const
+double LoopScallop::proven(const part_model::BendBounds& bounds) const
 {
     if (!ball_ || !std::isfinite(bounds.slope)) {
         return 0.0;
@@ -103,7 +103,7 @@ bool LoopScallop::reaches_floor(const Region2d& region) const
 // proven_reach() gives the range for the tip's z.
 double LoopScallop::lookup_spacing(const Region2d& region, double max_error) const
 {
-    const BendBounds bounds = bounds_.near(box_of(region));
+    const part_model::BendBounds bounds = bounds_.near(box_of(region));
     const double radius = floor_.tool().radius;
     if (!ball_ || !(bounds.up * radius < 1.0) || !std::isfinite(bounds.down)) {
         return 0.0;

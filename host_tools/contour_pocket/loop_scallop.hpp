@@ -122,7 +122,7 @@ private:
     double left_at(Vec2d at, Vec2d near) const;
 
     double proven(const offset::Box2d& passes, double step) const;
-    double proven(const BendBounds& bounds) const;
+    double proven(const part_model::BendBounds& bounds) const;
 
     const drop_cutter::DropCutter& floor_;
     const ToleranceSplit& tolerances_;

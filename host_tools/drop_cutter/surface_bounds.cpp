@@ -2,13 +2,14 @@
 #include "host_tools/drop_cutter/surface_bounds.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "host_tools/nurbs/plan_vector.hpp"
+#include "host_tools/nurbs/knot_insertion.hpp"
 
 namespace cusp::drop_cutter {
 
 using nurbs::Surface;
+using part_model::bend_bounds;
+using part_model::BendBounds;
 using part_model::BezierCell;
 using part_model::TrimRegion;
 
@@ -16,43 +17,9 @@ namespace {
 
 constexpr double kSmallest = 2e-3;  // mm: cells of this size are not halved
 
-// Whether the surface may have a crease at a knot: derivatives are continuous where it is repeated less often than
-// the degree.
-bool is_crease(const std::vector<double>& knots, int degree, double at)
+bool is_among(const std::vector<double>& knots, double knot)
 {
-    constexpr double kSame = 1e-12;
-    return std::count_if(knots.begin(), knots.end(),
-                         [&](double knot) { return std::abs(knot - at) < kSame; }) >= degree;
-}
-
-// Bounds on one cell, without its edges.
-SurfaceBounds::Bounds bounds_on(const BezierCell& cell)
-{
-    const nurbs::SurfacePoint& m = cell.middle();
-    const BezierCell::Spread& e = cell.spread();
-    const double along_u = norm(m.du) + e.ds;
-    const double along_v = norm(m.dv) + e.dt;
-    // of the normal du x dv; the spread of a product
-    const Vec3d normal = cross(m.du, m.dv);
-    const double spread = norm(m.du) * e.dt + norm(m.dv) * e.ds + e.ds * e.dt;
-    const double up = std::abs(normal.z) - spread;
-    if (!(up > 0)) {
-        return {kInfinite, kInfinite, false};
-    }
-    const double slope = (std::hypot(normal.x, normal.y) + spread) / up;
-    // (-slope, 1) . second derivative = normal . second derivative / normal.z
-    const auto rise = [&](Vec3d second, double its_spread) {
-        return (std::abs(dot(normal, second)) + spread * norm(second) +
-                (norm(normal) + spread) * its_spread) /
-               up;
-    };
-    // parameters that a millimetre in plan takes at most
-    const double u = std::min(along_v, std::hypot(m.dv.x, m.dv.y) + e.dt) / up;
-    const double v = std::min(along_u, std::hypot(m.du.x, m.du.y) + e.ds) / up;
-    return {
-        slope,
-        rise(m.duu, e.dss) * u * u + 2 * rise(m.duv, e.dst) * u * v + rise(m.dvv, e.dtt) * v * v,
-        false};
+    return std::find(knots.begin(), knots.end(), knot) != knots.end();
 }
 
 }  // namespace
@@ -63,13 +30,15 @@ SurfaceBounds::SurfaceBounds(const std::vector<Surface>& surfaces)
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
         const Surface& surface = surfaces[s];
         trims_.emplace_back(surface, kTrimError);
+        const std::vector<double> u = nurbs::crease_knots(surface.knots_u, surface.degree_u,
+                                                          static_cast<std::size_t>(surface.size_u));
+        const std::vector<double> v = nurbs::crease_knots(surface.knots_v, surface.degree_v,
+                                                          static_cast<std::size_t>(surface.size_v));
         for (const nurbs::BezierPatch& patch : bezier_patches(surface)) {
             patches_.push_back({s,
                                 std::make_unique<BezierCell>(patch, static_cast<int>(s), &made_),
-                                {is_crease(surface.knots_u, surface.degree_u, patch.u_begin),
-                                 is_crease(surface.knots_u, surface.degree_u, patch.u_end),
-                                 is_crease(surface.knots_v, surface.degree_v, patch.v_begin),
-                                 is_crease(surface.knots_v, surface.degree_v, patch.v_end)}});
+                                {is_among(u, patch.u_begin), is_among(u, patch.u_end),
+                                 is_among(v, patch.v_begin), is_among(v, patch.v_end)}});
         }
     }
 }
@@ -116,12 +85,12 @@ void SurfaceBounds::add(
     for (std::size_t k = 0; k < reached.size(); ++k) {
         ends = ends || (reached[k] && patch.ends[k]);
     }
-    const Bounds here = bounds_on(cell);
-    const bool tight = here.curvature <= bounds.curvature && here.slope <= bounds.slope;
+    const BendBounds here = bend_bounds(cell, cell.spread());
+    const bool tight =
+        here.slope <= bounds.slope && here.up <= bounds.up && here.down <= bounds.down;
     const bool steep = !(here.slope < kInfinite) && size > kSmallest;
     if ((small && !steep) || (tight && (!ends || bounds.edges))) {
-        bounds.slope = std::max(bounds.slope, here.slope);
-        bounds.curvature = std::max(bounds.curvature, here.curvature);
+        widen(bounds, here);
         bounds.edges = bounds.edges || ends;
         return;
     }

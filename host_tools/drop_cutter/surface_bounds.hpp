@@ -1,16 +1,14 @@
 // How steep and how bent a floor is over a box in plan: bounds proved by the control points of its surfaces.
 //
-//     SurfaceBounds bend{surfaces};
-//     const SurfaceBounds::Bounds here = bend.over({0, 0}, {2, 1});
-//     here.curvature;  // 1/mm: z + curvature / 2 * (x^2 + y^2) is convex there, where `edges` is false
+//     const SurfaceBounds floor{surfaces};
+//     const SurfaceBounds::Bounds here = floor.over({0, 0}, {2, 1});
+//     here.down;  // 1/mm: z + down / 2 * (x^2 + y^2) is convex there, where `edges` is false
 //
 // Use: a tool's height over a floor is the maximum of the floor's heights under it, each less the tool's own. A
 // maximum of functions that become convex by the same parabola does so too. So it lies above the lines through
 // neighbouring places and below the chords between places, but for that parabola.
 //
-// Method: on a cell, z_ij - slope . (x, y)_ij are the second derivatives of z along the cell's parameters, and the
-// inverse of the plan's Jacobian leads from lengths in plan to parameters. Both are bounded by the values at the
-// cell's middle and their spread (BezierCell). Cells are halved to about the size of the box.
+// Method: bend_bounds() of cells that are halved to about the size of the box.
 #pragma once
 
 #include <array>
@@ -20,6 +18,7 @@
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/part_model/bend_bounds.hpp"
 #include "host_tools/part_model/bezier_cell.hpp"
 #include "host_tools/part_model/trim_region.hpp"
 
@@ -30,10 +29,8 @@ class SurfaceBounds {
 public:
     explicit SurfaceBounds(const std::vector<nurbs::Surface>& surfaces);
 
-    struct Bounds {
-        double slope{};      // upper bound of the steepest slope; infinite beside vertical places
-        double curvature{};  // 1/mm, upper bound of the second derivative of z in any direction
-        bool edges{};        // whether an edge, a trim or a crease may be in the box
+    struct Bounds : part_model::BendBounds {
+        bool edges{};  // whether an edge, a trim or a crease may be in the box
     };
     // Bounds over the box [low, high], mm; all zero where there is no surface.
     Bounds over(Vec2d low, Vec2d high) const;
@@ -42,8 +39,8 @@ private:
     struct Patch {
         std::size_t surface;
         std::unique_ptr<part_model::BezierCell> cell;
-        std::array<bool, 4>
-            ends;  // whether there is an edge or a crease at its first and last u, first and last v
+        // Whether there is an edge or a crease at its first and last u, first and last v.
+        std::array<bool, 4> ends;
     };
     void add(const part_model::BezierCell& cell,
              const Patch& patch,

@@ -41,7 +41,7 @@ public:
           allowed_{operation.floor_tolerance / 2},
           accuracy_{operation.floor_tolerance / 16},
           cutter_{operation.floor, tip_, accuracy_},
-          bend_{operation.floor}
+          bounds_{operation.floor}
     {
     }
 
@@ -98,16 +98,16 @@ private:
             return false;
         }
         LineHeights h{{0, begin.z, z, end.z, 0}, norm(half), accuracy_};
-        const SurfaceBounds::Bounds wide =
-            bend_.over(from + half - reach - half_box(half), from + half + reach + half_box(half));
+        const SurfaceBounds::Bounds wide = bounds_.over(from + half - reach - half_box(half),
+                                                        from + half + reach + half_box(half));
         const auto before = cutter_.drop(from - half);
         const auto beyond = cutter_.drop(from + 3.0 * half);
-        if (!wide.edges && before && beyond && wide.curvature < kInfinite) {
+        if (!wide.edges && before && beyond && wide.down < kInfinite) {
             h.z[0] = before->z;
             h.z[4] = beyond->z;
-            return off_by_curvature(h, wide.curvature) <= allowed_;
+            return off_by_curvature(h, wide.down) <= allowed_;
         }
-        const SurfaceBounds::Bounds near = bend_.over(from + half - reach, from + half + reach);
+        const SurfaceBounds::Bounds near = bounds_.over(from + half - reach, from + half + reach);
         return near.slope < kInfinite && off_by_slope(h, near.slope) <= allowed_;
     }
 
@@ -119,7 +119,7 @@ private:
     double allowed_;   // mm, of heights
     double accuracy_;  // mm
     DropCutter cutter_;
-    SurfaceBounds bend_;
+    SurfaceBounds bounds_;
     std::vector<Vec3d> points_;
 };
 

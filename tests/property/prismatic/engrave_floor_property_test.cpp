@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "host_tools/drop_cutter/surface_bounds.hpp"
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/toolpath/tool_tip.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/tap.hpp"
@@ -32,16 +32,6 @@ namespace {
 
 constexpr double kDepth = 0.4;  // mm
 constexpr double kSide = 30;    // mm: floors are squares
-
-struct Draw {
-    std::mt19937 engine;
-
-    double uniform(double low, double high)
-    {
-        return std::uniform_real_distribution<double>{low, high}(engine);
-    }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>{low, high}(engine); }
-};
 
 nurbs::Surface random_sheet(Draw& draw, double height)
 {
@@ -212,11 +202,11 @@ TEST(EngraveFloorProperty, BoundsOfSlopeAndCurvatureHold)
     double tightest = 0;
     for (int n = 0; n < cases; ++n) {
         const nurbs::Surface sheet = random_sheet(draw, draw.uniform(0, 4));
-        const drop_cutter::SurfaceBounds bend{{sheet}};
+        const drop_cutter::SurfaceBounds around{{sheet}};
         const part_model::PartModel floor{{sheet}};
         const Vec2d low{draw.uniform(2, 20), draw.uniform(2, 20)};
         const Vec2d high = low + Vec2d{draw.uniform(0.1, 5), draw.uniform(0.1, 5)};
-        const drop_cutter::SurfaceBounds::Bounds bounds = bend.over(low, high);
+        const drop_cutter::SurfaceBounds::Bounds bounds = around.over(low, high);
         Tool point;
         point.shape = ToolShape::kBall;
         point.radius = point.corner_radius = 1e-5;
@@ -228,15 +218,16 @@ TEST(EngraveFloorProperty, BoundsOfSlopeAndCurvatureHold)
             const Vec2d b{draw.uniform(low.x, high.x), draw.uniform(low.y, high.y)};
             const double size = norm(b - a);
             constexpr double kExact = 1e-5;
-            const double bow = std::abs(height(0.5 * (a + b)) - 0.5 * (height(a) + height(b)));
-            CHECK(bow <= bounds.curvature * size * size / 8 + kExact);
+            const double bow = height(0.5 * (a + b)) - 0.5 * (height(a) + height(b));
+            CHECK(bow <= bounds.down * size * size / 8 + kExact);
+            CHECK(-bow <= bounds.up * size * size / 8 + kExact);
             CHECK(std::abs(height(a) - height(b)) <= bounds.slope * size + kExact);
             if (bounds.slope > 0) {
                 tightest = std::max(
                     tightest, std::abs(height(a) - height(b)) / (bounds.slope * size + kExact));
             }
         }
-        CHECK(std::isfinite(bounds.curvature));
+        CHECK(std::isfinite(bounds.up) && std::isfinite(bounds.down));
     }
     std::printf("slopes come to %.2f of their bounds\n", tightest);
     CHECK(tightest > 0.5);

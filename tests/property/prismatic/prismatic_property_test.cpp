@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <random>
 #include <set>
 
 #include "firmware/base/math.hpp"
@@ -11,6 +10,7 @@
 #include "host_tools/prismatic/drill_tour.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/test_jobs.hpp"
@@ -34,16 +34,6 @@ using toolpath::ToolShape;
 namespace {
 
 constexpr double kExact = 1e-3;  // mm: accuracy of a profile
-
-struct Draw {
-    std::mt19937 engine;
-
-    double uniform(double low, double high)
-    {
-        return std::uniform_real_distribution<double>{low, high}(engine);
-    }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>{low, high}(engine); }
-};
 
 // Prints the seed, to repeat a failure.
 Draw seeded(const char* what, unsigned seed, int cases)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -12,6 +11,7 @@
 #include "host_tools/prismatic/medial_axis.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/test_jobs.hpp"
@@ -35,16 +35,6 @@ using toolpath::ToolMove;
 using toolpath::ToolShape;
 
 namespace {
-
-struct Draw {
-    std::mt19937 engine;
-
-    double uniform(double low, double high)
-    {
-        return std::uniform_real_distribution<double>{low, high}(engine);
-    }
-    int whole(int low, int high) { return std::uniform_int_distribution<int>{low, high}(engine); }
-};
 
 using Corners = std::vector<Vec2d>;
 

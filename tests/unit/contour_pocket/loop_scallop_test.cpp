@@ -126,7 +126,8 @@ TEST(HeightBounds, HoldAtEveryPlaceLookedAt)
     for (double u = 2.0; u < 9.0; u += 0.37) {
         for (double v = 2.0; v < 9.0; v += 0.41) {
             const SurfacePoint s = derivatives_at(floor, u, v);
-            const BendBounds here = bounds.near({s.point.x, s.point.y, s.point.x, s.point.y});
+            const part_model::BendBounds here =
+                bounds.near({s.point.x, s.point.y, s.point.x, s.point.y});
             const Vec3d n = upward_normal(s);
             const double slope = std::hypot(n.x, n.y) / n.z;
             // The net is straight in plan: x depends on u only.
@@ -149,7 +150,7 @@ TEST(HeightBounds, ProveNearlyTheIntervalOfABentFloor)
 {
     for (const double rho : {-12.0, -50.0, 20.0, 50.0}) {
         const double bend = 1.0 / std::abs(rho);
-        const BendBounds bounds{0.0, rho < 0.0 ? bend : 0.0, rho < 0.0 ? 0.0 : bend};
+        const part_model::BendBounds bounds{0.0, rho < 0.0 ? bend : 0.0, rho < 0.0 ? 0.0 : bend};
         const double half = 0.5 * plan_stepover(6.0, 0.1, 1.0 / rho, 0.0);
         const double proven = proven_reach(6.0, 0.1, bounds);
         CHECK(proven <= half * 1.01 && proven > 0.8 * half);
