@@ -200,10 +200,6 @@ private:
     double barrier_end_{0.0};
 };
 
-}  // namespace
-
-namespace {
-
 // Behind a corner in stock there is none to start from: the stretch from the first place that a
 // lead reaches, and that lead; none where there is no such place near.
 std::pair<std::vector<Edge>, std::optional<Edge>> begun_later(const Contour& contour,

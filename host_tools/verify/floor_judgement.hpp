@@ -9,7 +9,7 @@
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
-#include "host_tools/verify/pocket_walls.hpp"
+#include "host_tools/verify/pocket_boundaries.hpp"
 #include "host_tools/verify/verify.hpp"
 
 namespace cusp::verify {
@@ -18,7 +18,7 @@ struct FloorQuestion {
     const std::vector<nurbs::Surface>& surfaces;
     const std::vector<std::array<Vec3d, 3>>& mesh;
     const std::vector<toolpath::Tool>& tools;  // those that the program uses
-    const PocketWalls& walls;
+    const PocketBoundaries& walls;
     const HeightGrid& grid;
     const std::vector<double>& cut;  // heights of the stock after cutting; NaN: no stock to judge
     double top;                      // of the uncut stock

@@ -1,4 +1,4 @@
-// Walls of several pockets: a place is inside if it is inside one of them.
+// Walls and islands of several pockets: a place is inside if it is inside one of the pockets.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cusp::verify {
 
-class PocketWalls {
+class PocketBoundaries {
 public:
     // Islands of the same boundary belong together, whatever operation has them. An island without a
     // boundary is in every pocket.

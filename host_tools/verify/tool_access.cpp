@@ -27,7 +27,7 @@ constexpr int kAgain = 8;
 ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
                        const std::vector<std::array<Vec3d, 3>>& mesh,
                        const std::vector<Tool>& tools,
-                       const PocketWalls& walls,
+                       const PocketBoundaries& walls,
                        const FloorSamples& samples,
                        double path_clearance)
     : surfaces_{surfaces},

@@ -11,7 +11,7 @@
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/floor_samples.hpp"
-#include "host_tools/verify/pocket_walls.hpp"
+#include "host_tools/verify/pocket_boundaries.hpp"
 
 namespace cusp::verify {
 
@@ -25,7 +25,7 @@ public:
     ToolAccess(const std::vector<nurbs::Surface>& surfaces,
                const std::vector<std::array<Vec3d, 3>>& mesh,
                const std::vector<toolpath::Tool>& tools,
-               const PocketWalls& walls,
+               const PocketBoundaries& walls,
                const FloorSamples& samples,
                double path_clearance);
     ToolAccess(const ToolAccess&) = delete;  // its searches drop tools of its own
@@ -56,7 +56,7 @@ private:
 
     const std::vector<nurbs::Surface>& surfaces_;
     const std::vector<std::array<Vec3d, 3>>& mesh_;
-    const PocketWalls& walls_;
+    const PocketBoundaries& walls_;
     const FloorSamples& samples_;
     double path_clearance_;
     std::optional<part_model::PartModel> model_;  // of the mesh

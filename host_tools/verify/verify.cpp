@@ -11,7 +11,7 @@
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/level_judgement.hpp"
-#include "host_tools/verify/pocket_walls.hpp"
+#include "host_tools/verify/pocket_boundaries.hpp"
 #include "host_tools/verify/stock_grid.hpp"
 
 #include "fmt/format.h"
@@ -207,7 +207,7 @@ double most_left(const Scene& scene, const std::vector<Tool>& tools, double spac
            spacing * spacing / (8 * least);
 }
 
-double wall_gouge(const PocketWalls& walls, const std::vector<ToolPositions>& runs, double top)
+double wall_gouge(const PocketBoundaries& walls, const std::vector<ToolPositions>& runs, double top)
 {
     double worst = 0;
     for (const ToolPositions& run : runs) {
@@ -379,7 +379,7 @@ void sum_engagement(const Job& job,
 void judge_surfaces(const Job& job,
                     const Scene& scene,
                     const std::vector<ToolPositions>& runs,
-                    const PocketWalls& walls,
+                    const PocketBoundaries& walls,
                     const std::vector<Tool>& tools,
                     double spacing,
                     const std::vector<double>& heights,
@@ -456,7 +456,7 @@ Verification verify(const Job& job,
     for (const ToolPositions& run : runs) {
         widest = std::max(widest, run.tool.radius);
     }
-    PocketWalls walls;
+    PocketBoundaries walls;
     for (const Wall& wall : scene.walls) {
         walls.add(wall.boundary,
                   WallDistance{wall.loop, wall.outer, widest + 2 * result.grid.pitch});
