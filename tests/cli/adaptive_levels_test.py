@@ -6,12 +6,11 @@ usage: adaptive_levels_test.py CUSP [PARTS]
 """
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 PARTS = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2] / "examples/parts").resolve()
 JOB = """
 {tools}
@@ -34,18 +33,7 @@ FLAT5 = '[[tool]]\nnumber = 2\nshape = "flat"\ndiameter = 5\n'
 ANGLE = 70
 
 
-class AdaptiveLevels(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=900,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
-
+class AdaptiveLevels(CuspCase):
     def job(self, **about):
         part = PARTS / "chuang-pan-tap.json"
         (self.folder / "job.toml").write_text(JOB.format(part=part, top=18.66666667, **about))

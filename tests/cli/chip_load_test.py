@@ -6,14 +6,12 @@ usage: chip_load_test.py CUSP
 import collections
 import json
 import math
-import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 DIAMETER = 10.0
 FEED = 800.0
 PLUNGE = 200.0
@@ -37,22 +35,14 @@ depth = 2
 WORDS = re.compile(r"([GXYF])(-?[0-9.]+)")
 
 
-class ChipLoad(unittest.TestCase):
+class ChipLoad(CuspCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
+        super().setUp()
         corners = [(0, 0), (80, 0), (80, 60), (0, 60)]
         lines = "".join(f"0\nLINE\n8\noutline\n10\n{a}\n20\n{b}\n30\n0\n11\n{c}\n21\n{d}\n31\n0\n"
                         for (a, b), (c, d) in zip(corners, corners[1:] + corners[:1]))
         (self.folder / "plate.dxf").write_text(
             f"0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{lines}0\nENDSEC\n0\nEOF\n")
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     def plan(self, keys, strategy="face", shape="flat", status=0):
         (self.folder / "job.toml").write_text(JOB.format(keys=keys, strategy=strategy, shape=shape, diameter=DIAMETER,

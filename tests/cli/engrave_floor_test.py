@@ -4,14 +4,12 @@ usage: engrave_floor_test.py CUSP
 """
 import json
 import math
-import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 WORD = re.compile(r"([A-Z])(-?[\d.]+)")
 R = 60.0  # mm, of the cylinder along y, its top at z = 0 over x = 30
 
@@ -59,25 +57,12 @@ def polyline(layer, *points):
             "".join(f"10\n{x}\n20\n{y}\n" for x, y in points))
 
 
-class EngraveFloor(unittest.TestCase):
+class EngraveFloor(CuspCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
+        super().setUp()
         marks = polyline("mark", (10, 8), (50, 30)) + polyline("mark", (12, 30), (12, 12), (40, 12))
         marks += "0\nCIRCLE\n8\nmark\n10\n30\n20\n20\n40\n8\n"
         self.write("lines.dxf", f"0\nSECTION\n2\nENTITIES\n{marks}0\nENDSEC\n0\nEOF\n")
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     # Places of the tip after each feed move but the plunges.
     def places(self):

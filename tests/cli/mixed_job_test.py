@@ -3,13 +3,11 @@
 usage: mixed_job_test.py CUSP
 """
 import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 
 # 30 x 20 mm, from z = -1 down to -3
 SLOPE = {"shape": {"type": "surface", "count": 1, "data": [{
@@ -70,10 +68,9 @@ def rectangle(layer, x0, y0, x1, y1):
     return f"0\nLWPOLYLINE\n8\n{layer}\n90\n4\n70\n1\n{corners}"
 
 
-class MixedJob(unittest.TestCase):
+class MixedJob(CuspCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
+        super().setUp()
         entities = rectangle("outline", 0, 0, 30, 20) + rectangle("mark", 12, 8, 18, 12)
         entities += "0\nCIRCLE\n8\nholes\n10\n5\n20\n5\n40\n1.5\n"
         self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
@@ -81,18 +78,6 @@ class MixedJob(unittest.TestCase):
         self.write("job.toml", JOB)
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
         self.program = (self.folder / "p.ngc").read_text()
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     def spoiled(self, old, new):
         self.assertIn(old, self.program)

@@ -13,11 +13,11 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import tomllib
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 EXAMPLES = "--examples" in sys.argv
 TOP = pathlib.Path(__file__).resolve().parents[2]
 POSTS = ("cusp", "fanuc", "grbl", "grblhal", "linuxcnc", "mach3")
@@ -81,27 +81,14 @@ def words_of(program):
         yield from re.findall(r"([A-Z])([-+.\d]+)", bare(line))
 
 
-class Scratch(unittest.TestCase):
+class Scratch(CuspCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
+        super().setUp()
         self.write("floor.json", json.dumps(FLOOR))
         self.write("boundary.json", json.dumps(LOOP))
 
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
     def job(self, output="arcs", more="", units="mm"):
         self.write("job.toml", JOB.format(output=output, more=more, units=units))
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=1200,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     def planned(self, *options):
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json", *options)

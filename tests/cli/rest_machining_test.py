@@ -8,22 +8,20 @@ left with the second in full and with the second as planned for the rest, rapids
 import argparse
 import json
 import math
-import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
+
+from cusp_case import CuspCase
 
 ARGUMENTS = argparse.ArgumentParser()
 ARGUMENTS.add_argument("cusp")
 ARGUMENTS.add_argument("--count", type=int, default=4)
 ARGUMENTS.add_argument("--first", type=int, default=1)
 ARGUMENTS = ARGUMENTS.parse_args()
-CUSP = str(pathlib.Path(ARGUMENTS.cusp).resolve())
 PITCH = 0.2    # mm, of the raster
 STEP = 0.1     # mm, between places of a tool
 WALL = 0.03    # mm: plan_tolerance, and what rounding and places leave
@@ -151,23 +149,7 @@ def random_pocket(seed):
     return width + abs(skew), height + abs(skew), "".join(loops), draw.choice(["lines", "arcs"])
 
 
-class RestMachining(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
-
+class RestMachining(CuspCase):
     def job(self, name, tool, output="lines", stock="", more=""):
         self.write(name, JOB.format(tool=tool, output=output, stock=stock, more=more))
 

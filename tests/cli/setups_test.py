@@ -10,12 +10,11 @@ import math
 import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 WORD = re.compile(r"([A-Z])(-?[\d.]+)")
 
 HEAD = """
@@ -97,27 +96,14 @@ def box(places):
     return [round(f(p[axis] for p in places), 3) for axis in (0, 1) for f in (min, max)]
 
 
-class Setups(unittest.TestCase):
+class Setups(CuspCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
+        super().setUp()
         self.write("plate.dxf", drawing(rectangle("pocket", 2, 4, 20, 14) + circle("holes", 30, 6, 1.5) +
                                         circle("holes", 38, 20, 1.5) + rectangle("outline", 0, 0, 40, 24)))
 
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
     def text(self, name):
         return (self.folder / name).read_text()
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     def job(self, setups=SETUPS.format(flip="x"), operations=OPERATIONS, head=HEAD):
         self.write("job.toml", head + setups + operations)

@@ -5,14 +5,12 @@ usage: whole_tool_test.py CUSP
 """
 import json
 import math
-import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+from cusp_case import CuspCase
+
 JOB = """
 [tool]
 shape = "flat"
@@ -39,25 +37,14 @@ def rectangle(low, high):
         yield f"0\nLINE\n8\npocket\n10\n{a}\n20\n{b}\n30\n0\n11\n{c}\n21\n{d}\n31\n0\n"
 
 
-class WholeTool(unittest.TestCase):
+class WholeTool(CuspCase):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
+        super().setUp()
         self.write("plate.dxf", "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
                    + "".join(rectangle((0, 0), (60, 40))) + "0\nENDSEC\n0\nEOF\n")
 
-    def write(self, name, text):
-        (self.folder / name).write_text(text)
-
     def job(self, tool, depth=30, layer=5):
         self.write("job.toml", JOB.format(tool=tool, depth=depth, layer=layer))
-
-    def cusp(self, status, *arguments):
-        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
-        return result.stdout
 
     def planned(self, tool, **about):
         self.job(tool, **about)

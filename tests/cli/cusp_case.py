@@ -1,0 +1,25 @@
+"""CuspCase: tests that run cusp, the program named first on the command line, in a folder of their own."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+
+
+class CuspCase(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def cusp(self, status, *arguments):
+        """The output of cusp, which has to end with this status."""
+        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=1200, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT)
+        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
+        return result.stdout
