@@ -64,6 +64,16 @@ std::string_view trimmed(std::string_view text)
     return text.substr(0, end == std::string_view::npos ? 0 : end + 1);
 }
 
+// A word's text without the comments that follow it.
+std::string_view without_comments(std::string_view word)
+{
+    word = trimmed(word);
+    while (!word.empty() && word.back() == ')' && word.find('(') != std::string_view::npos) {
+        word = trimmed(word.substr(0, word.rfind('(')));
+    }
+    return word;
+}
+
 char capital(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
 
 // Bytes [begin, end) of a line.
@@ -75,7 +85,8 @@ struct WordPlace {
 WordPlace word_at(std::string_view line, const std::vector<std::size_t>& places, std::size_t word)
 {
     const std::size_t begin = places[word];
-    return {begin, begin + trimmed(line.substr(begin, places[word + 1] - begin)).size()};
+    const std::string_view text = line.substr(begin, places[word + 1] - begin);
+    return {begin, begin + without_comments(text).size()};
 }
 
 // The error of a line in a controller that has a feed; 0: none.

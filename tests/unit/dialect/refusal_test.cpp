@@ -37,6 +37,8 @@ TEST(Refusals, PassesOverComments)
     LONGS_EQUAL(10, refusal(20, "(E2) G1 X1E2").begin);
     check_word("E2", 20, "(E1) G1 (E3) X1 E2 ; E4");
     check_word("", 20, "(all is well");
+    check_word("Q4", 36, "G1 X6 Q4 (a comment) (and one more)");
+    check_word("X7", 25, "G1 X6 X7(beside it) Y1");
 }
 
 TEST(Refusals, NamesAWordThatNothingUses)
