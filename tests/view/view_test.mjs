@@ -191,6 +191,18 @@ test("hostile text is data", async () => {
   await close();
 });
 
+test("characters that turn text around are shown as their numbers", async () => {
+  const program = write("turned\u202egnp.ngc", "G21 G90\n(\u202e0009F 05X 1G \u2066) G1 X5 F600\nG1 X6 Q4 (\u200f)\n");
+  const { page, faults, close } = await openPage(browser, pageOf(program).file);
+  const rows = await page.locator(".program-row").evaluateAll((all) => all.map((row) => row.textContent));
+  assert.equal(rows[1], "2(<U+202E>0009F 05X 1G <U+2066>) G1 X5 F600");
+  assert.match(rows[2], /^3G1 X6 Q4 \(<U\+200F>\)error/);
+  assert.equal(await page.locator("h1").innerText(), "turned<U+202E>gnp.ngc");
+  assert.ok(!/[\u200e\u200f\u202a-\u202e\u2066-\u2069]/.test(await page.locator("body").innerText()));
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("a program of any bytes opens", async () => {
   const bytes = Buffer.from([...Array(256).keys(), 10, ...Buffer.from("G21\nG1 X5 F600\n")]);
   const { page, faults, close } = await openPage(browser, pageOf(write("bytes.ngc", bytes)).file);

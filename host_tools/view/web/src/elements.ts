@@ -2,11 +2,15 @@
 
 export type Content = Node | string;
 
+// Characters that turn the direction of text around, as their numbers: a comment can't show another program than it is.
+export const inOrder = (text: string): string =>
+  text.replace(/[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, (c) => `<U+${c.charCodeAt(0).toString(16).toUpperCase().padStart(4, "0")}>`);
+
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K, attributes: Record<string, string> = {}, ...content: Content[]): HTMLElementTagNameMap[K] {
   const out = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) out.setAttribute(name, value);
-  out.append(...content);
+  out.append(...content.map((part) => typeof part === "string" ? inOrder(part) : part));
   return out;
 }
 

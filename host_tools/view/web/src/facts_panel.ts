@@ -66,9 +66,8 @@ function boundRows(facts: PageFacts): Content[][] {
 function warnings(facts: PageFacts, actions: FactsActions): Content[] {
   const { run, reading } = facts, out: Content[] = [];
   const say = (text: string, line = 0) => {
-    const item = element("li", {});
-    item.append(line > 0 ? button(`Line ${line}`, "Go to this line", () => actions.toLine(line)) : "", line > 0 ? " " + text : text);
-    out.push(item);
+    const to = line > 0 ? [button(`Line ${line}`, "Go to this line", () => actions.toLine(line)), " "] : [];
+    out.push(element("li", {}, ...to, text));
   };
   for (const error of run.errors) say(`${error.code > 0 ? `error ${error.code}: ` : ""}${error.text}: the run ends here`, error.line);
   const reportedLines = new Set(run.errors.map((error) => error.line));

@@ -2,7 +2,7 @@
 import firstProgram from "../first.ngc";
 import type { Settings } from "./core/core";
 import { drawProgram, hasCore, runProgram, settingTable } from "./core/run_program";
-import { button, duration, element } from "./elements";
+import { button, duration, element, inOrder } from "./elements";
 import { frameButtons, isDark, place } from "./frame";
 import { PathView } from "./playground/path_view";
 import { ProfileCharts, type Limits } from "./playground/profile_charts";
@@ -68,8 +68,8 @@ async function open(file: File, editor: Editor): Promise<void> {
     state.textContent = `${editor.settings.take(text)} settings from ${file.name}`;
     return;
   }
-  name.textContent = file.name;
-  document.title = `${file.name} – cusp playground`;
+  name.textContent = inOrder(file.name);
+  document.title = `${inOrder(file.name)} – cusp playground`;
   editor.program.text = text;
   await run(editor);
 }

@@ -1,5 +1,5 @@
 // The program beside the scene: only visible lines are in the document; the line at the cursor is marked.
-import { element } from "./elements";
+import { element, inOrder } from "./elements";
 import type { RefusedLine } from "./run_data";
 import type { Timeline } from "./timeline";
 
@@ -97,7 +97,7 @@ export class ProgramList {
 
   private row(line: number): HTMLElement {
     const bytes = this.bytesOf(line).subarray(0, 400), text = element("span"), refused = this.refused.get(line);
-    const part = (from: number, to?: number) => this.decoder.decode(bytes.subarray(from, to));
+    const part = (from: number, to?: number) => inOrder(this.decoder.decode(bytes.subarray(from, to)));
     const row = element("div", {
       class: "program-row", id: `line-${line}`, "data-line": String(line), role: "option",
       "aria-selected": String(line === this.marked), "aria-posinset": String(line), "aria-setsize": String(this.lines),
@@ -107,7 +107,7 @@ export class ProgramList {
       return row;
     }
     row.classList.add("refused");
-    row.title = refused.code > 0 ? `error ${refused.code}: ${refused.text}` : refused.text;
+    row.title = inOrder(refused.code > 0 ? `error ${refused.code}: ${refused.text}` : refused.text);
     text.append(part(0, refused.begin), element("mark", {}, part(refused.begin, refused.end)), part(refused.end),
       element("span", { class: "program-why" }, row.title));
     return row;

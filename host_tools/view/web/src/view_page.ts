@@ -4,7 +4,7 @@ import type { Colouring } from "./colouring";
 import { Charts } from "./charts";
 import { keyHelp, listenToKeys, readout, sceneTools, transport } from "./controls";
 import type { Choices } from "./controls";
-import { button, duration, element, metres } from "./elements";
+import { button, duration, element, inOrder, metres } from "./elements";
 import { dialog, frameButtons, isDark, place } from "./frame";
 import { factsPanel } from "./facts_panel";
 import type { RunResult } from "./core/core";
@@ -41,7 +41,7 @@ const restyle: (() => void)[] = [];
 function frame(): { help: () => void } {
   // Charts come later and must not move the rest.
   document.documentElement.style.setProperty("--chart-rows", facts.verification?.engagement ? "5" : "4");
-  document.title = `${facts.program} – cusp view`;
+  document.title = `${inOrder(facts.program)} – cusp view`;
   const keys = dialog("Keys", element("dl", { class: "keys" }, ...keyHelp.flatMap(([key, what]) => [element("dt", {}, key), element("dd", {}, what)])));
   const [themed, rights] = frameButtons(() => { for (const act of restyle) act(); });
   const good = facts.run.errors.length === 0 && facts.reading.refused_count === 0 && !facts.not_verified;
