@@ -27,19 +27,52 @@ constexpr double kMissed = 0.0004;  // radii: the width that discs miss beside t
 constexpr double kShortestPiece = 0.001;
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
-// Unit vectors to the middles of the arcs.
-const std::array<Vec2d, kArcs>& directions()
+// Unit vectors to a place in each arc, 0 at its beginning, 1 at its end.
+std::array<Vec2d, kArcs> in_arcs(double share)
 {
-    static const std::array<Vec2d, kArcs> table = [] {
-        std::array<Vec2d, kArcs> t;
-        for (int i = 0; i < kArcs; ++i) {
-            const double angle = 2 * kPi * (i + 0.5) / kArcs;
-            t[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
-        }
-        return t;
-    }();
+    std::array<Vec2d, kArcs> table;
+    for (int i = 0; i < kArcs; ++i) {
+        const double angle = 2 * kPi * (i + share) / kArcs;
+        table[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+    }
     return table;
 }
+
+const std::array<Vec2d, kArcs>& directions()
+{
+    static const std::array<Vec2d, kArcs> table = in_arcs(0.5);
+    return table;
+}
+
+const std::array<Vec2d, kArcs>& arc_ends()
+{
+    static const std::array<Vec2d, kArcs> table = in_arcs(0.0);
+    return table;
+}
+
+// A number that grows with the angle of a vector, -2 at -pi to 2 at pi, without trigonometry: the
+// intervals of a circle that discs cover are many, the gaps between them few.
+double diamond_angle(Vec2d v)
+{
+    const double part = v.y / (std::abs(v.x) + std::abs(v.y));
+    if (v.x >= 0.0) {
+        return part;
+    }
+    return v.y >= 0.0 ? 2.0 - part : -2.0 - part;
+}
+
+// The angle, radians, of a diamond angle in [-2, 2].
+double true_angle(double diamond)
+{
+    const double size = std::abs(diamond);
+    return std::atan2(size <= 1.0 ? diamond : std::copysign(2.0 - size, diamond), 1.0 - size);
+}
+
+constexpr double kFront = 1.0;   // a quarter turn, as a diamond angle
+constexpr double kBeyond = 3.0;  // more than any
+
+// As seen along the heading: x ahead, y to the left.
+Vec2d seen_along(Vec2d heading, Vec2d v) { return {dot(heading, v), cross(heading, v)}; }
 
 }  // namespace
 
@@ -173,39 +206,61 @@ void SweptArea::add(const Edge& edge, double tolerance)
     }
 }
 
-// Adds the part of the tool's circle that lies in the disc, as angles from the heading.
-void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double shrink) const
+// The part of the tool's circle at the pose that lies in the disc; where it reaches over the rear,
+// `from` is beyond `to`. None: no part.
+std::optional<SweptArea::Interval> SweptArea::covered_by(const Disc& disc,
+                                                         const Pose2d& pose,
+                                                         double shrink) const
 {
     const double r = disc.radius - shrink;
-    const Vec2d to = disc.centre - centre;
+    const Vec2d to = disc.centre - pose.at;
     const double d = norm(to);
     if (d + radius_ <= r) {
-        covered_.push_back({-kPi, kPi});
-        return;
+        return Interval{-kBeyond, kBeyond};
     }
     const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
     if (cosine >= 1.0) {
+        return std::nullopt;
+    }
+    if (cosine <= -1.0) {
+        return Interval{-kBeyond, kBeyond};
+    }
+    const Vec2d middle = seen_along(pose.heading, to) * (1.0 / d);
+    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    const Interval found{
+        diamond_angle({cosine * middle.x + sine * middle.y, cosine * middle.y - sine * middle.x}),
+        diamond_angle({cosine * middle.x - sine * middle.y, cosine * middle.y + sine * middle.x})};
+    // Rounding may exchange the ends of a short part; that does not reach over the rear.
+    if (cosine > 0.9 && found.from >= found.to && found.from - found.to < kFront) {
+        return std::nullopt;
+    }
+    return found;
+}
+
+// Adds the part of the tool's circle that lies in the disc.
+void SweptArea::add_covered(const Disc& disc, const Pose2d& pose, double shrink) const
+{
+    const std::optional<Interval> part = covered_by(disc, pose, shrink);
+    if (!part) {
         return;
     }
-    const double half = std::acos(std::max(cosine, -1.0));
-    const double middle = std::atan2(cross(heading, to), dot(heading, to));
-    covered_.push_back({middle - half, middle + half});
-    if (middle - half < -kPi) {
-        covered_.push_back({middle - half + 2 * kPi, kPi});
-    }
-    if (middle + half > kPi) {
-        covered_.push_back({-kPi, middle + half - 2 * kPi});
+    if (part->from <= part->to) {
+        covered_.push_back(*part);
+    } else {
+        covered_.push_back({-kBeyond, part->to});
+        covered_.push_back({part->from, kBeyond});
     }
 }
 
 double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double widened) const
 {
-    return open_angle({centre, heading}, std::min(0.5 * kPi + widened, kPi),
-                      [&](const Disc& disc) { add_covered(disc, centre, heading, shrink); });
+    const Pose2d pose{centre, heading};
+    return open_angle(pose, std::min(0.5 * kPi + widened, kPi),
+                      [&](const Disc& disc) { add_covered(disc, pose, shrink); });
 }
 
-// The angle up to `most` from the heading that is neither in swept cells nor covered; `cover` adds
-// to covered_ what a disc covers.
+// The angle up to `most` (radians) from the heading that is neither in swept cells nor covered;
+// `cover` adds to covered_ what a disc covers.
 template <typename Cover>
 double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover) const
 {
@@ -221,6 +276,13 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
     const auto at_arc = [&](int i) {
         return cell_at(centre + table[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)] * radius_);
     };
+    // Where arc i begins. At the rear rounding may turn the sign.
+    const auto angle_of_end = [&](int i) {
+        const double angle = diamond_angle(
+            seen_along(heading, arc_ends()[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)]));
+        const double side = i * arc - at;
+        return std::abs(angle) > kFront ? std::copysign(angle, side) : angle;
+    };
     const auto is_swept = [this](std::size_t cell) {
         return cell != kNoCell && is_swept_[cell] != 0;
     };
@@ -233,7 +295,9 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
             const int begin = i;
             for (; i < last && is_swept(at_arc(i + 1)); ++i) {
             }
-            covered_.push_back({begin * arc - at, (i + 1) * arc - at});
+            // The first arc begins and the last ends beyond `most`.
+            covered_.push_back({begin > first ? angle_of_end(begin) : -kBeyond,
+                                i < last ? angle_of_end(i + 1) : kBeyond});
             continue;
         }
         for (const std::uint32_t k : cells_[cell]) {
@@ -246,16 +310,19 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
     std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
         return a.from < b.from || (a.from == b.from && a.to < b.to);
     });
-    double reached = -most;
+    const double end = most > 0.5 * kPi ? diamond_angle({std::cos(most), std::sin(most)}) : kFront;
+    double reached = -end;
     double open = 0.0;
     for (const Interval& c : covered_) {
-        if (c.from >= most) {
+        if (c.from >= end) {
             break;
         }
-        open += std::max(0.0, c.from - reached);
+        if (c.from > reached) {
+            open += true_angle(c.from) - true_angle(reached);
+        }
         reached = std::max(reached, c.to);
     }
-    return open + std::max(0.0, most - reached);
+    return reached < end ? open + true_angle(end) - true_angle(reached) : open;
 }
 
 // A point of the circle keeps its angle from the heading, so it moves along an arc about the edge's
@@ -278,41 +345,33 @@ double SweptArea::engagement_of_piece(const Edge& edge,
                       [&](const Disc& disc) { add_covered_at_both(disc, poses, shrink); });
 }
 
-// The parts of the front half that lie in the disc, as angles from the heading; their number.
+// The parts of the front half that lie in the disc; their number.
 int SweptArea::covered_front(const Disc& disc,
                              const Pose2d& pose,
                              double shrink,
                              Interval* parts) const
 {
-    constexpr double kFront = 0.5 * kPi;
-    const double r = disc.radius - shrink;
-    const Vec2d to = disc.centre - pose.at;
-    const double d = norm(to);
-    if (d + radius_ <= r) {
-        parts[0] = {-kFront, kFront};
-        return 1;
-    }
-    const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
-    if (cosine >= 1.0) {
-        return 0;
-    }
-    const double half = std::acos(std::max(cosine, -1.0));
-    const double middle = std::atan2(cross(pose.heading, to), dot(pose.heading, to));
+    const std::optional<Interval> part = covered_by(disc, pose, shrink);
     int n = 0;
-    for (const double turn : {-2 * kPi, 0.0, 2 * kPi}) {
-        const Interval part{std::max(middle - half + turn, -kFront),
-                            std::min(middle + half + turn, kFront)};
-        if (part.from < part.to) {
-            parts[n++] = part;
+    const auto add = [&](double from, double to) {
+        const Interval front{std::max(from, -kFront), std::min(to, kFront)};
+        if (front.from < front.to) {
+            parts[n++] = front;
         }
+    };
+    if (part && part->from <= part->to) {
+        add(part->from, part->to);
+    } else if (part) {
+        add(-kBeyond, part->to);
+        add(part->from, kBeyond);
     }
     return n;
 }
 
 void SweptArea::add_covered_at_both(const Disc& disc, const Pose2d* poses, double shrink) const
 {
-    Interval first[3];
-    Interval last[3];
+    Interval first[2];
+    Interval last[2];
     const int n = covered_front(disc, poses[0], shrink, first);
     const int m = n > 0 ? covered_front(disc, poses[1], shrink, last) : 0;
     for (int i = 0; i < n; ++i) {

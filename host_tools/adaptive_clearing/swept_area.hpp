@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host_tools/offset/contour.hpp"
@@ -71,6 +72,7 @@ private:
     };
     // The nearest disc of each point of a cell is among them; none where the cell is swept.
     using Discs = std::vector<std::uint32_t>;
+    // Of the tool's circle, as diamond angles from the heading.
     struct Interval {
         double from;
         double to;
@@ -89,7 +91,8 @@ private:
     bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
     void put(std::uint32_t disc, Discs& discs, Vec2d middle) const;
     std::size_t cell_at(Vec2d point) const;
-    void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double shrink) const;
+    std::optional<Interval> covered_by(const Disc& disc, const Pose2d& pose, double shrink) const;
+    void add_covered(const Disc& disc, const Pose2d& pose, double shrink) const;
     double bound_of_piece(
         const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
 
@@ -102,7 +105,7 @@ private:
     std::vector<std::uint8_t> is_swept_;  // cells with all points within kGrown of them
     std::vector<Discs> cells_;
     std::vector<Disc> discs_;
-    // Scratch of engagement(): discs already visited, and the angles that they cover.
+    // Scratch of engagement(): discs already visited, and what they cover.
     mutable std::vector<std::uint32_t> last_query_;
     mutable std::uint32_t query_{0};
     mutable std::vector<Interval> covered_;

@@ -1,7 +1,11 @@
 #include "host_tools/adaptive_clearing/swept_area.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
@@ -56,6 +60,47 @@ TEST(SweptArea, ATightTurnIsSweptToItsOuterSide)
             const Vec2d out{std::cos(angle), std::sin(angle)};
             CHECK(swept.contains(Vec2d{0, radius} + out * (3.0 + radius - kMissed)));
         }
+    }
+}
+
+TEST(SweptArea, TheAngleIsThatOfPointsOnTheCircle)
+{
+    constexpr unsigned kSeed = 3;
+    constexpr int kPoints = 2000;
+    std::mt19937_64 random{kSeed};
+    std::uniform_real_distribution<double> place{-9.0, 9.0};
+    std::uniform_real_distribution<double> more{0.0, 3.0};
+    for (int round = 0; round < 3000; ++round) {
+        SweptArea swept{{-20, -20, 20, 20}, 3.0};
+        const int count = 1 + round % 12;
+        std::vector<std::pair<Vec2d, double>> discs;
+        for (int i = 0; i < count; ++i) {
+            discs.push_back({{place(random), place(random)}, 3.0 + more(random)});
+            swept.add_disc(discs.back().first, discs.back().second);
+        }
+        // Along an axis the ends of arcs are at the rear; the widest angle is all round.
+        const double turn = round % 5 == 0 ? (round / 5 % 8) * 0.25 * kPi : place(random);
+        const Vec2d heading{std::cos(turn), std::sin(turn)};
+        const double widened = (round % 3) * 0.25 * kPi;
+        const double shrink = (round % 7 - 3) * 0.08;
+        // Also in the middle of a disc, and where two circles touch.
+        const Vec2d centre = round % 11 == 0   ? discs[0].first
+                             : round % 11 == 1 ? discs[0].first + Vec2d{3.0 + discs[0].second, 0}
+                                               : Vec2d{place(random), place(random)};
+        const double most = std::min(0.5 * kPi + widened, kPi);
+        int open = 0;
+        for (int i = 0; i < kPoints; ++i) {
+            const double angle = turn + most * (2.0 * (i + 0.5) / kPoints - 1.0);
+            const Vec2d on = centre + Vec2d{std::cos(angle), std::sin(angle)} * 3.0;
+            open += std::none_of(discs.begin(), discs.end(), [&](const auto& disc) {
+                return norm(on - disc.first) < disc.second - shrink;
+            });
+        }
+        const double sampled = 2.0 * most * open / kPoints;
+        // Half a sample at each end of each disc's arc.
+        const double off = 2.0 * most / kPoints * (count + 1);
+        const double angle = swept.engagement(centre, heading, shrink, widened);
+        CHECK_TEXT(std::abs(angle - sampled) <= off, ("round " + std::to_string(round)).c_str());
     }
 }
 
