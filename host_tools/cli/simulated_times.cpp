@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
 #include "host_tools/program_run/program_run.hpp"
 
@@ -29,6 +30,12 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
     std::size_t operation = 0;
     RunOptions options;
     options.measures_deviation = false;
+    options.sums_edges = false;
+    // Set points do not depend on the size of a step, and pulses are a third of a run.
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        constexpr float kFewSteps = 1;  // a millimetre
+        options.settings.put(100 + axis, kFewSteps);
+    }
     options.set_point = [&](const SetPoint& point) {
         // between moves no line is executed: the previous one counts
         if (point.line != 0) {
