@@ -39,7 +39,8 @@ float speed_under(float end, float slope, float distance, float greatest) noexce
     constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
     const float half = 0.5F * slope * kServoTick;
     const float square = half * half + std::max(end + 2.0F * slope * distance, 0.0F);
-    const float most = greatest + half;
+    // Where those are surely above `greatest`, too: they differ by an eighth of 2 half at most.
+    const float most = greatest + 1.25F * half;
     if (square >= most * most) {
         return greatest;
     }
@@ -50,6 +51,7 @@ float speed_under(float end, float slope, float distance, float greatest) noexce
         const float to_stop = std::max(distance + 0.5F * end / slope, 0.0F);
         under = std::min(under, to_stop / (whole * kServoTick) + half * (whole - 1.0F));
     }
+    under = std::min(under, greatest);
     const bool past_end = 0.5F * under * kServoTick > distance;
     return past_end ? std::max(under, std::sqrt(std::max(end, 0.0F))) : under;
 }

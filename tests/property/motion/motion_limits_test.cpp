@@ -38,6 +38,30 @@ TEST(MotionLimits, HoldOverRandomPrograms)
     }
 }
 
+// The greatest speed is left a few ticks before the stop: held one tick too long, the ticks that are left
+// would take more than the limits. Jerk and acceleration both bind: the filter is a whole number of ticks.
+TEST(MotionLimits, HoldWhereFewTicksBrakeFromTheGreatestSpeed)
+{
+    for (std::uint64_t i = 0; i < 30 * test::motion_program_count(); ++i) {
+        RandomMoves random{kSeed + i};
+        MachineLimits limits = test::random_limits(kSeed + i);
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const float in_a_tick = limits.acceleration[axis] * 1e-3F;
+            limits.velocity[axis] = in_a_tick * static_cast<float>(random.between(0.5, 9));
+            limits.jerk[axis] = limits.acceleration[axis] * 1000.5F / static_cast<float>(2 + i % 9);
+        }
+        path::Move move;
+        move.kind = path::MoveKind::kRapid;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            move.end[axis] = static_cast<std::int64_t>(random.between(-1e6, 1e6));
+        }
+        move.line = 1;
+        MotionRig rig{limits};
+        rig.start_at({});
+        test::check_motion(rig.run({move}), move.end, limits, kSeed + i);
+    }
+}
+
 TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(); ++i) {
