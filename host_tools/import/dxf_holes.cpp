@@ -43,7 +43,7 @@ DrawingName parts_of(const std::string& name)
 std::optional<Hole> circle_of(const Curve& curve)
 {
     constexpr int kSamples = 24;
-    constexpr double kRound = 1e-6;  // of the radius
+    constexpr double kRoundness = 1e-6;  // of the radius
     const double begin = curve.domain_begin();
     const double step = (curve.domain_end() - begin) / kSamples;
     if (norm(in_plan(curve.points.front()) - in_plan(curve.points.back())) > kEndsMeet) {
@@ -55,7 +55,7 @@ std::optional<Hole> circle_of(const Curve& curve)
     const double radius = norm(in_plan(curve.points.front()) - centre);
     for (int i = 0; i < kSamples; ++i) {
         const double away = norm(in_plan(point_at(curve, begin + i * step)) - centre);
-        if (!(std::abs(away - radius) <= kRound * radius)) {
+        if (!(std::abs(away - radius) <= kRoundness * radius)) {
             return std::nullopt;
         }
     }
@@ -88,7 +88,9 @@ std::vector<Hole> read_holes(const std::string& name,
         }
     }
     if (others > 0) {
-        notes.push_back(fmt::format("{}: {} curves are no circles and not drilled", name, others));
+        notes.push_back(fmt::format("{}: {} and not drilled", name,
+                                    others == 1 ? "1 curve is no circle"
+                                                : fmt::format("{} curves are no circles", others)));
     }
     std::vector<Hole> holes;
     std::set<double> diameters;
@@ -115,12 +117,14 @@ std::vector<Hole> read_holes(const std::string& name,
     return holes;
 }
 
-std::vector<Chain> read_chains(const std::string& name, double millimetres)
+std::vector<Chain> read_chains(const std::string& name,
+                               double millimetres,
+                               std::vector<std::string>& notes)
 {
     const auto [file, layer] = parts_of(name);
     const std::vector<Curve> curves = path_ending(file) == ".json"
                                           ? read_json_curves(file, millimetres)
-                                          : read_dxf_curves(file, millimetres, layer);
+                                          : read_dxf_curves(file, millimetres, layer, &notes);
     std::vector<Chain> chains;
     std::vector<bool> used(curves.size(), false);
     for (std::size_t first = 0; first < curves.size(); ++first) {

@@ -431,7 +431,12 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     stock.settle(job_);
     check_sheet(job_);
     settle_levels(job_);
-    job_.notes = parts_.notes();
+    // files that several operations name say the same again
+    for (const std::string& note : parts_.notes()) {
+        if (std::find(job_.notes.begin(), job_.notes.end(), note) == job_.notes.end()) {
+            job_.notes.push_back(note);
+        }
+    }
     rise_over_fixtures(job_);
     return std::move(job_);  // meshes are large
 }

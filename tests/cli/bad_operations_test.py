@@ -104,7 +104,7 @@ class BadOperations(unittest.TestCase):
 
     def test_a_hole_wider_than_the_tool(self):
         self.write("wide.dxf", f"0\nSECTION\n2\nENTITIES\n{circle('wide', 5, 5, 4)}0\nENDSEC\n0\nEOF\n")
-        self.warned("1 of 1 holes are wider than tool 2",
+        self.warned("1 of 1 hole is wider than tool 2",
                     operation("drill", "wide", tool=2, depth=3).replace("plate.dxf", "wide.dxf"))
 
     def test_a_profile_inside_that_no_tool_enters(self):
@@ -159,6 +159,15 @@ class BadOperations(unittest.TestCase):
         self.refused("no point and no circle to drill", operation("drill", "outline", tool=2, depth=1))
         self.refused("boundary: is missing", operation("profile", depth=1))
         self.refused("nowhere.dxf", operation("profile", "outline", depth=1).replace("plate.dxf", "nowhere.dxf"))
+
+    def test_texts_beside_curves(self):
+        text = "0\nTEXT\n8\ndot\n10\n18\n20\n21\n40\n3\n1\nA\n"
+        self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{DRAWING}{text}0\nENDSEC\n0\nEOF\n")
+        words = r"warning: plate.dxf#dot: a text at x 18 y 21 mm is not cut: convert text to curves"
+        for strategy in ("engrave", "profile"):
+            said = self.said(0, 2 * operation(strategy, "dot", tool=3 if strategy == "engrave" else 1, depth=0.2))
+            self.assertRegex(said, words)
+            self.assertEqual(1, said.count("a text at"))
 
     def test_tools(self):
         self.refused("tool 2 is a drill", operation("profile", "outline", tool=2, depth=1))
