@@ -129,6 +129,12 @@ Json stats_of(const Verification& result)
         out["level_left_at_mm"] = {rounded(f.level_left->place.x), rounded(f.level_left->place.y)};
         out["level_left_operation"] = f.level_left->operation;
     }
+    if (f.between_sides) {
+        const Vec3d at = f.between_sides->place;
+        out["between_sides_min_mm"] = rounded(f.between_sides->thickness);
+        out["between_sides_at_mm"] = {rounded(at.x), rounded(at.y), rounded(at.z)};
+        out["between_sides_operation"] = f.between_sides->operation;
+    }
     out["broken"] = result.broken;
     return out;
 }
