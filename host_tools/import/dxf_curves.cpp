@@ -9,11 +9,13 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/import/drawn_shapes.hpp"
 #include "host_tools/import/dxf_drawing.hpp"
+#include "host_tools/import/nearest_name.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
+#include "fmt/ranges.h"
 
 namespace cusp::import {
 
@@ -432,6 +434,13 @@ std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
     if (!kinds.empty()) {
         text += fmt::format("; it holds {}: convert {} to curves in the drawing program", kinds,
                             kinds.find("TEXT") != std::string::npos ? "text" : "them");
+    } else {
+        constexpr std::size_t kNamed = 3;
+        const std::set<std::string> layers = drawing.layers();
+        text += fmt::format(
+            "; layers of the drawing: \"{}\"{}",
+            fmt::join(nearest_names(layer, {layers.begin(), layers.end()}, kNamed), "\", \""),
+            layers.size() > kNamed ? " and more" : "");
     }
     return text;
 }

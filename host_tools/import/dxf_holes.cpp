@@ -1,4 +1,4 @@
-// A circle is a closed curve all of whose points are as far from their mean; a block may turn and
+// A circle is a closed curve all of whose points are as far from their mean, or arcs that meet; a block may turn and
 // scale it.
 #include "host_tools/import/dxf_holes.hpp"
 
@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/loop_nesting.hpp"
@@ -65,6 +66,115 @@ std::optional<Hole> circle_of(const Curve& curve)
 Vec2d begin_of(const Chain& chain) { return in_plan(chain.front().points.front()); }
 Vec2d end_of(const Chain& chain) { return in_plan(chain.back().points.back()); }
 
+// Curves whose ends meet, in order.
+std::vector<Chain> chains_of(const std::vector<Curve>& curves)
+{
+    std::vector<Chain> chains;
+    std::vector<bool> used(curves.size(), false);
+    for (std::size_t first = 0; first < curves.size(); ++first) {
+        if (used[first]) {
+            continue;
+        }
+        Chain chain{curves[first]};
+        used[first] = true;
+        for (bool grew = true; grew;) {
+            grew = false;
+            for (std::size_t k = first + 1; k < curves.size(); ++k) {
+                if (used[k]) {
+                    continue;
+                }
+                const Chain one{curves[k]};
+                const Chain turned{reversed(curves[k])};
+                const auto meets = [](Vec2d a, Vec2d b) {
+                    return norm(a - b) <= kEndsMeet;
+                };
+                if (meets(end_of(chain), begin_of(one))) {
+                    chain.push_back(one.front());
+                } else if (meets(end_of(chain), end_of(one))) {
+                    chain.push_back(turned.front());
+                } else if (meets(begin_of(chain), end_of(one))) {
+                    chain.insert(chain.begin(), one.front());
+                } else if (meets(begin_of(chain), begin_of(one))) {
+                    chain.insert(chain.begin(), turned.front());
+                } else {
+                    continue;
+                }
+                used[k] = true;
+                grew = true;
+            }
+        }
+        chains.push_back(std::move(chain));
+    }
+    return chains;
+}
+
+// The centre of the circle through three points; not finite on a line.
+Vec2d centre_of(Vec2d a, Vec2d b, Vec2d c)
+{
+    const Vec2d u = b - a;
+    const Vec2d v = c - a;
+    const double twice = 2 * (u.x * v.y - u.y * v.x);
+    const double uu = u.x * u.x + u.y * u.y;
+    const double vv = v.x * v.x + v.y * v.y;
+    return a + Vec2d{(v.y * uu - u.y * vv) / twice, (u.x * vv - v.x * uu) / twice};
+}
+
+// A circle drawn as arcs: by a polyline with bulges, or broken up.
+std::optional<Hole> circle_of_arcs(const Chain& chain)
+{
+    constexpr std::size_t kSamples = 12;  // of a curve
+    constexpr double kWhole = 0.9;        // of the circle's area: no arc drawn there and back
+    if (norm(begin_of(chain) - end_of(chain)) > kEndsMeet) {
+        return std::nullopt;
+    }
+    std::vector<Vec2d> points;
+    for (const Curve& curve : chain) {
+        const double step = (curve.domain_end() - curve.domain_begin()) / kSamples;
+        for (std::size_t k = 0; k < kSamples; ++k) {
+            const double at = curve.domain_begin() + static_cast<double>(k) * step;
+            points.push_back(in_plan(point_at(curve, at)));
+        }
+    }
+    const std::size_t third = points.size() / 3;
+    const Vec2d centre = centre_of(points[0], points[third], points[2 * third]);
+    const double radius = norm(points[0] - centre);
+    double twice_area = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vec2d a = points[k] - centre;
+        const Vec2d b = points[(k + 1) % points.size()] - centre;
+        twice_area += a.x * b.y - a.y * b.x;
+        if (!(std::abs(norm(a) - radius) <= kEndsMeet)) {
+            return std::nullopt;
+        }
+    }
+    if (!(std::abs(twice_area) / 2 >= kWhole * kPi * radius * radius)) {
+        return std::nullopt;
+    }
+    return Hole{centre, 2 * radius};
+}
+
+// The circles among the curves; `others` receives the number of curves that are part of none.
+std::vector<Hole> circles_of(const std::vector<Curve>& curves, std::size_t& others)
+{
+    std::vector<Hole> circles;
+    std::vector<Curve> rest;
+    for (const Curve& curve : curves) {
+        if (const auto circle = circle_of(curve)) {
+            circles.push_back(*circle);
+        } else {
+            rest.push_back(curve);
+        }
+    }
+    for (const Chain& chain : chains_of(rest)) {
+        const auto circle = circle_of_arcs(chain);
+        others += circle ? 0 : chain.size();
+        if (circle) {
+            circles.push_back(*circle);
+        }
+    }
+    return circles;
+}
+
 }  // namespace
 
 std::vector<Hole> read_holes(const std::string& name,
@@ -79,14 +189,9 @@ std::vector<Hole> read_holes(const std::string& name,
     for (const Vec2d place : drawn.points) {
         all.push_back({place, 0});
     }
-    int others = 0;
-    for (const Curve& curve : drawn.curves) {
-        const auto circle = circle_of(curve);
-        others += circle ? 0 : 1;
-        if (circle) {
-            all.push_back(*circle);
-        }
-    }
+    std::size_t others = 0;
+    const std::vector<Hole> circles = circles_of(drawn.curves, others);
+    all.insert(all.end(), circles.begin(), circles.end());
     if (others > 0) {
         notes.push_back(fmt::format("{}: {} and not drilled", name,
                                     others == 1 ? "1 curve is no circle"
@@ -125,43 +230,7 @@ std::vector<Chain> read_chains(const std::string& name,
     const std::vector<Curve> curves = path_ending(file) == ".json"
                                           ? read_json_curves(file, millimetres)
                                           : read_dxf_curves(file, millimetres, layer, &notes);
-    std::vector<Chain> chains;
-    std::vector<bool> used(curves.size(), false);
-    for (std::size_t first = 0; first < curves.size(); ++first) {
-        if (used[first]) {
-            continue;
-        }
-        Chain chain{curves[first]};
-        used[first] = true;
-        for (bool grew = true; grew;) {
-            grew = false;
-            for (std::size_t k = first + 1; k < curves.size(); ++k) {
-                if (used[k]) {
-                    continue;
-                }
-                const Chain one{curves[k]};
-                const Chain turned{reversed(curves[k])};
-                const auto meets = [](Vec2d a, Vec2d b) {
-                    return norm(a - b) <= kEndsMeet;
-                };
-                if (meets(end_of(chain), begin_of(one))) {
-                    chain.push_back(one.front());
-                } else if (meets(end_of(chain), end_of(one))) {
-                    chain.push_back(turned.front());
-                } else if (meets(begin_of(chain), end_of(one))) {
-                    chain.insert(chain.begin(), one.front());
-                } else if (meets(begin_of(chain), begin_of(one))) {
-                    chain.insert(chain.begin(), turned.front());
-                } else {
-                    continue;
-                }
-                used[k] = true;
-                grew = true;
-            }
-        }
-        chains.push_back(std::move(chain));
-    }
-    return chains;
+    return chains_of(curves);
 }
 
 }  // namespace cusp::import

@@ -407,7 +407,12 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     const SetupTables tables{top, file_};
     setups = tables.all().size();
     job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
-    job_.post = read_post(top.text("post").value_or("cusp"), folder_);
+    const std::string post = top.text("post").value_or("cusp");
+    try {
+        job_.post = read_post(post, folder_);
+    } catch (const InputError& error) {
+        top.refuse("post", error.what());
+    }
     job_.group_by_tool = top.flag("group_by_tool").value_or(true);
     const auto operations = top.tables("operation");
     place_files(top, operations);
