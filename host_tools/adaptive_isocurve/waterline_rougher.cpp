@@ -17,7 +17,6 @@
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
 #include "host_tools/clearing/rest_between_tools.hpp"
-#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/parallel/parallel.hpp"
@@ -439,9 +438,8 @@ private:
         const double least = least_clearance();
         Toolpath& path = result_.planned.path;
         set_tool(path, work_.job, tool_);
-        path.comments = {fmt::format("{}: {}, allowance {:g} mm", work_.operation.strategy,
-                                     counted(static_cast<std::size_t>(levels_), "roughing level"),
-                                     work_.operation.allowance),
+        path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
+                                     work_.operation.strategy, levels_, work_.operation.allowance),
                          fmt::format("clearance from the model at least {:.4f} mm", least)};
         OperationStats& stats = result_.planned.stats;
         stats.strategy = work_.operation.strategy;
@@ -466,9 +464,7 @@ private:
         }
         if (written.plunges > 0) {
             stats.warnings.push_back(
-                fmt::format("{} had no room for a ramp and {}",
-                            counted(static_cast<std::size_t>(written.plunges), "entry", "entries"),
-                            written.plunges == 1 ? "plunges" : "plunge"));
+                fmt::format("{} entries had no room for a ramp and plunge", written.plunges));
         }
         if (work_.operation.max_engagement) {
             stats.counts.emplace_back("entries", written.entries);

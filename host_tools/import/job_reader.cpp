@@ -177,6 +177,7 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
 {
     constexpr Range kRestTolerance{0.001, 1};
     operation.after = read_programs(table, "after", folder_);
+    operation.may_open = table.flag("may_open").value_or(false);
     operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
     if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
         !job_.setup) {

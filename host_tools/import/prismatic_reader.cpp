@@ -215,7 +215,6 @@ void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
     cut.peck = table.length("peck", kPositive, unit);
     cut.overhang = table.length("overhang", kNotNegative, unit);
     const auto width = table.length("width", kPositive, unit);
-    operation.may_open = table.flag("may_open").value_or(false);
     if (const auto wanted = table.interval("diameter", kPositive)) {
         cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
     }
