@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -294,7 +295,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
     if (upright_ > 0) {
         stats.warnings.push_back(fmt::format(
-            "{} of {} surfaces are vertical: which side of them is the part is not known; they are "
+            "vertical surfaces: {} of {}; which side of them is the part is not known; they are "
             "cut where their normal points to the left of the direction of u",
             upright_, surfaces_.size()));
     }
@@ -311,7 +312,7 @@ void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool 
 {
     if (uncovered > 0) {
         stats.warnings.push_back(
-            fmt::format("{} places may keep more than the scallop", uncovered));
+            fmt::format("{} may keep more than the scallop", counted(uncovered, "place")));
     }
     if (unseen) {
         stats.warnings.push_back(

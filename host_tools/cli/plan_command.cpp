@@ -16,6 +16,7 @@
 #include "host_tools/import/post_reader.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
+#include "host_tools/verify/between_sides.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -28,6 +29,9 @@ using import::read_job;
 using import::read_post;
 using import::read_setups;
 using job::Job;
+using verify::floor_between_sides;
+using verify::is_too_thin;
+using verify::sentence_of;
 
 namespace {
 
@@ -70,7 +74,12 @@ void plan_setups(std::vector<Job>& setups, const std::string& title, const PlanO
         for (std::size_t before = 0; before < k; ++before) {
             add_earlier_program(job, *setups[before].setup, programs[before]);
         }
-        const Plan plan = plan_program(job, own_title, own);
+        Plan plan = plan_program(job, own_title, own);
+        cancellation::set_work("looking for breaks into the other side in " + own.program);
+        if (const auto floor = floor_between_sides(job, own.program);
+            floor && is_too_thin(job, *floor)) {
+            plan.warnings.push_back(sentence_of(job, *floor));
+        }
         print_summary(plan, job.notes, own.program, own.said);
         programs.push_back(own.program);
         job.operations.clear();  // meshes are large

@@ -20,6 +20,7 @@
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/fixture_clearance.hpp"
+#include "host_tools/job/level_warnings.hpp"
 #include "host_tools/job/overlap_warnings.hpp"
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
@@ -36,6 +37,7 @@ namespace cusp::cli {
 using files::write_text;
 using job::Job;
 using job::kRoughingDone;
+using job::level_warnings;
 using job::Operation;
 using job::overlap_warnings;
 using job::PocketRefusal;
@@ -248,7 +250,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
         plan.warnings.push_back(*warning);
     }
     for (const std::vector<std::string>& more :
-         {overlap_warnings(job), reach_warnings(job, plan)}) {
+         {overlap_warnings(job), level_warnings(job), reach_warnings(job, plan)}) {
         plan.warnings.insert(plan.warnings.end(), more.begin(), more.end());
     }
     write_plan(job, program_of(job, title, output, rates, plan), output, plan);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host_tools/input_error/counted.hpp"
+
 #include "fmt/format.h"
 
 namespace cusp::cli {
@@ -117,9 +119,10 @@ void print_summary(const Plan& plan,
                    std::FILE* said)
 {
     const Json all = totals(plan);
-    fmt::print(said, "cut {:.1f} mm, rapid {:.1f} mm, {} retracts; about {:.0f} s\n",
+    fmt::print(said, "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s\n",
                all["cut_length_mm"].get<double>(), all["rapid_length_mm"].get<double>(),
-               all["retracts"].get<int>(), all["estimated_s"].get<double>());
+               counted(all["retracts"].get<std::size_t>(), "retract"),
+               all["estimated_s"].get<double>());
     fmt::print(said, "gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
                all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
                all["planning_s"].get<double>());

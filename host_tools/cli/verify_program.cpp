@@ -20,6 +20,7 @@ using report::left_picture;
 using report::path_picture;
 using verify::ContactFigures;
 using verify::EngagementFigures;
+using verify::FloorBetweenSides;
 using verify::ToolFigures;
 using verify::Verification;
 using verify::VerifyFigures;
@@ -76,6 +77,16 @@ void add_contacts_to(Json& out, const std::vector<ContactFigures>& contacts)
     }
 }
 
+void add_between_sides_to(Json& out, const std::optional<FloorBetweenSides>& floor)
+{
+    if (floor) {
+        out["between_sides_min_mm"] = rounded(floor->thickness);
+        out["between_sides_at_mm"] = {rounded(floor->place.x), rounded(floor->place.y),
+                                      rounded(floor->place.z)};
+        out["between_sides_operation"] = floor->operation;
+    }
+}
+
 Json stats_of(const Verification& result)
 {
     const VerifyFigures& f = result.figures;
@@ -129,6 +140,7 @@ Json stats_of(const Verification& result)
         out["level_left_at_mm"] = {rounded(f.level_left->place.x), rounded(f.level_left->place.y)};
         out["level_left_operation"] = f.level_left->operation;
     }
+    add_between_sides_to(out, f.between_sides);
     out["broken"] = result.broken;
     return out;
 }

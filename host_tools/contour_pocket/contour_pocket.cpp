@@ -374,7 +374,8 @@ private:
     {
         set_tool(path, job_, operation_.tool);
         path.comments = {"contour_pocket: Suh and Lee 1990, " + number_text(stats.levels) +
-                             " levels, " + number_text(stats.passes) + " loops",
+                             (stats.levels == 1 ? " level, " : " levels, ") +
+                             number_text(stats.passes) + (stats.passes == 1 ? " loop" : " loops"),
                          "left at most " + number_text(stats.scallop_bound_mm) +
                              " mm, gouge at most " + number_text(stats.gouge_bound_mm) + " mm"};
     }

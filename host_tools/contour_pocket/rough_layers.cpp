@@ -110,9 +110,10 @@ void fill_operation(const Operation& operation,
                     RoughResult& result)
 {
     const std::size_t layers = result.heights.size();
-    result.operation.path.comments = {"contour_pocket: " + std::to_string(layers) +
-                                      " roughing layers, allowance " +
-                                      number_text(operation.allowance) + " mm"};
+    result.operation.path.comments = {
+        "contour_pocket: " +
+        (layers == 1 ? "1 roughing layer" : std::to_string(layers) + " roughing layers") +
+        ", allowance " + number_text(operation.allowance) + " mm"};
     OperationStats& stats = result.operation.stats;
     stats.strategy = operation.strategy;
     stats.roughing = true;

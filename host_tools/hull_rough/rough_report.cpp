@@ -141,7 +141,8 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
         }
         // Each comment fits in one line of G-code.
         operation.path.comments = {
-            "hull_rough: " + std::to_string(work.layers()) + " layers of " +
+            "hull_rough: " + std::to_string(work.layers()) +
+                (work.layers() == 1 ? " layer of " : " layers of ") +
                 plain_number(layers.thinnest) + " to " + plain_number(layers.thickest) + " mm",
             "no overcut by the hulls of " + std::to_string(work.plan.patches.size()) + " patches",
             "cuts at most " + plain_number(work.deepest_cut()) + " mm deep"};

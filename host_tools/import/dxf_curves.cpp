@@ -7,12 +7,15 @@
 #include <string_view>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/drawn_shapes.hpp"
 #include "host_tools/import/dxf_drawing.hpp"
+#include "host_tools/import/nearest_name.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
+#include "fmt/ranges.h"
 
 namespace cusp::import {
 
@@ -44,12 +47,17 @@ public:
     // As read(), and the places of POINTs.
     DxfPlaces read_places();
 
+    // The places of texts, which draw no curve.
+    std::vector<Vec2d> read_texts();
+
 private:
     // within  the layer of the block's reference, for objects on layer "0"; "": not in a block
     bool shown(const DxfEntity& entity, std::string_view within) const;
     void add_all(const std::vector<DxfEntity>& entities, std::string_view within, int depth);
     void add(const DxfEntity& entity);
     void add_insert(const DxfEntity& entity, std::string_view within, int depth);
+    // Of a text where only texts are asked for.
+    void add_text(const DxfEntity& entity);
     void add_line(const DxfEntity& entity);
     void add_arc(const DxfEntity& entity);
     void add_ellipse(const DxfEntity& entity);
@@ -67,6 +75,7 @@ private:
     std::vector<Curve> curves_;
     std::size_t references_{};
     bool with_points_{false};  // as curves of no length
+    bool texts_alone_{false};  // their places, as curves of no length
 };
 
 std::string_view layer_of(const DxfEntity& entity, std::string_view within)
@@ -85,11 +94,6 @@ bool CurveMaker::shown(const DxfEntity& entity, std::string_view within) const
     constexpr int kInvisible = 60;
     return chosen && drawing_.value(entity, kPaperSpace, 0) == 0 &&
            drawing_.value(entity, kInvisible, 0) == 0;
-}
-
-Curve line_curve(Vec2d a, Vec2d b)
-{
-    return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};
 }
 
 // Objects drawn from below (extrusion towards -z) have their x mirrored.
@@ -176,7 +180,7 @@ std::size_t CurveMaker::add_old_polyline(const std::vector<DxfEntity>& all,
                  drawing_.value(vertex, 42, 0)});
         }
     }
-    if (shown(all[first], within)) {
+    if (shown(all[first], within) && !texts_alone_) {
         add_vertices(all[first], vertices);
     }
     return last;
@@ -204,54 +208,13 @@ void CurveMaker::add_vertices(const DxfEntity& entity, const std::vector<Vertex>
     for (std::size_t i = 0; i + (closed ? 0 : 1) < vertices.size(); ++i) {
         const Vertex& from = vertices[i];
         const Vec2d to = vertices[(i + 1) % vertices.size()].at;
-        const Vec2d chord = to - from.at;
-        if (!(norm(chord) > kLeastLength)) {
+        if (!(norm(to - from.at) > kLeastLength)) {
             continue;
         }
-        Curve curve = line_curve(from.at, to);
-        constexpr double kStraight = 1e-9;
-        if (std::abs(from.bulge) > kStraight) {
-            const double sweep = 4 * std::atan(from.bulge);
-            // the centre lies to the left of the chord for a counter-clockwise arc below a half
-            // turn
-            const double offset = (1 - from.bulge * from.bulge) / (4 * from.bulge);
-            const Vec2d centre = 0.5 * (from.at + to) + offset * Vec2d{-chord.y, chord.x};
-            const Vec2d spoke = from.at - centre;
-            curve = arc_curve(centre, norm(spoke), std::atan2(spoke.y, spoke.x), sweep);
-            curve.points.front() = {from.at.x, from.at.y, 0};
-            curve.points.back() = {to.x, to.y, 0};
-        }
+        Curve curve = bulged_curve(from.at, to, from.bulge);
         mirror(curve, side);
         curves_.push_back(curve);
     }
-}
-
-// Splits the curve at inner knots of multiplicity degree + 1, with which some programs write chains
-// of Bezier curves. Wrong counts of knots or weights are left to check_curve().
-std::vector<Curve> parted(const Curve& curve)
-{
-    const std::size_t order = static_cast<std::size_t>(curve.degree) + 1;
-    const std::size_t count = curve.points.size();
-    if (curve.knots.size() != count + order || curve.weights.size() != count) {
-        return {curve};
-    }
-    std::vector<Curve> parts;
-    std::size_t begin = 0;
-    for (std::size_t end = 1; end <= count; ++end) {
-        const bool breaks = end < count && curve.knots[end] > curve.knots[end - 1] &&
-                            curve.knots[end] == curve.knots[end + order - 1];
-        if (!breaks && end < count) {
-            continue;
-        }
-        const auto from = static_cast<std::ptrdiff_t>(begin);
-        const auto to = static_cast<std::ptrdiff_t>(end);
-        parts.push_back({curve.degree,
-                         {curve.knots.begin() + from, curve.knots.begin() + to + curve.degree + 1},
-                         {curve.points.begin() + from, curve.points.begin() + to},
-                         {curve.weights.begin() + from, curve.weights.begin() + to}});
-        begin = end;
-    }
-    return parts;
 }
 
 void CurveMaker::add_spline(const DxfEntity& entity)
@@ -275,9 +238,21 @@ void CurveMaker::add_spline(const DxfEntity& entity)
         curve.weights.assign(curve.points.size(), 1.0);
     }
     const std::string place = fmt::format("{}:{}: SPLINE", drawing_.file(), entity.line);
-    for (const Curve& part : parted(curve)) {
+    for (const Curve& part : parts_of(curve)) {
         check_curve(part, place);
         curves_.push_back(clamped(part));
+    }
+}
+
+void CurveMaker::add_text(const DxfEntity& entity)
+{
+    const bool is_text = entity.type == "TEXT" || entity.type == "MTEXT" || entity.type == "ATTRIB";
+    if (is_text && !DxfDrawing::text(entity, 10, "").empty()) {
+        const Vec2d at{unit_ * drawing_.value(entity, 10, 0),
+                       unit_ * drawing_.value(entity, 20, 0)};
+        curves_.push_back(line_curve(at, at));
+        mirror(curves_.back(),
+               entity.type == "MTEXT" ? 1 : side_of(drawing_.value(entity, 230, 1)));
     }
 }
 
@@ -287,7 +262,9 @@ void CurveMaker::add(const DxfEntity& entity)
     static const std::array<std::string_view, 11> kSkipped{"ATTRIB",    "SEQEND", "TEXT",  "MTEXT",
                                                            "DIMENSION", "HATCH",  "POINT", "LEADER",
                                                            "VIEWPORT",  "ATTDEF", "IMAGE"};
-    if (entity.type == "LINE") {
+    if (texts_alone_) {
+        add_text(entity);
+    } else if (entity.type == "LINE") {
         add_line(entity);
     } else if (entity.type == "POINT" && with_points_) {
         const Vec2d at{unit_ * drawing_.required(entity, 10),
@@ -412,6 +389,34 @@ DxfPlaces CurveMaker::read_places()
     return places;
 }
 
+std::vector<Vec2d> CurveMaker::read_texts()
+{
+    texts_alone_ = true;
+    add_all(drawing_.entities(), "", 0);
+    std::vector<Vec2d> places;
+    for (const Curve& curve : curves_) {
+        places.push_back(in_plan(curve.points.front()));
+    }
+    return places;
+}
+
+// Texts beside curves, which somebody may expect to be cut.
+void note_texts(const DxfDrawing& drawing,
+                const std::string& layer,
+                std::vector<std::string>& notes)
+{
+    const std::vector<Vec2d> texts = CurveMaker{drawing, layer}.read_texts();
+    if (!texts.empty()) {
+        const bool one = texts.size() == 1;
+        notes.push_back(fmt::format(
+            "{}{}{}: {} at x {:.6g} y {:.6g} mm {} not cut: convert text to curves in the drawing "
+            "program",
+            drawing.file(), layer.empty() ? "" : "#", layer,
+            one ? "a text" : fmt::format("{} texts, the first", texts.size()), texts.front().x,
+            texts.front().y, one ? "is" : "are"));
+    }
+}
+
 // What lies on a layer where no curve does: text has to be made into curves first.
 std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
 {
@@ -429,42 +434,31 @@ std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
     if (!kinds.empty()) {
         text += fmt::format("; it holds {}: convert {} to curves in the drawing program", kinds,
                             kinds.find("TEXT") != std::string::npos ? "text" : "them");
+    } else {
+        constexpr std::size_t kNamed = 3;
+        const std::set<std::string> layers = drawing.layers();
+        text += fmt::format(
+            "; layers of the drawing: \"{}\"{}",
+            fmt::join(nearest_names(layer, {layers.begin(), layers.end()}, kNamed), "\", \""),
+            layers.size() > kNamed ? " and more" : "");
     }
     return text;
 }
 
 }  // namespace
 
-Curve arc_curve(Vec2d centre, double radius, double start, double sweep)
-{
-    constexpr double kMostPerPiece = kPi / 2 + 1e-9;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / kMostPerPiece)));
-    const double step = sweep / pieces;
-    const double middle_weight = std::cos(step / 2);
-    const auto on_circle = [&](double angle, double r) {
-        return Vec3d{centre.x + r * std::cos(angle), centre.y + r * std::sin(angle), 0};
-    };
-    Curve curve{2, {0, 0, 0}, {on_circle(start, radius)}, {1}};
-    for (int i = 0; i < pieces; ++i) {
-        const double begin = start + i * step;
-        curve.points.push_back(on_circle(begin + step / 2, radius / middle_weight));
-        curve.points.push_back(on_circle(begin + step, radius));
-        curve.weights.push_back(middle_weight);
-        curve.weights.push_back(1);
-        curve.knots.insert(curve.knots.end(), 2, i + 1);
-    }
-    curve.knots.push_back(pieces);
-    return curve;
-}
-
 std::vector<Curve> read_dxf_curves(const std::string& file,
                                    double millimetres,
-                                   const std::string& layer)
+                                   const std::string& layer,
+                                   std::vector<std::string>* notes)
 {
     const DxfDrawing drawing{file, millimetres};
     std::vector<Curve> curves = CurveMaker{drawing, layer}.read();
     if (curves.empty()) {
         throw InputError(no_curve(drawing, layer));
+    }
+    if (notes != nullptr) {
+        note_texts(drawing, layer, *notes);
     }
     return curves;
 }

@@ -13,6 +13,7 @@ namespace cusp::import {
 // millimetres  of one unit of the drawing, unless its $INSUNITS says millimetres or inches itself
 //              (drawing programs write other units by default)
 // layer        its name; "": all layers that are neither off nor frozen
+// notes        receives a sentence on texts beside the curves; may be null
 //
 // Returns the curves of the ENTITIES section, in the order of the file. Arcs become rational
 // quadratics, exactly; a spline is split at inner knots of multiplicity degree + 1. Objects of a
@@ -22,7 +23,8 @@ namespace cusp::import {
 // mesh, a spline without control points.
 std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
                                           double millimetres,
-                                          const std::string& layer = "");
+                                          const std::string& layer = "",
+                                          std::vector<std::string>* notes = nullptr);
 
 // The objects of a drawing that can be drilled: its POINTs, and its curves.
 struct DxfPlaces {
@@ -52,10 +54,5 @@ struct DxfLayers {
 // Every layer that draws something, by name; curves as read_dxf_curves() makes them.
 // Errors: InputError where the file is not DXF or holds no curve.
 DxfLayers read_dxf_layers(const std::string& file, double millimetres);
-
-// The arc about `centre` that starts at the angle `start`; a positive sweep is counter-clockwise.
-// Angles in radians.
-// Precondition: radius > 0, 0 < |sweep| <= 2 pi.
-nurbs::Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
 
 }  // namespace cusp::import

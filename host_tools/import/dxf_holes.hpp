@@ -30,7 +30,11 @@ std::vector<job::Hole> read_holes(const std::string& name,
 
 // The curves of a drawing, or of a JSON file, in chains: ends no farther apart than 1e-3 mm meet.
 //
+// notes  gets a sentence on texts beside the curves
+//
 // Errors: InputError as read_dxf_curves().
-std::vector<job::Chain> read_chains(const std::string& name, double millimetres);
+std::vector<job::Chain> read_chains(const std::string& name,
+                                    double millimetres,
+                                    std::vector<std::string>& notes);
 
 }  // namespace cusp::import

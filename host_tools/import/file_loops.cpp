@@ -47,14 +47,15 @@ void describe_loops(const std::string& name,
                     std::vector<std::string>& notes)
 {
     if (nesting.repeated > 0) {
-        notes.push_back(
-            fmt::format("{}: {} curves are drawn twice and taken once", name, nesting.repeated));
+        notes.push_back(fmt::format(
+            "{}: {} drawn twice and taken once", name,
+            nesting.repeated == 1 ? "1 curve is" : fmt::format("{} curves are", nesting.repeated)));
     }
     if (nesting.bridged > 0) {
-        notes.push_back(
-            fmt::format("{}: {} gaps of up to {:.3g} mm are joined; the limit is "
-                        "{:g} mm (plan_tolerance)",
-                        name, nesting.bridged, nesting.widest_gap, join));
+        notes.push_back(fmt::format(
+            "{}: {} {:.3g} mm {} joined; the limit is {:g} mm (plan_tolerance)", name,
+            nesting.bridged == 1 ? "a gap of" : fmt::format("{} gaps of up to", nesting.bridged),
+            nesting.widest_gap, nesting.bridged == 1 ? "is" : "are", join));
     }
 }
 
@@ -66,7 +67,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
     const std::size_t mark = layer_mark(name);
     const std::string file = name.substr(0, mark);
     const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
-    const LoopNesting nesting = nest_loops(read_dxf_curves(file, millimetres, layer), join);
+    const LoopNesting nesting = nest_loops(read_dxf_curves(file, millimetres, layer, &notes), join);
     if (!nesting.open.empty()) {
         refuse_open(name, nesting, join);
     }

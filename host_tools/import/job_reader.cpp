@@ -177,6 +177,7 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
 {
     constexpr Range kRestTolerance{0.001, 1};
     operation.after = read_programs(table, "after", folder_);
+    operation.may_open = table.flag("may_open").value_or(false);
     operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
     if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
         !job_.setup) {
@@ -407,7 +408,12 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     const SetupTables tables{top, file_};
     setups = tables.all().size();
     job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
-    job_.post = read_post(top.text("post").value_or("cusp"), folder_);
+    const std::string post = top.text("post").value_or("cusp");
+    try {
+        job_.post = read_post(post, folder_);
+    } catch (const InputError& error) {
+        top.refuse("post", error.what());
+    }
     job_.group_by_tool = top.flag("group_by_tool").value_or(true);
     const auto operations = top.tables("operation");
     place_files(top, operations);
@@ -431,7 +437,12 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     stock.settle(job_);
     check_sheet(job_);
     settle_levels(job_);
-    job_.notes = parts_.notes();
+    // files that several operations name say the same again
+    for (const std::string& note : parts_.notes()) {
+        if (std::find(job_.notes.begin(), job_.notes.end(), note) == job_.notes.end()) {
+            job_.notes.push_back(note);
+        }
+    }
     rise_over_fixtures(job_);
     return std::move(job_);  // meshes are large
 }

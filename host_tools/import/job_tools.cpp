@@ -62,7 +62,11 @@ JobTools::JobTools(JobTable& top, const std::string& file, const fs::path& folde
         own_.push_back({read, true});
     }
     if (const auto library = top.text("library")) {
-        read_library(*library, folder);
+        try {
+            read_library(*library, folder);
+        } catch (const InputError& error) {
+            top.refuse("library", error.what());
+        }
     } else if (own_.empty()) {
         top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
     }

@@ -21,6 +21,7 @@ constexpr std::string_view kFeedsByLoad{
     "hull_rough, contour_pocket, pocket, grid_pocket, adaptive_isocurve, complete_isocurves, "
     "parallel_planes, profile, face"};
 constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave, v_carve"};
+constexpr std::string_view kOpening{"pocket, drill, face, engrave, v_carve"};
 constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, v_carve, chamfer"};
 constexpr std::string_view kNoFloor{"pocket, profile, drill, face, v_carve, chamfer"};
 constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, v_carve, chamfer"};
@@ -77,6 +78,7 @@ constexpr OperationKey kOperationKeys[]{
     {"peck", "drill"},
     {"overhang", "face"},
     {"setup", ""},
+    {"may_open", kOpening},
     {"after", ""},
     {"rest_tolerance", ""},
     {"width", "chamfer"}};
@@ -133,8 +135,8 @@ std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindl
 
 std::vector<std::string> stock_keys()
 {
-    return {"top",    "clearance",  "bottom",        "x",      "y",
-            "margin", "margin_top", "margin_bottom", "program"};
+    return {"top",    "clearance",  "bottom",        "x",       "y",
+            "margin", "margin_top", "margin_bottom", "program", "least_floor"};
 }
 
 std::vector<std::string> placing_keys()

@@ -116,8 +116,11 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
     if (is_new) {
         found = read_cad_holes(file, placed(file));
         if (found.closed_above > 0) {
-            notes_.push_back(fmt::format("{}: {} holes open below alone and are not drilled", file,
-                                         found.closed_above));
+            notes_.push_back(fmt::format("{}: {} below alone and {} not drilled", file,
+                                         found.closed_above == 1
+                                             ? "1 hole opens"
+                                             : fmt::format("{} holes open", found.closed_above),
+                                         found.closed_above == 1 ? "is" : "are"));
         }
     }
     std::vector<job::Hole> holes;
@@ -137,10 +140,10 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
     return holes;
 }
 
-std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres) const
+std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres)
 {
     const Similarity move = placed_drawing(file);
-    std::vector<job::Chain> chains = read_chains(file, millimetres);
+    std::vector<job::Chain> chains = read_chains(file, millimetres, notes_);
     for (job::Chain& chain : chains) {
         move_curves(move, chain);
     }

@@ -38,7 +38,7 @@ public:
                                  double millimetres,
                                  DiameterRange range,
                                  bool only_circles);
-    std::vector<job::Chain> chains(const std::string& file, double millimetres) const;
+    std::vector<job::Chain> chains(const std::string& file, double millimetres);
 
     void note(const std::string& sentence) { notes_.push_back(sentence); }
 

@@ -10,6 +10,7 @@
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/known_keys.hpp"
 #include "host_tools/import/part_extent.hpp"
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/hole_depth.hpp"
 
@@ -142,11 +143,11 @@ void check_holes(const JobTable& table, const Operation& operation, PartFiles& p
         larger += hole.diameter > 2 * tool.radius + kSameDiameter ? 1 : 0;
     }
     if (larger > 0) {
-        parts.note(
-            fmt::format("operation {}: drill: {} of {} holes are wider than tool {} of {:g} "
-                        "mm: they get its diameter",
-                        operation.number, larger, operation.prismatic->holes.size(), tool.number,
-                        2 * tool.radius));
+        parts.note(fmt::format(
+            "operation {}: drill: {} of {} {} wider than tool {} of {:g} mm: {} its diameter",
+            operation.number, larger, counted(operation.prismatic->holes.size(), "hole"),
+            larger == 1 ? "is" : "are", tool.number, 2 * tool.radius,
+            larger == 1 ? "it gets" : "they get"));
     }
 }
 

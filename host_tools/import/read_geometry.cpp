@@ -16,6 +16,7 @@
 #include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/job/job.hpp"
 
 #include "fmt/format.h"
@@ -54,7 +55,7 @@ void describe(const std::string& file,
     constexpr double kShown = 1e-3;
     if (facets.degenerate > 0) {
         notes.push_back(
-            fmt::format("{}: {} facets without area left out", file, facets.degenerate));
+            fmt::format("{}: {} without area left out", file, counted(facets.degenerate, "facet")));
     }
     if (overhangs > kShown) {
         notes.push_back(fmt::format(
@@ -70,9 +71,9 @@ void describe_patches(const std::string& file,
                       std::vector<std::string>& notes)
 {
     notes.push_back(fmt::format(
-        "{}: its facets are covered by {} surfaces, nowhere below them and at most {:.3g} mm above "
+        "{}: its facets are covered by {}, nowhere below them and at most {:.3g} mm above "
         "them",
-        file, patches.surfaces.size(), patches.lift));
+        file, counted(patches.surfaces.size(), "surface"), patches.lift));
     if (patches.loose_share > 0) {
         notes.push_back(fmt::format(
             "{}: on {:.1f} % of its curved parts the path is up to {:.3g} mm off the mesh instead "

@@ -47,6 +47,7 @@ StockTable::StockTable(const toml::table* table,
     job.stock_top = top_.value_or(0.0);
     job.clearance = keys_.length("clearance", kPositive, unit_).value_or(kDefaultClearance);
     job.stock_bottom = keys_.length("bottom", kAnyNumber, unit_);
+    job.least_floor = keys_.length("least_floor", kNotNegative, unit_).value_or(job::kLeastFloor);
     job.stock_x = keys_.extent("x", unit_);
     job.stock_y = keys_.extent("y", unit_);
     read_margin();

@@ -82,6 +82,7 @@ struct Operation {
     EntryKind entry{EntryKind::kAuto};
     Traversal traversal{Traversal::kZigzag};
     double allowance{};
+    bool may_open{false};  // into what the other side of a stock that was turned over has cut
     std::optional<double> max_depth;
     std::optional<double> min_depth;
     std::vector<double> layers;  // depths below stock.top
@@ -142,6 +143,8 @@ struct Fixture {
     double margin{};  // mm
 };
 
+inline constexpr double kLeastFloor = 0.5;  // mm, where none is given
+
 struct Job {
     std::string file;
     bool inch{false};  // of the G-code written; everything in this struct is mm
@@ -156,6 +159,7 @@ struct Job {
     std::optional<double> part_top;
     double clearance{};  // above stock_top
     std::optional<double> stock_bottom;
+    double least_floor{kLeastFloor};  // mm, that is to be left between the cuts of two sides
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
     // Programs that have been cut before: the stock is what they leave.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -49,8 +50,10 @@ void count_moves(const ToolpathWriter& writer, int passes, int levels, PlannedOp
     planned.stats.cl_points = static_cast<int>(planned.path.moves.size());
     planned.stats.retracts = writer.retracts();
     if (writer.steep_plunges() > 0) {
-        planned.stats.warnings.push_back(
-            fmt::format("{} entries had no room for a slope and plunge", writer.steep_plunges()));
+        planned.stats.warnings.push_back(fmt::format(
+            "{} had no room for a slope and {}",
+            counted(static_cast<std::size_t>(writer.steep_plunges()), "entry", "entries"),
+            writer.steep_plunges() == 1 ? "plunges" : "plunge"));
     }
 }
 

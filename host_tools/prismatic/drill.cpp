@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/job/hole_depth.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/drill_tour.hpp"
@@ -58,7 +59,8 @@ std::vector<PlannedOperation> plan_drill(const Job& job, const Operation& operat
         places.push_back(hole.at);
     }
     PlannedOperation planned =
-        begun(job, operation, fmt::format("{} holes, {:.6g} mm deep", places.size(), cut.depth));
+        begun(job, operation,
+              fmt::format("{}, {:.6g} mm deep", counted(places.size(), "hole"), cut.depth));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const double above = rapid_end(job, cut.top);
     const double peck = cut.peck.value_or(2 * cut.depth);

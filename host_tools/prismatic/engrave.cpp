@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
@@ -95,7 +96,8 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
     const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);
     PlannedOperation planned =
         begun(job, operation,
-              fmt::format("{} curves, {:g} mm deep", chains.size(), operation.prismatic->depth));
+              fmt::format("{}, {:g} mm deep", counted(chains.size(), "curve"),
+                          operation.prismatic->depth));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const EdgeForm form{operation.output != OutputForm::kLines, chord_tolerance(operation), true,
                         true};

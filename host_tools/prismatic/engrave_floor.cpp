@@ -8,6 +8,7 @@
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/drop_cutter/line_heights.hpp"
 #include "host_tools/drop_cutter/surface_bounds.hpp"
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
@@ -130,8 +131,9 @@ std::vector<PlannedOperation> engraved_on_floor(const Job& job,
                                                 const std::vector<std::vector<Edge>>& chains)
 {
     const double depth = operation.prismatic->depth;
-    PlannedOperation planned = begun(
-        job, operation, fmt::format("{} curves, {:g} mm below the floor", chains.size(), depth));
+    PlannedOperation planned =
+        begun(job, operation,
+              fmt::format("{}, {:g} mm below the floor", counted(chains.size(), "curve"), depth));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     FloorChain floor{job, operation};
     // below a top of 0

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/loop_shape.hpp"
 #include "host_tools/offset/contour.hpp"
@@ -78,8 +79,10 @@ std::vector<PlannedOperation> plan_face(const Job& job, const Operation& operati
                                      operation_text(job, operation), step, passes, kMostPasses));
     }
     const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);
-    PlannedOperation planned = begun(
-        job, operation, fmt::format("to z {:.6g} mm, {:g} passes a level", levels.back(), passes));
+    PlannedOperation planned =
+        begun(job, operation,
+              fmt::format("to z {:.6g} mm, {} a level", levels.back(),
+                          counted(static_cast<std::size_t>(passes), "pass", "passes")));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const double beside = operation.tool.radius + operation.prismatic->overhang.value_or(kOverhang);
     const bool one_way = operation.traversal == Traversal::kOneWay;

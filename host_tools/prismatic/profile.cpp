@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/offset/offset.hpp"
@@ -91,7 +92,7 @@ private:
         const char* side = on_line()                            ? "on the line"
                            : cut_.side == ProfileSide::kOutside ? "outside"
                                                                 : "inside";
-        return fmt::format("{}, {} levels{}", side, levels_.size(),
+        return fmt::format("{}, {}{}", side, counted(levels_.size(), "level"),
                            cut_.tabs ? fmt::format(", tabs {:g} mm wide", cut_.tabs->width) : "");
     }
 

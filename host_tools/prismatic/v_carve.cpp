@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
@@ -225,7 +226,8 @@ PlannedOperation Carver::plan()
     const double deepest = levels.back();
     PlannedOperation planned =
         begun(job_, operation_,
-              fmt::format("{} branches, {:.4g} mm deep at most", axis_.size(), deepest));
+              fmt::format("{}, {:.4g} mm deep at most", counted(axis_.size(), "branch", "branches"),
+                          deepest));
     ToolpathWriter writer{planned.path.moves, {job_.stock_top + job_.clearance}};
     double above = 0;
     std::size_t ways_written = 0;

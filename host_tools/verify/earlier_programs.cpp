@@ -116,33 +116,6 @@ namespace {
 
 constexpr double kOpenBelow = 1000;  // mm under the stock's bottom
 
-// The runs of a program's tools. Those that cut nothing need not be known.
-std::vector<ToolPositions> positions_of_program(const Job& job,
-                                                const std::string& file,
-                                                double spacing)
-{
-    std::vector<ToolPositions> runs;
-    const Program program = read_program(file, job.stock_top + kStartHigh);
-    int current = -1;
-    for (std::size_t k = 1; k < program.moves.size(); ++k) {
-        const ProgramMove& m = program.moves[k];
-        if (is_rapid(m) && m.tool != current) {
-            current = -1;  // a tool that cuts nothing need not be known
-            continue;
-        }
-        if (m.tool != current) {
-            current = m.tool;
-            runs.push_back({tool_of_program(job, file, program, current), {}, {}});
-            runs.back().tips.push_back(to_millimetres(m.move.start));
-        }
-        ToolPositions& run = runs.back();
-        append_points(m.move, spacing, run.tips);
-        run.rapid.resize(run.tips.size(), is_rapid(m));
-        run.lines.resize(run.tips.size(), m.move.line);
-    }
-    return runs;
-}
-
 // The flat end that goes wherever the tool has gone through the bottom between two tips; none.
 std::optional<Tool> through_tool(const Job& job, const Tool& tool, Vec3d from, Vec3d to)
 {
@@ -196,6 +169,32 @@ void append_through(const Job& job,
 
 }  // namespace
 
+std::vector<ToolPositions> program_positions(const Job& job,
+                                             const std::string& file,
+                                             double spacing)
+{
+    std::vector<ToolPositions> runs;
+    const Program program = read_program(file, job.stock_top + kStartHigh);
+    int current = -1;
+    for (std::size_t k = 1; k < program.moves.size(); ++k) {
+        const ProgramMove& m = program.moves[k];
+        if (is_rapid(m) && m.tool != current) {
+            current = -1;  // a tool that cuts nothing need not be known
+            continue;
+        }
+        if (m.tool != current) {
+            current = m.tool;
+            runs.push_back({tool_of_program(job, file, program, current), {}, {}});
+            runs.back().tips.push_back(to_millimetres(m.move.start));
+        }
+        ToolPositions& run = runs.back();
+        append_points(m.move, spacing, run.tips);
+        run.rapid.resize(run.tips.size(), is_rapid(m));
+        run.lines.resize(run.tips.size(), m.move.line);
+    }
+    return runs;
+}
+
 double open_level(const Job& job) { return *job.stock_bottom - kOpenBelow; }
 
 std::vector<EarlierCut> earlier_cuts(const Job& job, const job::SetupProgram& program)
@@ -223,12 +222,12 @@ std::vector<ToolPositions> earlier_positions(const Job& job, double spacing)
 {
     std::vector<ToolPositions> runs;
     for (const std::string& file : earlier_programs(job)) {
-        for (ToolPositions& run : positions_of_program(job, file, spacing)) {
+        for (ToolPositions& run : program_positions(job, file, spacing)) {
             runs.push_back(std::move(run));
         }
     }
     for (const job::SetupProgram& program : job.turned_programs) {
-        for (ToolPositions& run : positions_of_program(job, program.file, spacing)) {
+        for (ToolPositions& run : program_positions(job, program.file, spacing)) {
             if (program.turn.turns_over()) {
                 append_through(job, program.turn, run, runs);
                 continue;

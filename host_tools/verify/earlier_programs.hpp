@@ -38,6 +38,11 @@ double open_level(const job::Job& job);
 // The programs of [stock] program, then those of `after` of the operations, each once.
 std::vector<std::string> earlier_programs(const job::Job& job);
 
+// The runs of a program's tools, in its own coordinates. Tools that cut nothing need not be known.
+std::vector<ToolPositions> program_positions(const job::Job& job,
+                                             const std::string& file,
+                                             double spacing);
+
 // The tool positions of earlier_programs() and of turned programs, at most `spacing` mm apart.
 std::vector<ToolPositions> earlier_positions(const job::Job& job, double spacing);
 

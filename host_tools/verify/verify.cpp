@@ -253,7 +253,7 @@ void judge_contacts(Verification& result)
     }
 }
 
-void judge(const Scene& scene, Verification& result)
+void judge(const Job& job, const Scene& scene, Verification& result)
 {
     const VerifyFigures& f = result.figures;
     const VerifyBounds& bounds = result.bounds;
@@ -273,6 +273,9 @@ void judge(const Scene& scene, Verification& result)
                                             *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
     }
     judge_contacts(result);
+    if (f.between_sides && is_too_thin(job, *f.between_sides)) {
+        result.broken.push_back(sentence_of(job, *f.between_sides));
+    }
     if (f.level_left) {
         result.broken.push_back(
             fmt::format("left {:.4g} mm over the level of operation {} ({}) at x {:.3f} y {:.3f}",
@@ -469,7 +472,8 @@ Verification verify(const Job& job,
         add_levels(job, scene, heights, result);
     }
     find_fixture_hits(job, runs, figures);
-    judge(scene, result);
+    figures.between_sides = floor_between_sides(job, result.grid, stock.heights(), spacing);
+    judge(job, scene, result);
     if (settings.engagement) {
         result.positions = std::move(runs);
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host_tools/job/job.hpp"
+#include "host_tools/verify/between_sides.hpp"
 #include "host_tools/verify/engagement.hpp"
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/machined_stock.hpp"
@@ -92,6 +93,8 @@ struct VerifyFigures {
     std::optional<LevelLeft> level_left;
     int tabs_standing{};
     int tabs_wanted{};
+    // Of a stock that was turned over: the thinnest floor over a cut of the other side.
+    std::optional<FloorBetweenSides> between_sides;
     std::optional<EngagementFigures> engagement;  // if requested
 };
 
@@ -120,7 +123,8 @@ struct Verification {
 
 // The bounds are those of the job. Gouges: the floor tolerances. Walls: the plan tolerances.
 // Scallop: that of the last operation that has one, on 99 % of the floor. Thickness of the stock
-// left: that scallop and the floor tolerance, everywhere. Rapid moves: no cut. Slivers beside
+// left: that scallop and the floor tolerance, everywhere. Rapid moves: no cut. Floors over cuts of the
+// other side of a stock that was turned over: least_floor. Slivers beside
 // cliffs may be high along the normal, and yet thin.
 //
 // The programs of the job's stock, and those its operations come after, are cut first.

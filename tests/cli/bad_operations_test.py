@@ -104,8 +104,21 @@ class BadOperations(unittest.TestCase):
 
     def test_a_hole_wider_than_the_tool(self):
         self.write("wide.dxf", f"0\nSECTION\n2\nENTITIES\n{circle('wide', 5, 5, 4)}0\nENDSEC\n0\nEOF\n")
-        self.warned("1 of 1 holes are wider than tool 2",
+        self.warned("1 of 1 hole is wider than tool 2",
                     operation("drill", "wide", tool=2, depth=3).replace("plate.dxf", "wide.dxf"))
+
+    def test_holes_drawn_as_arcs(self):
+        arc = "0\nARC\n8\nholes\n10\n{}\n20\n8\n40\n2.5\n50\n{}\n51\n{}\n"
+        polyline = "0\nLWPOLYLINE\n8\nholes\n90\n2\n70\n1\n10\n50\n20\n17.5\n42\n1\n10\n50\n20\n22.5\n42\n1\n"
+        no_holes = arc.format(90, 0, 180) + arc.format(90, 0, 180)  # there and back, and a half alone
+        self.write("arcs.dxf", "0\nSECTION\n2\nENTITIES\n" + arc.format(8, 0, 180) + arc.format(8, 180, 360) + polyline +
+                   arc.format(70, 0, 170) + no_holes + "0\nENDSEC\n0\nEOF\n")
+        self.warned("arcs.dxf#holes: 3 curves are no circles and not drilled",
+                    operation("drill", "holes", tool=2, depth=3).replace("plate.dxf", "arcs.dxf"))
+        text = (self.folder / "p.ngc").read_text()
+        self.assertIn("(drill: 2 holes, 3 mm deep)", text)
+        self.assertRegex(text, r"X8 Y8\b")
+        self.assertRegex(text, r"X50 Y20\b")
 
     def test_a_profile_inside_that_no_tool_enters(self):
         self.refused("tool 1 of 6 mm fits nowhere inside the loops", operation("profile", "dot", side="inside", depth=2))
@@ -153,12 +166,22 @@ class BadOperations(unittest.TestCase):
 
     def test_drawings(self):
         self.refused("plate.dxf", operation("profile", "nothing", depth=1))
+        self.refused('no curve on the layer "Pocket"; layers of the drawing: "pocket", ', operation("pocket", "Pocket", depth=1))
         self.refused("gap", operation("profile", "open", depth=1))
         self.refused("crosses itself", operation("profile", "eight", depth=1))
         self.refused("cross each other at x", operation("profile", "crossing", depth=1))
         self.refused("no point and no circle to drill", operation("drill", "outline", tool=2, depth=1))
         self.refused("boundary: is missing", operation("profile", depth=1))
         self.refused("nowhere.dxf", operation("profile", "outline", depth=1).replace("plate.dxf", "nowhere.dxf"))
+
+    def test_texts_beside_curves(self):
+        text = "0\nTEXT\n8\ndot\n10\n18\n20\n21\n40\n3\n1\nA\n"
+        self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{DRAWING}{text}0\nENDSEC\n0\nEOF\n")
+        words = r"warning: plate.dxf#dot: a text at x 18 y 21 mm is not cut: convert text to curves"
+        for strategy in ("engrave", "profile"):
+            said = self.said(0, 2 * operation(strategy, "dot", tool=3 if strategy == "engrave" else 1, depth=0.2))
+            self.assertRegex(said, words)
+            self.assertEqual(1, said.count("a text at"))
 
     def test_tools(self):
         self.refused("tool 2 is a drill", operation("profile", "outline", tool=2, depth=1))
@@ -167,7 +190,7 @@ class BadOperations(unittest.TestCase):
         self.refused("chamfer needs a vee or a taper, tool 1 is flat", operation("chamfer", "outline", width=1))
         self.refused("tool: is 7", operation("profile", "outline", tool=7, depth=1))
         self.refused('is "6mm flat", but no tool has a name', operation("profile", "outline", tool="6mm flat", depth=1))
-        self.refused('library "steel": none of that name comes', operation("profile", "outline", depth=1),
+        self.refused('job.toml:1: library: library "steel": none of that name comes', operation("profile", "outline", depth=1),
                      head='library = "steel"\n' + HEAD)
         self.write("tools.toml", 'units = "mm"\n[[tool]]\nname = "big"\nshape = "flat"\ndiameter = 20\nfeed = 500\n')
         self.refused('no tool has that name, in tools.toml either; the nearest are "big"',
@@ -187,6 +210,8 @@ class BadOperations(unittest.TestCase):
     def test_posts(self):
         one = operation("pocket", "pocket", depth=1)
         self.refused('the nearest is "fanuc"', one, post="fanuk")
+        self.refused('job.toml:1: post: post "fanuk": there is none', one, head='post = "fanuk"\n' + HEAD)
+        self.refused("job.toml:1: post: none.toml: can't be read", one, head='post = "none.toml"\n' + HEAD)
         post = (TOP / "posts/grbl.toml").read_text()
         for wrong, words in ((post.replace("footer", "fotter"), "fotter: unknown key; the nearest known one is footer"),
                              (post.replace("{units}", "{unit}"), "{unit} in"),
@@ -209,6 +234,16 @@ class BadOperations(unittest.TestCase):
         self.said(0, both, head=head)
         inside = both.replace("depth = 8", 'side = "inside"\ndepth = 8')
         self.said(0, inside, head=head.replace("x = [-20, 120]\n", ""))
+
+    def test_levels_beside_the_stock(self):
+        self.warned(r"operation 1 \(pocket\) ends at z = 1 mm, not below the stock's top, z = 0 mm: it cuts air",
+                    operation("pocket", "pocket", depth=2, top=3))
+        self.warned(r"operation 1 \(profile\) begins at z = -11 mm, not above the stock's bottom, z = -10 mm",
+                    operation("profile", "outline", depth=2, top=-11))
+        self.warned(r"operation 1 \(pocket\) goes 7 mm below the stock's bottom, z = -10 mm",
+                    operation("pocket", "pocket", depth=17))
+        self.assertNotIn("stock's", self.said(0, operation("drill", "in_pocket", tool=2, depth=12) +
+                                              operation("profile", "outline", depth=10.5)))
 
     def test_stock_and_faces(self):
         self.refused("bottom: is -10 mm, not below the top at -20 mm", operation("profile", "outline", depth=1),

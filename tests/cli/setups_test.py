@@ -173,6 +173,46 @@ class Setups(CuspCase):
         self.write("deep.ngc", deep)
         self.assertIn("broken: gouge_max_mm", self.cusp(1, "verify", "job.toml", "deep.ngc", "--after", "p-front.ngc"))
 
+    # The stock is 10 mm thick, the pocket of the front 3 mm deep; both lie over each other.
+    def both_sides(self, depth, more="", head=HEAD, flip="x"):
+        self.job(SETUPS.format(flip=flip), OPERATIONS.replace("depth = 4", f"depth = {depth}\n{more}"), head)
+        return self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+
+    def judged(self, status):
+        return self.cusp(status, "verify", "job.toml", "p-back.ngc", "--after", "p-front.ngc")
+
+    def test_a_floor_between_two_sides_that_is_thin_or_broken_through(self):
+        for flip, y in (("x", (6, 16)), ("y", (4, 14))):
+            said = self.both_sides(6.7, flip=flip)
+            words = r"0\.30 mm are left between the cuts of both sides at x (\S+) y (\S+) z -5\.(?:7|69)\S* mm \(operation 3, pocket\); "
+            self.assertRegex(said, "warning: " + words + r"the limit is 0\.5 mm \(least_floor in \[stock\]")
+            place = re.search(words, said)
+            x_range = (2, 20) if flip == "x" else (20, 38)
+            self.assertTrue(x_range[0] < float(place[1]) < x_range[1] and y[0] < float(place[2]) < y[1], place[0])
+            said = self.judged(1)
+            self.assertRegex(said, "broken: " + words)
+            self.assertRegex(said, r"between_sides_min_mm: 0\.30")
+        said = self.both_sides(7.2)
+        words = r"the cuts of both sides meet at x \S+ y \S+ z -6\.(2|19)\S* mm \(operation 3, pocket\), 0\.(20|19) mm deep in each other; "
+        self.assertRegex(said, "warning: " + words)
+        self.assertRegex(self.judged(1), "broken: " + words)
+        for depth, more, head in ((6.2, "", HEAD), (6.7, "", HEAD.replace("top = 1", "top = 1\nleast_floor = 0.2")),
+                                  (7.2, "may_open = true", HEAD), (11, "", HEAD)):
+            self.assertNotIn("both sides", self.both_sides(depth, more, head))
+            self.assertIn("all bounds hold", self.judged(0))
+        self.both_sides(6.2)
+        self.assertIn("between_sides_min_mm: 0.8", self.judged(0))
+        self.job(operations=OPERATIONS.replace("depth = 12\n", "depth = 7\n"))
+        self.assertIn("(operation 4, drill)", self.cusp(0, "plan", "job.toml", "-o", "p.ngc"))
+
+    # A hole that the front has drilled through is open, its edge is no thin floor.
+    def test_holes_through_are_no_thin_floor(self):
+        deep = OPERATIONS.replace("depth = 12\n", "depth = 10.2\n", 1).replace('#holes"\ntool = 2\ndepth = 12', '#over"\ndepth = 4')
+        self.write("plate.dxf", drawing(rectangle("pocket", 2, 4, 20, 14) + circle("holes", 30, 6, 1.5) +
+                                        rectangle("over", 25, 1, 35, 11)))
+        self.job(operations=deep.replace('"drill"\nboundary = "plate.dxf#over"', '"pocket"\nboundary = "plate.dxf#over"'))
+        self.assertNotIn("both sides", self.cusp(0, "plan", "job.toml", "-o", "p.ngc"))
+
     def test_a_set_up_without_a_flip_goes_on_in_the_stock_of_the_first(self):
         self.job('[[setup]]\nname = "a"\n[[setup]]\nname = "b"\n', OPERATIONS.replace('"back"', '"b"'))
         said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
@@ -223,6 +263,8 @@ class Setups(CuspCase):
         self.refused('setup 2: flip: is "z", known are "x", "y"', setups=SETUPS.format(flip="z"))
         self.refused("setup 2: flop: unknown key; the nearest known one is flip", setups=two.replace("flip", "flop"))
         self.refused('setup 3: no operation is in "side"', setups=two + '[[setup]]\nname = "side"\n')
+        self.refused("may_open: is a key of pocket, drill, face, engrave, v_carve, not of profile", operations=OPERATIONS +
+                     '[[operation]]\nstrategy = "profile"\nboundary = "plate.dxf#outline"\ndepth = 1\nmay_open = true\n')
         for key in ("top = 1\n", "bottom = -9\n", "y = [-10, 30]\n"):
             self.refused("a set-up with a flip needs the stock's box", head=HEAD.replace(key, ""))
         self.refused('fixture 1: setup: is "side", set-ups of the job are',

@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/drawn_shapes.hpp"
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
@@ -328,6 +329,35 @@ TEST(DxfCurves, BoundPocketsByTheirNesting)
                    read_loops(folder.with("e.dxf", drawing(square(-20, 0, 5))), 1, 0.02, notes));
     });
     STRCMP_CONTAINS("the island lies outside all 3 pockets", outside.c_str());
+}
+
+TEST(DxfCurves, NameTextsBesideThem)
+{
+    const std::string circle = "0\nCIRCLE\n8\nname\n10\n0\n20\n0\n40\n9\n";
+    const auto text = [](const std::string& type, const std::string& more) {
+        return "0\n" + type + "\n8\nname\n10\n3\n20\n4\n40\n2\n1\nHello\n" + more;
+    };
+    const auto said = [&](const std::string& file, const std::string& layer = "name") {
+        std::vector<std::string> notes;
+        read_dxf_curves(file, 1, layer, &notes);
+        return notes.empty() ? std::string{} : notes.front().substr(notes.front().find("d.dxf"));
+    };
+    const std::string plain = folder.with("d.dxf", drawing(circle + text("TEXT", "")));
+    const std::string rest = " not cut: convert text to curves in the drawing program";
+    CHECK_EQUAL("d.dxf#name: a text at x 3 y 4 mm is" + rest, said(plain));
+    CHECK_EQUAL("d.dxf: a text at x 3 y 4 mm is" + rest, said(plain, ""));
+    // drawn from below; on another layer; hidden
+    CHECK_EQUAL("d.dxf#name: 2 texts, the first at x -3 y 4 mm are" + rest,
+                said(folder.with("d.dxf", drawing(text("TEXT", "230\n-1\n") + circle +
+                                                  text("MTEXT", "") + text("TEXT", "60\n1\n") +
+                                                  "0\nTEXT\n8\nother\n10\n0\n20\n0\n"))));
+    CHECK_EQUAL("", said(folder.with("d.dxf", drawing(circle + text("ATTDEF", "")))));
+    // in a block, which is turned by a quarter
+    const std::string block = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nlabel\n10\n1\n20\n0\n" +
+                              text("TEXT", "") + "0\nENDBLK\n0\nENDSEC\n";
+    const std::string insert = "0\nINSERT\n2\nlabel\n10\n100\n20\n50\n50\n90\n";
+    CHECK_EQUAL("d.dxf#name: a text at x 96 y 52 mm is" + rest,
+                said(folder.with("d.dxf", block + drawing(circle + insert))));
 }
 
 TEST(DxfCurves, AreJoinedAtGapsUpToTheToleranceAndNotBeyond)

@@ -7,7 +7,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/import/drawn_shapes.hpp"
 #include "tests/support/loops.hpp"
 
 using namespace cusp;

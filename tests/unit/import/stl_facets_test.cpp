@@ -192,7 +192,7 @@ TEST(HeightFieldOfAMesh, IsAFloorLikeAnyOther)
         read_surfaces(folder.with("m.STL", binary(sheet(30, wave), 1800)), 1.0, 0.01, &notes);
     LONGS_EQUAL(1, surfaces.size());
     LONGS_EQUAL(1, notes.size());
-    STRCMP_CONTAINS("covered by 1 surfaces, nowhere below them", notes.front().c_str());
+    STRCMP_CONTAINS("covered by 1 surface, nowhere below them", notes.front().c_str());
 }
 
 namespace {

@@ -175,7 +175,7 @@ TEST(Prismatic, WiderHolesAreNoted)
     const Job job =
         job_of("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2");
     LONGS_EQUAL(1, job.notes.size());
-    CHECK(job.notes[0].find("1 of 4 holes are wider than tool 2") != std::string::npos);
+    CHECK(job.notes[0].find("1 of 4 holes is wider than tool 2") != std::string::npos);
 }
 
 TEST(Prismatic, AnInsideThatNoToolEntersIsRefusedWithItsPlace)
