@@ -134,7 +134,7 @@ PartModel::PartModel(const std::vector<Surface>& surfaces, double edge_error)
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         add_cells(surfaces[k], static_cast<int>(k), state);
         state.regions.emplace_back(surfaces[k], edge_error);
-        for (const auto& edge : state.regions.back().edges()) {
+        for (const auto& edge : state.regions.back().edges(surfaces[k])) {
             state.edges.push_back(edge);
             state.edge_surface.push_back(static_cast<int>(k));
         }
