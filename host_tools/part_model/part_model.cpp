@@ -32,7 +32,7 @@ constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
-constexpr std::size_t kMostHalves = 200'000;  // 0.2 GB
+constexpr std::size_t kMostHalves = 100'000;  // 0.1 GB
 constexpr std::size_t kWorthReturning = 50'000;
 
 void add_cells(const Surface& surface, int number, PartModel::State& state)
