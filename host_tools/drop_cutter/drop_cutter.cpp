@@ -13,6 +13,16 @@ DropCutter::DropCutter(const std::vector<Surface>& surfaces, const Tool& tool, d
 {
 }
 
+DropCutter::DropCutter(const Tool& tool, std::unique_ptr<State> state)
+    : tool_{tool}, state_{std::move(state)}
+{
+}
+
+DropCutter DropCutter::for_thread() const
+{
+    return {tool_, std::make_unique<State>(*state_, State::ForThread{})};
+}
+
 DropCutter::~DropCutter() = default;
 DropCutter::DropCutter(DropCutter&&) noexcept = default;
 DropCutter& DropCutter::operator=(DropCutter&&) noexcept = default;
@@ -50,7 +60,8 @@ std::optional<DropCutter::CcPoint> DropCutter::exact_cc_point(Vec2d at, double m
 }
 
 std::size_t DropCutter::halvings() const { return state_->halvings_; }
-double DropCutter::lowest() const { return state_->lowest_; }
-double DropCutter::highest() const { return state_->highest_; }
+std::size_t DropCutter::kept_bytes() const { return state_->bytes_of_halves(); }
+double DropCutter::lowest() const { return state_->floor_->lowest; }
+double DropCutter::highest() const { return state_->floor_->highest; }
 
 }  // namespace cusp::drop_cutter

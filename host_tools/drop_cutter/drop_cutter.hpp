@@ -42,6 +42,10 @@ public:
     DropCutter(const DropCutter&) = delete;
     DropCutter& operator=(const DropCutter&) = delete;
 
+    // A cutter for another thread, as this one was before its queries and check_edge_gouges(). It
+    // shares the surfaces and their trims; several threads may call this while none queries.
+    DropCutter for_thread() const;
+
     struct ClPoint {
         double z;             // mm, of the tip
         Vec2d slope;          // gradient of z: that of the surface at the cutter contact
@@ -99,12 +103,15 @@ public:
     const toolpath::Tool& tool() const { return tool_; }
     // How many pieces of the surfaces queries have halved, again ones included: what they cost.
     std::size_t halvings() const;
+    // The memory of the halves that are kept. A query that finds more than about 20 MB forgets them.
+    std::size_t kept_bytes() const;
     // mm: bounds of z over all surfaces, from their control points.
     double lowest() const;
     double highest() const;
 
 private:
     struct State;
+    DropCutter(const toolpath::Tool& tool, std::unique_ptr<State> state);
     toolpath::Tool tool_;
     std::unique_ptr<State> state_;
 };

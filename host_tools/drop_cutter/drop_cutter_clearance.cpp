@@ -380,8 +380,8 @@ void DropCutter::State::check_edge_gouges(double allowed)
                whole(s.knots_v, s.degree_v, s.size_v);
     };
     const bool ball = tool_.corner_radius == tool_.radius;
-    if (ball && !(surfaces_.size() == 1 && smooth(surfaces_.front()))) {
-        edges_.emplace(surfaces_, tool_.radius, allowed);
+    if (ball && !(floor_->surfaces.size() == 1 && smooth(floor_->surfaces.front()))) {
+        edges_.emplace(floor_->surfaces, tool_.radius, allowed);
     }
 }
 

@@ -48,7 +48,7 @@ void DropCutter::State::end_sides(Outline& outline)
 bool DropCutter::State::set_sides(const Piece& piece, Outline& outline) const
 {
     const Vec3d* const points = points_of(piece);
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
     const std::size_t last = (rows - 1) * columns;

@@ -53,74 +53,104 @@ void halve_line(Coefficient* low, Coefficient* high, std::size_t count, std::siz
 }  // namespace
 
 DropCutter::State::State(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy)
-    : tool_{tool}, accuracy_{accuracy}, surfaces_{surfaces}
+    : tool_{tool}, accuracy_{accuracy}
 {
-    constexpr std::size_t kManyPieces = 20000;  // reserved: growing would move them again and again
-    pieces_.reserve(kManyPieces);
-    nets_.reserve(8 * kManyPieces);
+    const auto floor = std::make_shared<Floor>();
+    floor_ = floor;
+    floor->surfaces = surfaces;
     std::vector<Piece> whole;  // patches
-    if (std::any_of(surfaces_.begin(), surfaces_.end(),
+    if (std::any_of(surfaces.begin(), surfaces.end(),
                     [](const Surface& s) { return !s.trims.empty(); })) {
-        for (const Surface& surface : surfaces_) {
-            trims_.emplace_back(surface, 0.5 * accuracy);
+        for (const Surface& surface : surfaces) {
+            floor->trims.emplace_back(surface, 0.5 * accuracy);
         }
     }
-    for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
-        for (const BezierPatch& patch : bezier_patches(surfaces_[s])) {
-            const Surface& bezier = patch.surface;
-            Piece piece{};
-            piece.patch = static_cast<std::uint32_t>(patches_.size());
-            piece.net = static_cast<std::uint32_t>(nets_.size());
-            piece.u = piece.v = {0.0F, 1.0F};
-            const bool even = std::all_of(bezier.weights.begin(), bezier.weights.end(),
-                                          [](double w) { return w == 1.0; });
-            for (std::size_t i = 0; i < bezier.points.size(); ++i) {
-                nets_.push_back(bezier.points[i] * bezier.weights[i]);
-            }
-            if (!even) {
-                weights_.resize(piece.net);
-                weights_.insert(weights_.end(), bezier.weights.begin(), bezier.weights.end());
-            }
-            patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
-                                static_cast<std::uint32_t>(bezier.degree_v + 1), !even,
-                                patch.u_begin, patch.u_end, patch.v_begin, patch.v_end});
-            constexpr double kSame = 1e-12;
-            const Surface& whole_surface = surfaces_[s];
-            const auto at_edge = [](double a, double b, std::uint8_t bit) {
-                return std::abs(a - b) < kSame ? bit : std::uint8_t{0};
-            };
-            piece.border = static_cast<std::uint8_t>(
-                at_edge(patch.u_begin, whole_surface.u_begin(), kFirstRow) |
-                at_edge(patch.u_end, whole_surface.u_end(), kLastRow) |
-                at_edge(patch.v_begin, whole_surface.v_begin(), kFirstColumn) |
-                at_edge(patch.v_end, whole_surface.v_end(), kLastColumn));
-            measure(piece);
-            piece.cut = !trims_.empty() && trims_[s].trimmed();
-            trim(piece);
-            whole.push_back(piece);
-            lowest_ = std::min(lowest_, piece.z0);
-            highest_ = std::max(highest_, piece.z1);
-        }
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+        add_patches(*floor, s, whole);
     }
     pieces_.resize(kRoot + 1);  // child 0 means none
     gather(kRoot, kRoot, whole.data(), whole.data() + whole.size());
-    whole_ = {pieces_, nets_, weights_, outlines_};
+    floor->pieces = std::move(pieces_);
+    floor->nets = std::move(nets_);
+    floor->weights = std::move(weights_);
+    floor->outlines = std::move(outlines_);
+    begin_with_whole_pieces();
+}
+
+// Adds the pieces of a surface, each a whole patch, to `whole`.
+void DropCutter::State::add_patches(Floor& floor, std::uint32_t s, std::vector<Piece>& whole)
+{
+    const Surface& whole_surface = floor.surfaces[s];
+    for (const BezierPatch& patch : bezier_patches(whole_surface)) {
+        const Surface& bezier = patch.surface;
+        Piece piece{};
+        piece.patch = static_cast<std::uint32_t>(floor.patches.size());
+        piece.net = static_cast<std::uint32_t>(nets_.size());
+        piece.u = piece.v = {0.0F, 1.0F};
+        const bool even = std::all_of(bezier.weights.begin(), bezier.weights.end(),
+                                      [](double w) { return w == 1.0; });
+        for (std::size_t i = 0; i < bezier.points.size(); ++i) {
+            nets_.push_back(bezier.points[i] * bezier.weights[i]);
+        }
+        if (!even) {
+            weights_.resize(piece.net);
+            weights_.insert(weights_.end(), bezier.weights.begin(), bezier.weights.end());
+        }
+        floor.patches.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
+                                 static_cast<std::uint32_t>(bezier.degree_v + 1), !even,
+                                 patch.u_begin, patch.u_end, patch.v_begin, patch.v_end});
+        constexpr double kSame = 1e-12;
+        const auto at_edge = [](double a, double b, std::uint8_t bit) {
+            return std::abs(a - b) < kSame ? bit : std::uint8_t{0};
+        };
+        piece.border = static_cast<std::uint8_t>(
+            at_edge(patch.u_begin, whole_surface.u_begin(), kFirstRow) |
+            at_edge(patch.u_end, whole_surface.u_end(), kLastRow) |
+            at_edge(patch.v_begin, whole_surface.v_begin(), kFirstColumn) |
+            at_edge(patch.v_end, whole_surface.v_end(), kLastColumn));
+        measure(piece);
+        piece.cut = !floor.trims.empty() && floor.trims[s].trimmed();
+        trim(piece);
+        whole.push_back(piece);
+        floor.lowest = std::min(floor.lowest, piece.z0);
+        floor.highest = std::max(floor.highest, piece.z1);
+    }
+}
+
+DropCutter::State::State(const State& other, ForThread /*tag*/)
+    : tool_{other.tool_}, accuracy_{other.accuracy_}, floor_{other.floor_}
+{
+    begin_with_whole_pieces();
+}
+
+void DropCutter::State::begin_with_whole_pieces()
+{
+    pieces_ = floor_->pieces;
+    nets_ = floor_->nets;
+    weights_ = floor_->weights;
+    outlines_ = floor_->outlines;
+    last_ = kRoot;
+    beside_ = kRoot;
+}
+
+std::size_t DropCutter::State::bytes_of_halves() const
+{
+    return (pieces_.size() - floor_->pieces.size()) * sizeof(Piece) +
+           (nets_.size() - floor_->nets.size()) * sizeof(Vec3d) +
+           (weights_.size() - floor_->weights.size()) * sizeof(double) +
+           (outlines_.size() - floor_->outlines.size()) * sizeof(Outline);
 }
 
 // Without this the halves of a long series of queries would accumulate: gigabytes for a large steep
 // floor. Pieces are halved again when a later query needs them.
 void DropCutter::State::forget_many_halves()
 {
-    constexpr std::size_t kMostHalves = 40000;  // some 20 MB
-    if (pieces_.size() < whole_.pieces.size() + kMostHalves) {
+    constexpr std::size_t kMostHalves = 40000;
+    constexpr std::size_t kMostBytes = 20'000'000;
+    if (pieces_.size() < floor_->pieces.size() + kMostHalves && bytes_of_halves() < kMostBytes) {
         return;
     }
-    pieces_ = whole_.pieces;
-    nets_ = whole_.nets;
-    weights_ = whole_.weights;
-    outlines_ = whole_.outlines;
-    last_ = kRoot;
-    beside_ = kRoot;
+    begin_with_whole_pieces();
 }
 
 // Makes pieces_[place], a child of `parent`, the root of a tree over the patches [first, last). A
@@ -161,7 +191,7 @@ void DropCutter::State::gather(std::uint32_t place, std::uint32_t parent, Piece*
 
 void DropCutter::State::measure(Piece& piece)
 {
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const std::size_t size = std::size_t{patch.rows} * patch.columns;
     if (patch.weighted) {
         unweighted_.resize(size);
@@ -184,12 +214,16 @@ void DropCutter::State::measure(Piece& piece)
     piece.y1 = high.y;
     piece.z1 = high.z;
     measure_plane(piece);
-    measure_outline(piece);
+    piece.outline = 0;
+    piece.outlined = false;
+    if (!piece.cut) {  // trim() measures the outline of one that is
+        measure_outline(piece);
+    }
 }
 
 void DropCutter::State::measure_plane(Piece& piece) const
 {
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const Vec3d* const points = points_of(piece);
     const std::size_t last = std::size_t{patch.rows} * patch.columns - 1;
     const Vec3d c00 = points[0];
@@ -240,7 +274,7 @@ void DropCutter::State::measure_wall(Piece& piece, Vec3d normal) const
     if (!(level > 0.0)) {
         return;
     }
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const Vec3d* const points = points_of(piece);
     const Vec3d* const end = points + std::size_t{patch.rows} * patch.columns;
     const Vec3d n = normal / norm(normal);
@@ -264,7 +298,7 @@ void DropCutter::State::halve(std::uint32_t index)
 {
     ++halvings_;
     const Piece piece = pieces_[index];
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
     const std::size_t size = rows * columns;

@@ -51,9 +51,9 @@ std::optional<DropCutter::CcPoint> DropCutter::State::cc_point_on(const Piece& p
                                                                   double u,
                                                                   double v) const
 {
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const SurfacePoint s =
-        derivatives_at(surfaces_[patch.surface], patch.u0 + (patch.u1 - patch.u0) * u,
+        derivatives_at(floor_->surfaces[patch.surface], patch.u0 + (patch.u1 - patch.u0) * u,
                        patch.v0 + (patch.v1 - patch.v0) * v);
     const Vec3d n = upward_normal(s);
     const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
@@ -83,7 +83,7 @@ std::optional<DropCutter::CcPoint> DropCutter::State::exact_cc_point(Vec2d at, d
     }
     constexpr int kSteps = 2;
     const Piece& piece = pieces_[cl->piece];
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const double corner = tool_.corner_radius;
     double u = middle_of(piece.u);
     double v = middle_of(piece.v);

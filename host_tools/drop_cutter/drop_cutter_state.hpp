@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace cusp::drop_cutter {
 
 struct DropCutter::State {
     State(const std::vector<nurbs::Surface>& surfaces, const toolpath::Tool& tool, double accuracy);
+    // As `other` was before any query, edge gouges aside.
+    struct ForThread {};
+    State(const State& other, ForThread tag);
 
     // The queries of DropCutter.
     std::optional<ClPoint> drop(Vec2d at, double max_error);
@@ -129,7 +133,7 @@ struct DropCutter::State {
     // Control points of the piece being measured.
     const Vec3d* points_of(const Piece& piece) const
     {
-        return patches_[piece.patch].weighted ? unweighted_.data() : &nets_[piece.net];
+        return patch_of(piece).weighted ? unweighted_.data() : &nets_[piece.net];
     }
     static double extent(const Piece& piece)
     {
@@ -159,7 +163,7 @@ struct DropCutter::State {
     double apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const;
     Domain domain_of(const Piece& piece) const;
     void trim(Piece& piece);
-    Remnant remnant_of(const Piece& piece) const;
+    void find_remnant(const Piece& piece);
     static std::optional<Side> side_along(const Remnant& left, double& bow);
     void measure_remnant(Piece& piece);
 
@@ -185,30 +189,39 @@ struct DropCutter::State {
     // The contact (drop_cutter_section.cpp).
     std::optional<CcPoint> cc_point_on(const Piece& piece, double height, double u, double v) const;
 
-    toolpath::Tool tool_;
-    double accuracy_;
-    std::vector<nurbs::Surface> surfaces_;
-    std::optional<part_model::EdgeGougeCheck> edges_;
-    std::vector<part_model::TrimRegion> trims_;  // of each surface; empty where none is trimmed
-    std::vector<Patch> patches_;
-    std::vector<Piece> pieces_;         // halved when first needed
-    std::vector<Vec3d> nets_;           // control points; times their weights where those differ
-    std::vector<double> weights_;       // parallel to nets_, up to the last patch with weights
-    std::vector<Outline> outlines_{1};  // the first one means none
-    // The pieces before any was halved.
-    struct Whole {
+    // What queries do not change, shared by the cutters of several threads.
+    struct Floor {
+        std::vector<nurbs::Surface> surfaces;
+        std::vector<part_model::TrimRegion> trims;  // of each surface; empty where none is trimmed
+        std::vector<Patch> patches;
+        // The pieces before any is halved.
         std::vector<Piece> pieces;
         std::vector<Vec3d> nets;
         std::vector<double> weights;
         std::vector<Outline> outlines;
+        double lowest{kUnbounded};
+        double highest{-kUnbounded};
     };
-    Whole whole_;
-    std::vector<Vec3d> unweighted_;  // control points of the piece being measured
-    std::uint32_t last_{kRoot};      // the piece that the last drop rested on
-    std::uint32_t beside_{kRoot};    // the smallest piece that the last move came near to
+    const Patch& patch_of(const Piece& piece) const { return floor_->patches[piece.patch]; }
+    void add_patches(Floor& floor, std::uint32_t s, std::vector<Piece>& whole);
+    void begin_with_whole_pieces();
+    std::size_t bytes_of_halves() const;
+
+    toolpath::Tool tool_;
+    double accuracy_;
+    std::shared_ptr<const Floor> floor_;
+    std::optional<part_model::EdgeGougeCheck> edges_;
+    std::vector<Piece> pieces_;         // halved when first needed
+    std::vector<Vec3d> nets_;           // control points; times their weights where those differ
+    std::vector<double> weights_;       // parallel to nets_, up to the last patch with weights
+    std::vector<Outline> outlines_{1};  // the first one means none
+    // Of the piece being measured.
+    std::vector<Vec3d> unweighted_;  // control points
+    part_model::TrimRegion::Remnant in_domain_;
+    Remnant remnant_;
+    std::uint32_t last_{kRoot};    // the piece that the last drop rested on
+    std::uint32_t beside_{kRoot};  // the smallest piece that the last move came near to
     std::size_t halvings_{0};
-    double lowest_{kUnbounded};
-    double highest_{-kUnbounded};
 };
 
 }  // namespace cusp::drop_cutter

@@ -22,7 +22,7 @@ constexpr double kRounding = 1e-9;        // mm
 
 DropCutter::State::Domain DropCutter::State::domain_of(const Piece& piece) const
 {
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const auto share = [](double from, double to, float at) {
         return from + (to - from) * static_cast<double>(at);
     };
@@ -37,8 +37,8 @@ void DropCutter::State::trim(Piece& piece)
         return;
     }
     const Domain domain = domain_of(piece);
-    const TrimRegion::Part part =
-        trims_[patches_[piece.patch].surface].part(domain.u0, domain.u1, domain.v0, domain.v1);
+    const TrimRegion::Part part = floor_->trims[patch_of(piece).surface].remnant(
+        domain.u0, domain.u1, domain.v0, domain.v1, in_domain_);
     piece.cut = part == TrimRegion::Part::kCut;
     if (part == TrimRegion::Part::kInside) {
         // The surface beside it may be trimmed away.
@@ -58,9 +58,9 @@ void DropCutter::State::trim(Piece& piece)
 // The piece differs from the parallelogram A(s, t) of its corners, s and t from 0 to 1 over its
 // domain, by no more than its control points differ from A at their own s and t. Weights that
 // differ shift s and t by a bound from their ratio.
-DropCutter::State::Remnant DropCutter::State::remnant_of(const Piece& piece) const
+void DropCutter::State::find_remnant(const Piece& piece)
 {
-    const Patch& patch = patches_[piece.patch];
+    const Patch& patch = patch_of(piece);
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
     const Vec3d* const points = points_of(piece);
@@ -75,7 +75,9 @@ DropCutter::State::Remnant DropCutter::State::remnant_of(const Piece& piece) con
     const auto on_plane = [&](double s, double t) {
         return middle + by_s * (s - 0.5) + by_t * (t - 0.5);
     };
-    Remnant left{{}, 0, 0.0};
+    Remnant& left = remnant_;
+    left.points.clear();
+    left.error = 0.0;
     double least = kUnbounded;
     double most = 0.0;
     for (std::size_t k = 0; k < size; ++k) {
@@ -88,18 +90,16 @@ DropCutter::State::Remnant DropCutter::State::remnant_of(const Piece& piece) con
     }
     left.error += (most / least - 1.0) * (norm(by_s) + norm(by_t)) + kRounding;
     const Domain d = domain_of(piece);
-    const TrimRegion::Remnant remnant = trims_[patch.surface].remnant(d.u0, d.u1, d.v0, d.v1);
     const auto place = [&](Vec2d at) {
         return on_plane((at.x - d.u0) / (d.u1 - d.u0), (at.y - d.v0) / (d.v1 - d.v0));
     };
-    for (const Vec2d at : remnant.corners) {
+    for (const Vec2d at : in_domain_.corners) {
         left.points.push_back(place(at));
     }
     left.edge = left.points.size();
-    for (const Vec2d at : remnant.edge) {
+    for (const Vec2d at : in_domain_.edge) {
         left.points.push_back(place(at));
     }
-    return left;
 }
 
 // The line along the edge's two ends, on the side beyond which less of the edge lies.
@@ -110,9 +110,16 @@ std::optional<DropCutter::State::Side> DropCutter::State::side_along(const Remna
 {
     const auto from = left.points.begin() + static_cast<std::ptrdiff_t>(left.edge);
     const auto farthest = [&](Vec2d p) {
-        return in_plan(*std::max_element(from, left.points.end(), [&](Vec3d a, Vec3d b) {
-            return distance(in_plan(a), p) < distance(in_plan(b), p);
-        }));
+        Vec2d most = in_plan(*from);
+        double away = distance(most, p);
+        for (auto at = from + 1; at != left.points.end(); ++at) {
+            const double there = distance(in_plan(*at), p);
+            if (away < there) {
+                most = in_plan(*at);
+                away = there;
+            }
+        }
+        return most;
     };
     const Vec2d one = farthest(in_plan(*from));
     const Vec2d other = farthest(one);
@@ -148,7 +155,8 @@ void DropCutter::State::measure_remnant(Piece& piece)
         piece.outline = 0;
         return;
     }
-    const Remnant left = remnant_of(piece);
+    find_remnant(piece);
+    const Remnant& left = remnant_;
     if (left.edge == left.points.size() || left.points.size() > kMostPoints) {
         piece.outline = 0;
         return;

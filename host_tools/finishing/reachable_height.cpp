@@ -41,6 +41,12 @@ ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
 {
 }
 
+ReachableHeight::ReachableHeight(const ReachableHeight& other)
+    : ReachableHeight{other.surfaces_, other.path_fitter_, other.search_.pitch(), other.accuracy_}
+{
+    shared_floor_ = other.shared_floor_;
+}
+
 // An edge that the tool would gouge counts as one more contact.
 LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
 {
@@ -50,9 +56,11 @@ LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, E
             rest = {on_mesh->centre, on_mesh->point};
         }
     } else {
-        // Made when first needed, which is never for most models.
         if (!floor_) {
-            floor_.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
+            std::call_once(shared_floor_->made, [&] {
+                shared_floor_->cutter.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
+            });
+            floor_ = shared_floor_->cutter->for_thread();
         }
         rest = drop_tool(*floor_, x, y);
     }

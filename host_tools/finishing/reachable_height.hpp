@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -23,7 +25,8 @@ public:
                     const GougeFreePathFitter& path_fitter,
                     double pitch,
                     double accuracy);
-    ReachableHeight(const ReachableHeight&) = delete;
+    // For another thread: shares the surfaces and their trims, searches on its own.
+    ReachableHeight(const ReachableHeight& other);
     ReachableHeight& operator=(const ReachableHeight&) = delete;
 
     struct Position {
@@ -44,6 +47,8 @@ public:
                                                   const Position& near,
                                                   double exact_below);
 
+    double pitch() const { return search_.pitch(); }
+
 private:
     // Whether tips that gouge rims and creases from the side are excluded.
     enum class Edges : std::uint8_t { kIgnored, kMovedClear };
@@ -56,8 +61,15 @@ private:
                                     double exact_below,
                                     Edges edges);
 
+    // Made when first needed, which is never for most models.
+    struct SharedFloor {
+        std::once_flag made;
+        std::optional<drop_cutter::DropCutter> cutter;  // never queried
+    };
+
     const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;
+    std::shared_ptr<SharedFloor> shared_floor_{std::make_shared<SharedFloor>()};
     std::optional<drop_cutter::DropCutter> floor_;
     double accuracy_;
     double radius_;

@@ -49,14 +49,24 @@ ScallopAtPoint::ScallopAtPoint(const std::vector<Surface>& surfaces,
       reach_{surfaces, path_fitter, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
 {
     if (surfaces.empty()) {
-        lower_position_.emplace(path_fitter, std::max(kReachStep * step_, kReachPitch * radius_));
+        lower_position_.emplace(path_fitter, reach_.pitch());
     }
 }
 
 ScallopAtPoint::ScallopAtPoint(const ScallopAtPoint& other)
-    : ScallopAtPoint{other.surfaces_, other.path_fitter_, other.scallop_, other.path_off_}
+    : surfaces_{other.surfaces_},
+      path_fitter_{other.path_fitter_},
+      radius_{other.radius_},
+      scallop_{other.scallop_},
+      path_off_{other.path_off_},
+      step_{other.step_},
+      swept_{other.swept_},
+      accuracy_{other.accuracy_},
+      reach_{other.reach_}
 {
-    swept_ = other.swept_;
+    if (other.lower_position_) {
+        lower_position_.emplace(path_fitter_, reach_.pitch());
+    }
 }
 
 Vec3d ScallopAtPoint::touching_tip(Vec3d point, Vec3d normal) const

@@ -108,6 +108,17 @@ void SweptVolume::visit_around(Vec3d centre, const Visit& visit) const
     }
 }
 
+namespace {
+
+// Beside a valley thousands of moves are near a point: looking each up in the list took as its square.
+void keep_each_once(std::vector<std::uint32_t>& numbers)
+{
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
 void SweptVolume::near(Vec3d centre, std::vector<std::uint32_t>& out) const
 {
     out.clear();
@@ -115,11 +126,11 @@ void SweptVolume::near(Vec3d centre, std::vector<std::uint32_t>& out) const
         const Move& move = moves_[number];
         const double low = std::min(move.from.z, move.to.z) - pitch_;
         const double high = std::max(move.from.z, move.to.z) + pitch_;
-        if (centre.z >= low && centre.z <= high &&
-            (out.empty() || std::find(out.begin(), out.end(), number) == out.end())) {
+        if (centre.z >= low && centre.z <= high) {
             out.push_back(number);
         }
     });
+    keep_each_once(out);
 }
 
 void SweptVolume::near_or_below(Vec3d centre, std::vector<std::uint32_t>& out) const
@@ -131,8 +142,7 @@ void SweptVolume::near_or_below(Vec3d centre, std::vector<std::uint32_t>& out) c
             out.push_back(number);
         }
     });
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+    keep_each_once(out);
 }
 
 bool SweptVolume::removes(std::uint32_t move, Vec3d point, double shrink) const

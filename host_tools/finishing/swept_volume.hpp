@@ -30,7 +30,7 @@ public:
     // Adds straight moves through tips of the tool.
     void add(const std::vector<Vec3d>& tips);
 
-    // The numbers of all moves that pass within `reach` of the centre, and of some others.
+    // The numbers of all moves that pass within `reach` of the centre, and of some others, in order.
     void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
 
     // As near(), and all moves below the centre, whose shank may pass it.

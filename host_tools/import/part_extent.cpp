@@ -75,7 +75,7 @@ public:
             }
             if (!looked_at_edges[patch->surface]) {
                 looked_at_edges[patch->surface] = true;
-                for (const auto& edge : region(patch->surface).edges()) {
+                for (const auto& edge : region(patch->surface).edges(surfaces_[patch->surface])) {
                     most = std::max({most, side.reach(edge[0]), side.reach(edge[1])});
                 }
             }

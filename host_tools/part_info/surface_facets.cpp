@@ -109,8 +109,8 @@ private:
 
     void add_cut_cell(const Surface& patch, const TrimRegion& region, Vec2d low, Vec2d size)
     {
-        const TrimRegion::Remnant left =
-            region.remnant(low.x, low.x + size.x, low.y, low.y + size.y);
+        TrimRegion::Remnant left;
+        region.remnant(low.x, low.x + size.x, low.y, low.y + size.y, left);
         std::vector<Vec2d> points = left.corners;
         points.insert(points.end(), left.edge.begin(), left.edge.end());
         if (points.size() < 3) {

@@ -32,7 +32,7 @@ constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
-constexpr std::size_t kMostHalves = 200'000;  // 0.2 GB
+constexpr std::size_t kMostHalves = 100'000;  // 0.1 GB
 constexpr std::size_t kWorthReturning = 50'000;
 
 void add_cells(const Surface& surface, int number, PartModel::State& state)
@@ -134,7 +134,7 @@ PartModel::PartModel(const std::vector<Surface>& surfaces, double edge_error)
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         add_cells(surfaces[k], static_cast<int>(k), state);
         state.regions.emplace_back(surfaces[k], edge_error);
-        for (const auto& edge : state.regions.back().edges()) {
+        for (const auto& edge : state.regions.back().edges(surfaces[k])) {
             state.edges.push_back(edge);
             state.edge_surface.push_back(static_cast<int>(k));
         }

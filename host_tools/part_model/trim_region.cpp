@@ -165,11 +165,22 @@ TrimRegion::TrimRegion(const Surface& surface, double edge_error)
             const Vec2d from = corners[k];
             const Vec2d to = corners[(k + 1) % corners.size()];
             sides_.push_back({from, to});
-            edges_.push_back({point_at(surface, from.x, from.y), point_at(surface, to.x, to.y)});
         }
+        corners.shrink_to_fit();
         loops_.push_back(std::move(corners));
     }
+    sides_.shrink_to_fit();
     make_rows();
+}
+
+std::vector<std::array<Vec3d, 2>> TrimRegion::edges(const Surface& surface) const
+{
+    std::vector<std::array<Vec3d, 2>> out;
+    out.reserve(sides_.size());
+    for (const auto& [from, to] : sides_) {
+        out.push_back({point_at(surface, from.x, from.y), point_at(surface, to.x, to.y)});
+    }
+    return out;
 }
 
 std::size_t TrimRegion::row(double v) const
@@ -242,22 +253,30 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
                                                                     : Part::kOutside;
 }
 
-TrimRegion::Remnant TrimRegion::remnant(double u_begin,
-                                        double u_end,
-                                        double v_begin,
-                                        double v_end) const
+// Both points of one v in one pass over its row.
+std::array<bool, 2> TrimRegion::inside_at(const std::array<double, 2>& u, double v) const
 {
-    Remnant result;
-    for (const Vec2d corner : {Vec2d{u_begin, v_begin}, Vec2d{u_begin, v_end},
-                               Vec2d{u_end, v_begin}, Vec2d{u_end, v_end}}) {
-        if (inside(corner.x, corner.y)) {
-            result.corners.push_back(corner);
+    std::array<bool, 2> in{false, false};
+    for (const std::uint32_t side : rows_[row(v)]) {
+        const auto& [a, b] = sides_[side];
+        if ((a.y > v) != (b.y > v)) {
+            const double crossed = a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y);
+            in[0] = in[0] != (u[0] < crossed);
+            in[1] = in[1] != (u[1] < crossed);
         }
     }
-    const Box box = widened(u_begin, u_end, v_begin, v_end);
+    return in;
+}
+
+TrimRegion::Part TrimRegion::remnant(
+    double u_begin, double u_end, double v_begin, double v_end, Remnant& out) const
+{
+    out.corners.clear();
+    out.edge.clear();
     if (sides_.empty()) {
-        return result;
+        return Part::kInside;
     }
+    const Box box = widened(u_begin, u_end, v_begin, v_end);
     const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
     for (std::size_t at = first; at <= last; ++at) {
@@ -268,12 +287,27 @@ TrimRegion::Remnant TrimRegion::remnant(double u_begin,
             const std::array<Vec2d, 2>& side = sides_[index];
             if (const auto part = part_in(side, box.low, box.high)) {
                 const Vec2d way = side[1] - side[0];
-                result.edge.push_back(side[0] + way * (*part)[0]);
-                result.edge.push_back(side[0] + way * (*part)[1]);
+                out.edge.push_back(side[0] + way * (*part)[0]);
+                out.edge.push_back(side[0] + way * (*part)[1]);
             }
         }
     }
-    return result;
+    if (out.edge.empty()) {
+        return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside
+                                                                        : Part::kOutside;
+    }
+    const std::array<bool, 2> low = inside_at({u_begin, u_end}, v_begin);
+    const std::array<bool, 2> high = inside_at({u_begin, u_end}, v_end);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double u = k == 0 ? u_begin : u_end;
+        if (low[k]) {
+            out.corners.push_back({u, v_begin});
+        }
+        if (high[k]) {
+            out.corners.push_back({u, v_end});
+        }
+    }
+    return Part::kCut;
 }
 
 }  // namespace cusp::part_model

@@ -30,10 +30,15 @@ public:
         std::vector<Vec2d> corners;  // corners of the rectangle that are inside
         std::vector<Vec2d> edge;     // ends of the parts of polyline sides in the rectangle
     };
-    Remnant remnant(double u_begin, double u_end, double v_begin, double v_end) const;
+    // Where the rectangle lies, as part() says.
+    //
+    // out  set to the remnant where the result is kCut, else emptied; keeps its memory
+    Part remnant(double u_begin, double u_end, double v_begin, double v_end, Remnant& out) const;
 
-    // The edges in space.
-    const std::vector<std::array<Vec3d, 2>>& edges() const { return edges_; }
+    // The edges in space. Not kept: a part has hundreds of thousands of them.
+    //
+    // surface  that of the region
+    std::vector<std::array<Vec3d, 2>> edges(const nurbs::Surface& surface) const;
 
     // The edges in (u, v), each loop a closed polyline.
     const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
@@ -44,6 +49,7 @@ private:
     };
     static Box widened(double u_begin, double u_end, double v_begin, double v_end);
     std::size_t row(double v) const;
+    std::array<bool, 2> inside_at(const std::array<double, 2>& u, double v) const;
     void make_rows();
     // Whether rows from `first` on up to this one hold the side for the first time: a long side is in
     // many rows.
@@ -58,7 +64,6 @@ private:
     std::vector<std::uint32_t> first_rows_;  // of each side
     double low_{};
     double high_{};
-    std::vector<std::array<Vec3d, 2>> edges_;
     std::vector<std::vector<Vec2d>> loops_;
 };
 

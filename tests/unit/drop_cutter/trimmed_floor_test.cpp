@@ -43,7 +43,7 @@ std::vector<Vec3d> places_of(const std::vector<Surface>& floor)
                 }
             }
         }
-        for (const auto& [a, b] : region.edges()) {
+        for (const auto& [a, b] : region.edges(surface)) {
             const int n = 1 + static_cast<int>(norm(b - a) / kOnRim);
             for (int k = 0; k <= n; ++k) {
                 places.push_back(a + (b - a) * (static_cast<double>(k) / n));
@@ -157,6 +157,50 @@ TEST(TrimmedFloor, LeavesNoPathUnderItsRim)
 
 // Where the floor ends at the rim the ball is its radius away from the rim, within the rim's
 // accuracy.
+// The halves of a surface of a high degree are large: a count of them does not bound the memory.
+TEST(TrimmedFloor, ManyDropsKeepSomeTwentyMegabytes)
+{
+    const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};
+    Surface wavy;
+    wavy.degree_u = wavy.degree_v = 7;
+    wavy.size_u = wavy.size_v = 8;
+    wavy.knots_u = wavy.knots_v = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+    for (int k = 0; k < 64; ++k) {
+        wavy.points.push_back({4.0 * (k / 8), 4.0 * (k % 8), 6.0 * std::sin(2.1 * k)});
+        wavy.weights.push_back(1.0 + 0.2 * (k % 2));
+    }
+    wavy.trims = floor.back().trims;
+    const DropCutter cutter{{wavy}, ball, 1e-6};
+    std::size_t most = 0;
+    for (int k = 0; k < 6000; ++k) {
+        const double turn = 0.01 * k;
+        cutter.drop(Vec2d{15.0 + kAround * std::cos(turn), 15.0 + kAround * std::sin(turn)});
+        most = std::max(most, cutter.kept_bytes());
+    }
+    CHECK(most > 15'000'000);
+    CHECK(most < 22'000'000);
+}
+
+TEST(TrimmedFloor, ACutterForAnotherThreadAnswersAsOneAtItsStart)
+{
+    const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};
+    const DropCutter one{floor, ball, kAccuracy};
+    const auto place = [](int k) {
+        return Vec2d{15.0 + 0.02 * k * std::cos(0.1 * k), 15.0 + 0.02 * k * std::sin(0.1 * k)};
+    };
+    constexpr int kDrops = 400;
+    std::vector<double> heights;
+    for (int k = 0; k < kDrops; ++k) {
+        heights.push_back(one.tip_height(place(k)));
+    }
+    const DropCutter other = one.for_thread();
+    LONGS_EQUAL(0, other.kept_bytes());
+    for (int k = 0; k < kDrops; ++k) {
+        CHECK(heights[static_cast<std::size_t>(k)] == other.tip_height(place(k)));
+    }
+    LONGS_EQUAL(one.halvings(), other.halvings());
+}
+
 TEST(TrimmedFloor, EndsAtASmoothRim)
 {
     const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};

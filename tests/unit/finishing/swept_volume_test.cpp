@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
 #include <vector>
@@ -38,6 +39,31 @@ double lowest_by_balls(const std::vector<Vec3d>& tips, double x, double y)
 }  // namespace
 
 TEST_GROUP(SweptVolume){};
+
+// Looking each move up in the list of those before took seconds.
+TEST(SweptVolume, NamesManyNearMovesOnceAndSoon)
+{
+    constexpr unsigned kSeed = 7;
+    constexpr std::uint32_t kMoves = 40000;
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> place{-0.4, 0.4};
+    std::vector<Vec3d> tips;
+    for (std::uint32_t k = 0; k <= kMoves; ++k) {
+        tips.push_back({place(random), place(random), 0});
+    }
+    SweptVolume swept{kSweptRadius, 0.5};
+    swept.add(tips);
+    std::vector<std::uint32_t> near;
+    const std::clock_t begin = std::clock();
+    for (int k = 0; k < 10; ++k) {
+        swept.near({0, 0, kSweptRadius}, near);
+    }
+    CHECK(std::clock() - begin < CLOCKS_PER_SEC);
+    LONGS_EQUAL(kMoves, near.size());
+    for (std::uint32_t k = 0; k < kMoves; ++k) {
+        CHECK(near[k] == k);
+    }
+}
 
 TEST(SweptVolume, LeaveWhatTheLowestOfAllBallsLeaves)
 {

@@ -63,7 +63,7 @@ TEST(ModelIntersection, APlateUnderADomeIsCutRound)
     LONGS_EQUAL(1, left[0].trims.size());
     double worst = 0;
     const TrimRegion region{left[0], kSectionEdgeError};
-    for (const auto& edge : region.edges()) {
+    for (const auto& edge : region.edges(left[0])) {
         const Vec3d middle = 0.5 * (edge[0] + edge[1]);
         worst = std::max({worst, std::abs(std::hypot(edge[0].x, edge[0].y) - 5),
                           std::abs(std::hypot(middle.x, middle.y) - 5)});

@@ -1,6 +1,7 @@
 #include "host_tools/part_model/trim_region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/support/plates.hpp"
@@ -127,12 +128,44 @@ TEST(TrimRegion, CutsNothingOffAnEdgeBentBothWays)
     check_region(surface);
 }
 
+TEST(TrimRegion, LeavesARemnantThatHoldsWhatIsInside)
+{
+    Surface surface = bent_sheet();
+    surface.trims = {{circle_about({0.5, 0.5}, 0.45)}, {reversed(circle_about({0.4, 0.5}, 0.2))}};
+    const TrimRegion region{surface, kTrimEdgeError};
+    TrimRegion::Remnant left;
+    constexpr int kCells = 23;
+    std::array<int, 3> count{};
+    for (int i = 0; i < kCells * kCells; ++i) {
+        const Vec2d low{static_cast<double>(i / kCells) / kCells,
+                        static_cast<double>(i % kCells) / kCells};
+        const Vec2d high = low + Vec2d{1.0 / kCells, 1.0 / kCells};
+        const TrimRegion::Part part = region.remnant(low.x, high.x, low.y, high.y, left);
+        CHECK(part == region.part(low.x, high.x, low.y, high.y));
+        CHECK_EQUAL(part == TrimRegion::Part::kCut, !left.edge.empty());
+        ++count[part == TrimRegion::Part::kCut ? 0 : part == TrimRegion::Part::kInside ? 1 : 2];
+        std::vector<Vec2d> corners;
+        for (const Vec2d at : {low, Vec2d{low.x, high.y}, Vec2d{high.x, low.y}, high}) {
+            if (part == TrimRegion::Part::kCut && region.inside(at.x, at.y)) {
+                corners.push_back(at);
+            } else {
+                CHECK_EQUAL(part == TrimRegion::Part::kInside, region.inside(at.x, at.y));
+            }
+        }
+        LONGS_EQUAL(corners.size(), left.corners.size());
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            CHECK(corners[k].x == left.corners[k].x && corners[k].y == left.corners[k].y);
+        }
+    }
+    CHECK(count[0] > 50 && count[1] > 50 && count[2] > 50);
+}
+
 TEST(TrimRegion, KeepsItsEdgesInSpaceWithinTheirError)
 {
     Surface surface = bent_sheet();
     surface.trims = {{circle_about({0.5, 0.5}, 0.4)}};
     const TrimRegion region{surface, kTrimEdgeError};
-    for (const auto& [from, to] : region.edges()) {
+    for (const auto& [from, to] : region.edges(surface)) {
         for (const double share : {0.0, 0.25, 0.5, 0.75}) {
             const Vec3d p = from + (to - from) * share;
             const double angle = std::atan2(p.y, p.x);
