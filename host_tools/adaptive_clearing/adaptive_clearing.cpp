@@ -432,6 +432,8 @@ private:
             }
         }
         if (over.length > 0.0) {
+            over.slot_width = slot_width(walls_, over.at,
+                                         2.0 * (settings_.wall_clearance + kLeastNeck * radius_));
             result_.over.push_back(over);
         }
         add_run(path);

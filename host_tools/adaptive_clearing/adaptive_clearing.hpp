@@ -55,6 +55,8 @@ struct OverEngagement {
     Vec2d at;           // of the greatest angle
     double engagement;  // radians
     double length;      // mm of way over the limit
+    // mm: of a slot too narrow for trochoids; else it is a corner.
+    std::optional<double> slot_width{};
 };
 
 struct AdaptivePath {

@@ -23,6 +23,7 @@ using offset::RegionOffset;
 using offset::tangent_at_end;
 using offset::tangent_at_start;
 using offset::tangent_on;
+using offset::unit;
 
 namespace {
 
@@ -38,6 +39,31 @@ struct Station {
     NeckPlace place;
     double between;  // radians: between the places that the circle touches
 };
+
+struct TouchingCircle {
+    double radius;   // mm
+    double between;  // radians: between the places that it touches
+};
+
+// The largest circle of at most this radius that touches the wall at the place.
+TouchingCircle touching_circle(const EdgeTree& walls, Vec2d at, Vec2d inward, double radius)
+{
+    Vec2d other = at;
+    for (int i = 0; i < kShrinks; ++i) {
+        const EdgeTree::Nearest nearest = walls.nearest_edge(at + inward * radius);
+        const Vec2d to = nearest.point - at;
+        const double depth = dot(to, inward);
+        if (nearest.distance > radius - kTouching || depth <= 0.0) {
+            break;
+        }
+        other = nearest.point;
+        radius = dot(to, to) / (2.0 * depth);
+    }
+    const Vec2d centre = at + inward * radius;
+    const Vec2d u = at - centre;
+    const Vec2d v = other - centre;
+    return {radius, std::abs(std::atan2(cross(u, v), dot(u, v)))};
+}
 
 class NeckFinder {
 public:
@@ -98,32 +124,17 @@ private:
 
     void visit_place(Vec2d at, Vec2d inward)
     {
-        double radius = limits_.wall_clearance + limits_.most_room_beside;
         if (is_wide(at, inward)) {
             stations_.emplace_back();
             return;
         }
-        Vec2d other = at;
-        for (int i = 0; i < kShrinks; ++i) {
-            const Vec2d centre = at + inward * radius;
-            const EdgeTree::Nearest nearest = tree_.nearest_edge(centre);
-            const Vec2d to = nearest.point - at;
-            const double depth = dot(to, inward);
-            if (nearest.distance > radius - kTouching || depth <= 0.0) {
-                break;
-            }
-            other = nearest.point;
-            radius = dot(to, to) / (2.0 * depth);
-        }
-        const Vec2d centre = at + inward * radius;
-        const Vec2d u = at - centre;
-        const Vec2d v = other - centre;
-        const double between = std::abs(std::atan2(cross(u, v), dot(u, v)));
-        const double room = radius - limits_.wall_clearance;
-        if (room < kLeastBeside * limits_.least_room || between < kBeside) {
+        const TouchingCircle circle =
+            touching_circle(tree_, at, inward, limits_.wall_clearance + limits_.most_room_beside);
+        const double room = circle.radius - limits_.wall_clearance;
+        if (room < kLeastBeside * limits_.least_room || circle.between < kBeside) {
             stations_.emplace_back();
         } else {
-            stations_.emplace_back(Station{{centre, room}, between});
+            stations_.emplace_back(Station{{at + inward * circle.radius, room}, circle.between});
         }
     }
 
@@ -169,6 +180,14 @@ private:
 };
 
 }  // namespace
+
+std::optional<double> slot_width(const RegionOffset& walls, Vec2d place, double most)
+{
+    const EdgeTree tree{edges_of(walls.source())};
+    const Vec2d at = tree.nearest_edge(place).point;
+    const TouchingCircle circle = touching_circle(tree, at, unit(place - at), 0.5 * most);
+    return circle.between < kOpposite ? std::nullopt : std::optional{2.0 * circle.radius};
+}
 
 std::vector<NeckWay> neck_ways(const RegionOffset& walls, const NeckLimits& limits)
 {

@@ -7,6 +7,7 @@
 //     }
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host_tools/offset/offset.hpp"
@@ -32,5 +33,9 @@ struct NeckLimits {
 // Corners alone are none: there a circle that touches both walls does so at places less than 5/6 of
 // a half turn apart.
 std::vector<NeckWay> neck_ways(const offset::RegionOffset& walls, const NeckLimits& limits);
+
+// mm, at most `most`: between the two walls that the place lies between; none where they are farther
+// apart or make a corner.
+std::optional<double> slot_width(const offset::RegionOffset& walls, Vec2d place, double most);
 
 }  // namespace cusp::adaptive_clearing

@@ -28,8 +28,10 @@ using namespace offset;
 namespace {
 
 constexpr double kDegrees = 3.14159265358979323846 / 180.0;
-constexpr double kPitch = 1.0 / 40;   // radii
-constexpr double kStep = 1.0 / 30;    // radii between places of the tool
+constexpr double kPitch = 1.0 / 40;  // radii
+constexpr double kStep = 1.0 / 30;   // radii between places of the tool
+// The turns of trochoids may be as small as a cell: what is over there is looked at again.
+constexpr double kFiner = 4.0;
 constexpr double kTolerance = 0.005;  // mm
 // Of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
 constexpr double kRasterDegrees = 4.0;
@@ -92,10 +94,15 @@ bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
     });
 }
 
-Found judge(const Region2d& region, const AdaptiveSettings& settings, const AdaptivePath& path)
+// finer  times the raster and the steps
+Found judge(const Region2d& region,
+            const AdaptiveSettings& settings,
+            const AdaptivePath& path,
+            double finer)
 {
     const double radius = settings.tool_radius;
-    const double pitch = kPitch * radius;
+    const double pitch = kPitch * radius / finer;
+    const double step = kStep * radius / finer;
     const RegionOffset walls{region};
     RasterCutter cutter{region, radius, pitch, 2.0 * pitch};
     Found found;
@@ -106,13 +113,12 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
             tool = run.helix->centre + Vec2d{run.helix->radius, 0.0};
             continue;
         }
-        found.rapid +=
-            rapid_in_stock(cutter, run.link, tool, run.path.front().start, kStep * radius);
+        found.rapid += rapid_in_stock(cutter, run.link, tool, run.path.front().start, step);
         tool = run.path.back().end;
         const bool listed = is_listed(path, run.path);
         cutter.cut(run.path.front().start);
         for (const Edge& edge : run.path) {
-            const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / (kStep * radius))));
+            const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / step)));
             for (int i = 0; i < n; ++i) {
                 const double share = (i + 1.0) / n;
                 const Vec2d at = point_on(edge, static_cast<double>(i) / n);
@@ -152,7 +158,10 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
 bool holds(const Region2d& region, const AdaptiveSettings& settings, unsigned number)
 {
     const AdaptivePath path = clear_adaptively(region, settings);
-    const Found found = judge(region, settings, path);
+    Found found = judge(region, settings, path, 1.0);
+    if (found.over > 0.001 * found.way) {
+        found = judge(region, settings, path, kFiner);
+    }
     double listed = 0.0;
     for (const OverEngagement& over : path.over) {
         listed += over.length;

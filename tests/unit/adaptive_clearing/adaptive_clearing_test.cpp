@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
+
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
@@ -69,6 +71,14 @@ TEST(AdaptiveClearing, ASlotAsWideAsTheToolIsCutAndListed)
     const AdaptivePath path = clear_adaptively(rectangle(30, 6.1), settings(60.0));
     CHECK(!path.over.empty());
     CHECK(path.over.front().engagement > 90.0 * kDegree);
+    DOUBLES_EQUAL(6.1, path.over.front().slot_width.value_or(0.0), 1e-4);
+    toolpath::OperationStats stats;
+    EngagementReport report{60.0};
+    report.add(path, 1);
+    report.write(stats);
+    STRCMP_CONTAINS("degrees at (", stats.warnings.front().c_str());
+    STRCMP_CONTAINS("the slot is 6.1 mm wide, too narrow for trochoids",
+                    stats.warnings.front().c_str());
     DOUBLES_EQUAL(3.01, least_x(path), 0.05);
 }
 
