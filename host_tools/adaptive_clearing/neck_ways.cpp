@@ -27,12 +27,12 @@ using offset::unit;
 
 namespace {
 
-constexpr double kOpposite = 5.0 / 6 * kPi;  // between the two places that a circle touches
-constexpr double kBeside = 4.0 / 9 * kPi;    // of the rest of a way: into square corners too
-constexpr double kLeastBeside = 0.25;        // of the least room
-constexpr double kFarthest = 4.0;            // pitches from one centre to the next
-constexpr double kTouching = 1e-6;           // mm
-constexpr int kFiner = 8;                    // than a pitch
+constexpr double kOpposite = 5.0 / 6 * kPi;    // between the two places that a circle touches
+constexpr double kBesideNeck = 4.0 / 9 * kPi;  // of the rest of a way: into square corners too
+constexpr double kLeastBeside = 0.25;          // of the least room
+constexpr double kFarthestCentre = 4.0;        // pitches from one centre to the next
+constexpr double kTouching = 1e-6;             // mm
+constexpr int kFiner = 8;                      // than a pitch
 constexpr int kShrinks = 40;
 
 struct Station {
@@ -131,7 +131,7 @@ private:
         const TouchingCircle circle =
             touching_circle(tree_, at, inward, limits_.wall_clearance + limits_.most_room_beside);
         const double room = circle.radius - limits_.wall_clearance;
-        if (room < kLeastBeside * limits_.least_room || circle.between < kBeside) {
+        if (room < kLeastBeside * limits_.least_room || circle.between < kBesideNeck) {
             stations_.emplace_back();
         } else {
             stations_.emplace_back(Station{{at + inward * circle.radius, room}, circle.between});
@@ -160,7 +160,7 @@ private:
         };
         for (const std::optional<Station>& station : stations_) {
             if (!station || (!way.empty() && norm(station->place.centre - way.back().centre) >
-                                                 kFarthest * limits_.pitch)) {
+                                                 kFarthestCentre * limits_.pitch)) {
                 end();
             }
             if (station) {

@@ -1,5 +1,5 @@
 // Two turns are joined by the line that touches both. All of a turn is measured before it is made:
-// it sweeps the disc about its centre, and so one disc stands for it.
+// it sweeps the disc about its centre, so one disc is enough.
 #include "host_tools/adaptive_clearing/trochoids.hpp"
 
 #include <algorithm>
@@ -20,20 +20,20 @@ using offset::unit;
 
 namespace {
 
-constexpr double kStrip = 0.004;      // radii: left along the walls
-constexpr double kStripOfRoom = 0.1;  // at most
-constexpr double kChords = 0.005;     // of the room: tolerance of chords
-constexpr double kFirstStep = 0.2;    // of the room
-constexpr double kLeastStep = 0.02;   // of the room
-constexpr double kLongestStep = 0.5;  // radii
-constexpr double kLonger = 1.15;      // from step to step
+constexpr double kStripOfTurn = 0.004;  // radii: left along the walls
+constexpr double kStripOfRoom = 0.1;    // at most
+constexpr double kChords = 0.005;       // of the room: tolerance of chords
+constexpr double kFirstStep = 0.2;      // of the room
+constexpr double kLeastStep = 0.02;     // of the room
+constexpr double kLongestStep = 0.5;    // radii
+constexpr double kLonger = 1.15;        // from step to step
 constexpr double kShorter = 0.85;
-constexpr double kWider = 0.5;      // of the step: from turn to turn
-constexpr double kMissed = 0.0004;  // radii: the width that the disc of a turn may miss
-constexpr double kSliver = 0.01;    // radii: thinner stock does not count
-constexpr double kBarely = 0.03;    // radians: less is no stock
-constexpr double kBegin = 0.0;      // radians: where the first turn begins
-constexpr int kLooks = 24;          // around a turn
+constexpr double kWider = 0.5;            // of the step: from turn to turn
+constexpr double kMissedByTurn = 0.0004;  // radii: the width that the disc of a turn may miss
+constexpr double kSliverOfTurn = 0.01;    // radii: thinner stock does not count
+constexpr double kBarelyInTurn = 0.03;    // radians: less is no stock
+constexpr double kBegin = 0.0;            // radians: where the first turn begins
+constexpr int kLooks = 24;                // around a turn
 
 // A turn of the tool's centre.
 struct Turn {
@@ -46,7 +46,7 @@ Turn turn_about(Vec2d centre, double most_room, const TrochoidSpace& space)
 {
     const double room =
         std::min(most_room, space.walls.nearest(centre, kUnbounded) - space.wall_clearance);
-    return {centre, room - std::min(kStrip * space.swept.radius(), kStripOfRoom * room)};
+    return {centre, room - std::min(kStripOfTurn * space.swept.radius(), kStripOfRoom * room)};
 }
 
 Vec2d on(const Turn& turn, double angle)
@@ -81,7 +81,7 @@ bool has_stock(const Turn& turn, const TrochoidSpace& space)
     for (int i = 0; i < kLooks; ++i) {
         const double angle = 2 * kPi * i / kLooks;
         if (space.swept.engagement(on(turn, angle), {-std::sin(angle), std::cos(angle)},
-                                   -kSliver * space.swept.radius()) > kBarely) {
+                                   -kSliverOfTurn * space.swept.radius()) > kBarelyInTurn) {
             return true;
         }
     }
@@ -128,10 +128,10 @@ private:
     std::vector<double> at_{0.0};
 };
 
-// By how much a turn may be less than whole: the discs at its ends miss kMissed between them.
+// By how much a turn may be less than whole: the discs at its ends miss kMissedByTurn between them.
 double most_less(const Turn& turn, double radius)
 {
-    return std::sqrt(8.0 * kMissed * radius / (turn.radius * (1.0 + turn.radius / radius)));
+    return std::sqrt(8.0 * kMissedByTurn * radius / (turn.radius * (1.0 + turn.radius / radius)));
 }
 
 class TrochoidWriter {
@@ -205,7 +205,8 @@ private:
     void sweep(const Turn& turn, double tolerance)
     {
         const double radius = space_.swept.radius();
-        space_.swept.add_disc(turn.centre, radius + turn.radius - tolerance - kMissed * radius);
+        space_.swept.add_disc(turn.centre,
+                              radius + turn.radius - tolerance - kMissedByTurn * radius);
     }
 
     // A turn from where the line before met it to where the next one leaves.
@@ -229,15 +230,15 @@ std::optional<NeckStock> stock_along(const NeckWay& way,
                                      std::size_t from,
                                      const TrochoidSpace& space)
 {
-    const auto stands = [&](const NeckPlace& place) {
+    const auto remains = [&](const NeckPlace& place) {
         return has_stock(turn_about(place.centre, kUnbounded, space), space);
     };
     const auto begin = way.begin() + static_cast<std::ptrdiff_t>(std::min(from, way.size()));
-    const auto first = std::find_if(begin, way.end(), stands);
+    const auto first = std::find_if(begin, way.end(), remains);
     if (first == way.end()) {
         return std::nullopt;
     }
-    const auto end = std::find_if_not(first, way.end(), stands);
+    const auto end = std::find_if_not(first, way.end(), remains);
     return NeckStock{static_cast<std::size_t>(first - way.begin()),
                      static_cast<std::size_t>(end - way.begin()) - 1};
 }

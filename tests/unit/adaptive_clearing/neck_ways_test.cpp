@@ -52,7 +52,7 @@ TEST(NeckWays, ASlotHasItsMiddle)
     CHECK(most > 56.0);
 }
 
-// Around a corner between two slots the way goes on.
+// Around a corner between two slots the way continues.
 TEST(NeckWays, AWayTurnsWithItsSlot)
 {
     const std::vector<NeckWay> ways =
