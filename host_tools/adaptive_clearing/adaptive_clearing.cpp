@@ -8,18 +8,19 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/adaptive_clearing/mirrored_path.hpp"
+#include "host_tools/adaptive_clearing/neck_ways.hpp"
 #include "host_tools/adaptive_clearing/open_places.hpp"
 #include "host_tools/adaptive_clearing/pass_starts.hpp"
+#include "host_tools/adaptive_clearing/sliver_moves.hpp"
 #include "host_tools/adaptive_clearing/steered_pass.hpp"
 #include "host_tools/adaptive_clearing/stock_spots.hpp"
 #include "host_tools/adaptive_clearing/swept_area.hpp"
+#include "host_tools/adaptive_clearing/trochoids.hpp"
 #include "host_tools/adaptive_clearing/wall_passes.hpp"
-#include "host_tools/clearing/clear_path.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
-using clearing::is_path_clear;
 using job::CutDirection;
 using offset::area;
 using offset::between;
@@ -32,7 +33,6 @@ using offset::edges_of;
 using offset::EdgeTree;
 using offset::grown;
 using offset::length;
-using offset::line_edge;
 using offset::point_on;
 using offset::Region2d;
 using offset::RegionOffset;
@@ -48,6 +48,9 @@ constexpr double kLeastStrip = 0.002;            // more than a step around an i
 constexpr double kRatio = 0.2;                   // from one opening to the next
 constexpr double kSpot = 0.5;                    // around stock in a corner
 constexpr double kHelix = 0.3;
+constexpr double kLeastNeck = 0.02;  // room of the tool's centre in a neck
+constexpr double kMostNeck = 0.52;   // wider ones are steered through
+constexpr double kMostMouth = 0.8;
 constexpr double kLeastHelix = 0.02;
 constexpr double kPiece = 0.1;
 constexpr double kTargetMargin = 0.2;
@@ -94,6 +97,9 @@ public:
             steer(turn,
                   opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
             cut_walls(turn, turn, box_, 0);
+            if (opened <= 0.0) {
+                open_necks();
+            }
             opened = turn;
         }
         narrow(opened, finest);
@@ -164,17 +170,22 @@ private:
         const double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
         double r = std::min(kHelix * radius_, room);
         r = r < kLeastHelix * radius_ ? 0.0 : r;
-        AdaptiveRun run;
-        run.helix = EntryHelix{pole, r};
-        result_.runs.push_back(run);
-        swept_.add_disc(pole, radius_ + r);
+        add_helix(pole, r);
         for (int i = 0; i < 16; ++i) {
             const double angle = 2 * kPi * i / 16;
             const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * r;
             starts.add(place);
             places_.push_back(place);
         }
-        at_ = pole + Vec2d{r, 0.0};
+    }
+
+    void add_helix(Vec2d centre, double r)
+    {
+        AdaptiveRun run;
+        run.helix = EntryHelix{centre, r};
+        result_.runs.push_back(run);
+        swept_.add_disc(centre, radius_ + r);
+        at_ = centre + Vec2d{r, 0.0};
     }
 
     // The point of a grid over the part that is farthest from walls.
@@ -196,6 +207,63 @@ private:
             }
         }
         return best;
+    }
+
+    // Trochoids into the stock of each neck.
+    void open_necks()
+    {
+        const TrochoidSpace space{swept_, walls_, settings_.wall_clearance,
+                                  settings_.max_engagement, settings_.tolerance};
+        for (const NeckWay& way :
+             neck_ways(walls_, {settings_.wall_clearance, kLeastNeck * radius_, kMostNeck * radius_,
+                                kMostMouth * radius_, kPiece * radius_})) {
+            for (auto stock = stock_along(way, 0, space); stock;) {
+                open_neck(way, *stock, space);
+                const auto left = stock_along(way, stock->first, space);
+                const bool same = left && left->first == stock->first && left->last == stock->last;
+                stock = same ? stock_along(way, stock->last + 1, space) : left;
+            }
+        }
+    }
+
+    // From the nearer end that is in swept ground; where none is, from a helix in between.
+    void open_neck(const NeckWay& way, NeckStock stock, const TrochoidSpace& space)
+    {
+        const std::size_t first = stock.first > 0 ? stock.first - 1 : 0;
+        const std::size_t last = std::min(stock.last + 1, way.size() - 1);
+        const bool forward = norm(way[first].centre - at_) <= norm(way[last].centre - at_);
+        if (cut_neck(way, forward ? first : last, forward ? last : first, kUnbounded, space) ||
+            cut_neck(way, forward ? last : first, forward ? first : last, kUnbounded, space)) {
+            return;
+        }
+        const auto widest = static_cast<std::size_t>(
+            std::max_element(
+                way.begin() + static_cast<std::ptrdiff_t>(stock.first),
+                way.begin() + static_cast<std::ptrdiff_t>(stock.last) + 1,
+                [](const NeckPlace& a, const NeckPlace& b) { return a.room < b.room; }) -
+            way.begin());
+        const double room = std::min(kHelix * radius_, way[widest].room);
+        add_helix(way[widest].centre, room);
+        cut_neck(way, widest, last, room, space);
+        cut_neck(way, widest, first, room, space);
+    }
+
+    // Whether the tool gets anywhere.
+    bool cut_neck(const NeckWay& way,
+                  std::size_t from,
+                  std::size_t to,
+                  double most_room,
+                  const TrochoidSpace& space)
+    {
+        link_to(trochoid_start(way[from].centre, most_room, space));
+        const TrochoidPass pass = trochoidal_pass(way, from, to, most_room, space);
+        if (pass.path.empty()) {
+            return false;
+        }
+        result_.engagement_bound = std::max(result_.engagement_bound, pass.engagement_bound);
+        add_run(pass.path);
+        result_.runs.back().tolerance = pass.tolerance;
+        return true;
     }
 
     // Finds the places where the region opened by the radius `to` still has stock. Cuts each by
@@ -267,7 +335,7 @@ private:
         }
     }
 
-    // Cuts slivers left between passes, each by a straight move from the nearest earlier place.
+    // Cuts slivers left between passes.
     void cut_slivers()
     {
         const Region2d whole = walls_.at(settings_.wall_clearance);
@@ -275,52 +343,17 @@ private:
             return;
         }
         const EdgeTree centres{edges_of(whole)};
+        const SliverSpace space{places_, walls_, centres, settings_.wall_clearance, radius_};
         constexpr double kMargin = 0.02;
         for (const Vec2d p : swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_))) {
-            if (!swept_.contains(p)) {
-                cut_sliver(p, centres);
+            if (swept_.contains(p)) {
+                continue;
+            }
+            if (const auto way = move_to_sliver(p, space)) {
+                cut({*way});
             }
             if (!swept_.contains(p)) {
                 result_.left.push_back(p);
-            }
-        }
-    }
-
-    void cut_sliver(Vec2d p, const EdgeTree& centres)
-    {
-        std::vector<std::pair<double, Vec2d>> near;
-        for (const Vec2d place : places_) {
-            const double d = norm(p - place);
-            if (d < 2.0 * radius_) {
-                near.emplace_back(d, place);
-            }
-        }
-        std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
-            return a.first < b.first ||
-                   (a.first == b.first &&
-                    std::pair{a.second.x, a.second.y} < std::pair{b.second.x, b.second.y});
-        });
-        for (const auto& [d, place] : near) {
-            const Edge way = line_edge(place, p - (p - place) * (0.98 * radius_ / d));
-            if (is_path_clear(walls_, way, settings_.wall_clearance)) {
-                cut({way});
-                return;
-            }
-        }
-        cut_sliver_aside(p, centres.nearest_edge(p).point, near);
-    }
-
-    // No move towards the sliver is clear: a move to the place next to it.
-    //
-    // near  places with their distances, the nearest first
-    void cut_sliver_aside(Vec2d p, Vec2d beside, const std::vector<std::pair<double, Vec2d>>& near)
-    {
-        for (const auto& [d, place] : near) {
-            const Edge way = line_edge(place, beside);
-            if (norm(p - beside) < 0.99 * radius_ && length(way) > 0.0 &&
-                is_path_clear(walls_, way, settings_.wall_clearance)) {
-                cut({way});
-                return;
             }
         }
     }
@@ -331,11 +364,7 @@ private:
         if (swept_.engagement(place, {1.0, 0.0}, -0.01 * radius_, kPi) < 0.1) {
             return;
         }
-        AdaptiveRun run;
-        run.helix = EntryHelix{place, 0.0};
-        result_.runs.push_back(run);
-        swept_.add_disc(place, radius_);
-        at_ = place;
+        add_helix(place, 0.0);
     }
 
     // mm: at least the width that the swept area, made of discs and chords, misses.
@@ -403,6 +432,8 @@ private:
             }
         }
         if (over.length > 0.0) {
+            over.slot_width = slot_width(walls_, over.at,
+                                         2.0 * (settings_.wall_clearance + kLeastNeck * radius_));
             result_.over.push_back(over);
         }
         add_run(path);

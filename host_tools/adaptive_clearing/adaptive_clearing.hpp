@@ -10,7 +10,7 @@
 //
 // Steered passes widen a hole until only narrow corners and necks are left of the part of the region
 // that a tight turn reaches; passes along the contours of the region opened by shrinking radii cut
-// into these. Each move is measured, before it is made, against what is swept until then.
+// into these. Trochoids open necks and slots that have hardly room for a turn. Each move is measured, before it is made, against what is swept until then.
 #pragma once
 
 #include <functional>
@@ -46,7 +46,8 @@ struct EntryHelix {
 struct AdaptiveRun {
     std::optional<EntryHelix> helix;  // then there is no path
     std::vector<offset::Edge> path;
-    std::vector<LinkLeg> link;  // from the end of the run before; empty: the tool lifts
+    std::vector<LinkLeg> link;     // from the end of the run before; empty: the tool lifts
+    double tolerance{kUnbounded};  // mm, most: of chords in place of arcs
 };
 
 // Where the bound could not be kept.
@@ -54,6 +55,8 @@ struct OverEngagement {
     Vec2d at;           // of the greatest angle
     double engagement;  // radians
     double length;      // mm of way over the limit
+    // mm: of a slot too narrow for trochoids; else it is a corner.
+    std::optional<double> slot_width{};
 };
 
 struct AdaptivePath {

@@ -43,7 +43,7 @@ void AdaptivePathWriter::write(const AdaptivePath& path, double above, double z)
                          {to.x, to.y, raised ? z + kRaised + settings_.scallops : z});
         }
         for (const Edge& edge : run.path) {
-            cut(edge, z);
+            cut(edge, z, std::min(run.tolerance, settings_.chord_tolerance));
         }
     }
 }
@@ -74,7 +74,7 @@ void AdaptivePathWriter::enter(const EntryHelix& helix, double above, double z)
     }
 }
 
-void AdaptivePathWriter::cut(const Edge& edge, double z)
+void AdaptivePathWriter::cut(const Edge& edge, double z, double tolerance)
 {
     // Rounded to G-code's digits a short arc could close to a full circle.
     constexpr double kShortArc = 0.02;
@@ -88,8 +88,7 @@ void AdaptivePathWriter::cut(const Edge& edge, double z)
     }
     int n = 1;
     if (edge.turn != 0) {
-        const double step =
-            2 * std::sqrt(2 * std::min(settings_.chord_tolerance / edge.radius, 0.5));
+        const double step = 2 * std::sqrt(2 * std::min(tolerance / edge.radius, 0.5));
         n = static_cast<int>(std::ceil(sweep(edge) / step));
     }
     for (int i = 1; i < n; ++i) {

@@ -25,6 +25,13 @@ std::string place_text(Vec2d at, std::optional<double> z)
              : fmt::format("({:g}, {:g}) mm", x, y);
 }
 
+std::string reason_text(const OverEngagement& over)
+{
+    return over.slot_width ? fmt::format("the slot is {:g} mm wide, too narrow for trochoids",
+                                         std::round(*over.slot_width * 1e3) * 1e-3)
+                           : "no pass into this corner or neck has less";
+}
+
 }  // namespace
 
 void EngagementReport::add(const AdaptivePath& path, std::size_t heights, std::optional<double> z)
@@ -56,11 +63,10 @@ void EngagementReport::write(OperationStats& stats) const
     });
     for (std::size_t i = 0; i < std::min(kNamedPlaces, worst.size()); ++i) {
         const OverEngagement& over = worst[i].over;
-        stats.warnings.push_back(fmt::format(
-            "the engagement is {:g} degrees at {}, over max_engagement on {:g} mm: no pass into "
-            "this corner or neck has less",
-            std::round(over.engagement / kDegrees), place_text(over.at, worst[i].z),
-            std::round(over.length * 1e2) * 1e-2));
+        stats.warnings.push_back(
+            fmt::format("the engagement is {:g} degrees at {}, over max_engagement on {:g} mm: {}",
+                        std::round(over.engagement / kDegrees), place_text(over.at, worst[i].z),
+                        std::round(over.length * 1e2) * 1e-2, reason_text(over)));
     }
     if (over_.size() > kNamedPlaces) {
         stats.warnings.push_back(

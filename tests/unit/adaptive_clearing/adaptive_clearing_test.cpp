@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
+
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
@@ -69,7 +71,53 @@ TEST(AdaptiveClearing, ASlotAsWideAsTheToolIsCutAndListed)
     const AdaptivePath path = clear_adaptively(rectangle(30, 6.1), settings(60.0));
     CHECK(!path.over.empty());
     CHECK(path.over.front().engagement > 90.0 * kDegree);
+    DOUBLES_EQUAL(6.1, path.over.front().slot_width.value_or(0.0), 1e-4);
+    toolpath::OperationStats stats;
+    EngagementReport report{60.0};
+    report.add(path, 1);
+    report.write(stats);
+    STRCMP_CONTAINS("degrees at (", stats.warnings.front().c_str());
+    STRCMP_CONTAINS("the slot is 6.1 mm wide, too narrow for trochoids",
+                    stats.warnings.front().c_str());
     DOUBLES_EQUAL(3.01, least_x(path), 0.05);
+}
+
+double over(const AdaptivePath& path)
+{
+    double way = 0.0;
+    for (const OverEngagement& place : path.over) {
+        way += place.length;
+    }
+    return way;
+}
+
+// Only the last hundredths of corners are over.
+TEST(AdaptiveClearing, TrochoidsOpenSlots)
+{
+    for (const double width : {6.2, 6.5, 7.0, 8.0, 9.0}) {
+        const AdaptivePath path = clear_adaptively(rectangle(30, width), settings(60.0));
+        CHECK(over(path) < 0.25);
+        CHECK(path.engagement_bound <= 60.0 * kDegree);
+        CHECK(path.left.empty());
+        DOUBLES_EQUAL(3.01, least_x(path), 0.0063);  // thinner is no stock
+    }
+}
+
+TEST(AdaptiveClearing, TrochoidsOpenANeckFromARoom)
+{
+    const Region2d rooms{{{line_edge({0, 0}, {25, 0}), line_edge({25, 0}, {25, 11.5}),
+                           line_edge({25, 11.5}, {50, 11.5}), line_edge({50, 11.5}, {50, 0}),
+                           line_edge({50, 0}, {75, 0}), line_edge({75, 0}, {75, 30}),
+                           line_edge({75, 30}, {50, 30}), line_edge({50, 30}, {50, 18.5}),
+                           line_edge({50, 18.5}, {25, 18.5}), line_edge({25, 18.5}, {25, 30}),
+                           line_edge({25, 30}, {0, 30}), line_edge({0, 30}, {0, 0})}}};
+    const AdaptivePath path = clear_adaptively(rooms, settings(60.0));
+    for (const OverEngagement& place : path.over) {
+        CHECK(place.at.x < 24.0 || place.at.x > 51.0);
+    }
+    // The rooms are entered, the neck is not.
+    LONGS_EQUAL(2, std::count_if(path.runs.begin(), path.runs.end(),
+                                 [](const AdaptiveRun& run) { return run.helix.has_value(); }));
 }
 
 TEST(AdaptiveClearing, ATooLargeToolHasNoRuns)
