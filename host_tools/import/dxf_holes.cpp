@@ -190,7 +190,8 @@ std::vector<Hole> read_holes(const std::string& name,
         all.push_back({place, 0});
     }
     std::size_t others = 0;
-    const std::vector<Hole> circles = circles_of(drawn.curves, others);
+    std::size_t repeated = 0;  // not said: holes at one place are one anyway
+    const std::vector<Hole> circles = circles_of(without_repeats(drawn.curves, repeated), others);
     all.insert(all.end(), circles.begin(), circles.end());
     if (others > 0) {
         notes.push_back(fmt::format("{}: {} and not drilled", name,
@@ -230,7 +231,12 @@ std::vector<Chain> read_chains(const std::string& name,
     const std::vector<Curve> curves = path_ending(file) == ".json"
                                           ? read_json_curves(file, millimetres)
                                           : read_dxf_curves(file, millimetres, layer, &notes);
-    return chains_of(curves);
+    std::size_t repeated = 0;
+    const std::vector<Curve> once = without_repeats(curves, repeated);
+    if (repeated > 0) {
+        notes.push_back(repeats_text(name, repeated));
+    }
+    return chains_of(once);
 }
 
 }  // namespace cusp::import

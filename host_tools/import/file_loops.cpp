@@ -47,9 +47,7 @@ void describe_loops(const std::string& name,
                     std::vector<std::string>& notes)
 {
     if (nesting.repeated > 0) {
-        notes.push_back(fmt::format(
-            "{}: {} drawn twice and taken once", name,
-            nesting.repeated == 1 ? "1 curve is" : fmt::format("{} curves are", nesting.repeated)));
+        notes.push_back(repeats_text(name, nesting.repeated));
     }
     if (nesting.bridged > 0) {
         notes.push_back(fmt::format(

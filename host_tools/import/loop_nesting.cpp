@@ -13,6 +13,8 @@
 
 #include "host_tools/job/loop_shape.hpp"
 
+#include "fmt/format.h"
+
 namespace cusp::import {
 
 using job::ClosedLoop;
@@ -96,33 +98,6 @@ Measures measures_of(const Curve& curve, Vec2d origin)
         }
     }
     return sum;
-}
-
-// Removes duplicates and counts them.
-std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t& repeated)
-{
-    using Key = std::array<std::int64_t, 6>;
-    std::map<Key, int> seen;
-    std::vector<Curve> out;
-    for (const Curve& curve : curves) {
-        const auto rounded = [](Vec2d p) {
-            return std::array<std::int64_t, 2>{std::llround(p.x / kRepeated),
-                                               std::llround(p.y / kRepeated)};
-        };
-        auto a = rounded(in_plan(curve.points.front()));
-        auto b = rounded(in_plan(curve.points.back()));
-        if (b < a) {
-            std::swap(a, b);
-        }
-        const auto middle =
-            rounded(in_plan(point_at(curve, (curve.domain_begin() + curve.domain_end()) / 2)));
-        if (seen[{a[0], a[1], b[0], b[1], middle[0], middle[1]}]++ == 0) {
-            out.push_back(curve);
-        } else {
-            ++repeated;
-        }
-    }
-    return out;
 }
 
 Chain reversed_chain(const Chain& chain)
@@ -356,6 +331,38 @@ void find_crossings(LoopNesting& nesting)
 }
 
 }  // namespace
+
+std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t& repeated)
+{
+    using Key = std::array<std::int64_t, 6>;
+    std::map<Key, int> seen;
+    std::vector<Curve> out;
+    for (const Curve& curve : curves) {
+        const auto rounded = [](Vec2d p) {
+            return std::array<std::int64_t, 2>{std::llround(p.x / kRepeated),
+                                               std::llround(p.y / kRepeated)};
+        };
+        auto a = rounded(in_plan(curve.points.front()));
+        auto b = rounded(in_plan(curve.points.back()));
+        if (b < a) {
+            std::swap(a, b);
+        }
+        const auto middle =
+            rounded(in_plan(point_at(curve, (curve.domain_begin() + curve.domain_end()) / 2)));
+        if (seen[{a[0], a[1], b[0], b[1], middle[0], middle[1]}]++ == 0) {
+            out.push_back(curve);
+        } else {
+            ++repeated;
+        }
+    }
+    return out;
+}
+
+std::string repeats_text(const std::string& name, std::size_t repeated)
+{
+    return fmt::format("{}: {} drawn twice and taken once", name,
+                       repeated == 1 ? "1 curve is" : fmt::format("{} curves are", repeated));
+}
 
 LoopNesting nest_loops(const std::vector<Curve>& curves, double join)
 {

@@ -1,6 +1,7 @@
 // Groups the curves of a drawing into closed loops, nested in each other, and open chains.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "host_tools/job/part_geometry.hpp"
@@ -19,5 +20,14 @@ inline constexpr double kJoinTolerance = 0.02;
 //
 // Where more than two ends meet, it is unspecified along which one a chain continues.
 job::LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves, double join = kJoinTolerance);
+
+// The curves without those that lie on an earlier one, either way round, to 1e-4 mm at ends and middle.
+//
+// repeated  grows by the number of those left out
+std::vector<nurbs::Curve> without_repeats(const std::vector<nurbs::Curve>& curves,
+                                          std::size_t& repeated);
+
+// "plate.dxf#text: 2 curves are drawn twice and taken once"
+std::string repeats_text(const std::string& name, std::size_t repeated);
 
 }  // namespace cusp::import

@@ -7,6 +7,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/import/drawn_shapes.hpp"
+#include "host_tools/import/dxf_holes.hpp"
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
@@ -358,6 +359,25 @@ TEST(DxfCurves, NameTextsBesideThem)
     const std::string insert = "0\nINSERT\n2\nlabel\n10\n100\n20\n50\n50\n90\n";
     CHECK_EQUAL("d.dxf#name: a text at x 96 y 52 mm is" + rest,
                 said(folder.with("d.dxf", block + drawing(circle + insert))));
+}
+
+TEST(DxfCurves, AreEngravedAndDrilledOnceWhereDrawnTwice)
+{
+    std::vector<std::string> notes;
+    const std::string twice = line("0", "0", "4", "0") + line("4", "0", "0", "0") +
+                              line("4", "0", "4", "3") + line("9", "9", "9", "8");
+    const auto chains = read_chains(folder.with("d.dxf", drawing(twice)), 1, notes);
+    LONGS_EQUAL(2, chains.size());
+    LONGS_EQUAL(2, chains[0].size());
+    LONGS_EQUAL(1, notes.size());
+    STRCMP_CONTAINS("d.dxf: 1 curve is drawn twice and taken once", notes[0].c_str());
+    // a circle of two bulges, drawn twice
+    const std::string ring =
+        "0\nLWPOLYLINE\n8\n0\n70\n1\n10\n0\n20\n0\n42\n1\n10\n6\n20\n0\n42\n1\n";
+    const auto holes =
+        read_holes(folder.with("d.dxf", drawing(ring + ring)), 1, {0, 1e3}, false, notes);
+    LONGS_EQUAL(1, holes.size());
+    DOUBLES_EQUAL(6, holes[0].diameter, 1e-9);
 }
 
 TEST(DxfCurves, AreJoinedAtGapsUpToTheToleranceAndNotBeyond)
