@@ -68,8 +68,8 @@ double true_angle(double diamond)
     return std::atan2(size <= 1.0 ? diamond : std::copysign(2.0 - size, diamond), 1.0 - size);
 }
 
-constexpr double kFront = 1.0;   // a quarter turn, as a diamond angle
-constexpr double kBeyond = 3.0;  // more than any
+constexpr double kFront = 1.0;     // a quarter turn, as a diamond angle
+constexpr double kPastRear = 3.0;  // more than any angle
 
 // As seen along the heading: x ahead, y to the left.
 Vec2d seen_along(Vec2d heading, Vec2d v) { return {dot(heading, v), cross(heading, v)}; }
@@ -216,14 +216,14 @@ std::optional<SweptArea::Interval> SweptArea::covered_by(const Disc& disc,
     const Vec2d to = disc.centre - pose.at;
     const double d = norm(to);
     if (d + radius_ <= r) {
-        return Interval{-kBeyond, kBeyond};
+        return Interval{-kPastRear, kPastRear};
     }
     const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
     if (cosine >= 1.0) {
         return std::nullopt;
     }
     if (cosine <= -1.0) {
-        return Interval{-kBeyond, kBeyond};
+        return Interval{-kPastRear, kPastRear};
     }
     const Vec2d middle = seen_along(pose.heading, to) * (1.0 / d);
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
@@ -247,8 +247,8 @@ void SweptArea::add_covered(const Disc& disc, const Pose2d& pose, double shrink)
     if (part->from <= part->to) {
         covered_.push_back(*part);
     } else {
-        covered_.push_back({-kBeyond, part->to});
-        covered_.push_back({part->from, kBeyond});
+        covered_.push_back({-kPastRear, part->to});
+        covered_.push_back({part->from, kPastRear});
     }
 }
 
@@ -257,6 +257,26 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double 
     const Pose2d pose{centre, heading};
     return open_angle(pose, std::min(0.5 * kPi + widened, kPi),
                       [&](const Disc& disc) { add_covered(disc, pose, shrink); });
+}
+
+// Radians from -end to end (a diamond angle) that covered_ leaves out; sorts it.
+double SweptArea::open_between_covered(double end) const
+{
+    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
+        return a.from < b.from || (a.from == b.from && a.to < b.to);
+    });
+    double reached = -end;
+    double open = 0.0;
+    for (const Interval& c : covered_) {
+        if (c.from >= end) {
+            break;
+        }
+        if (c.from > reached) {
+            open += true_angle(c.from) - true_angle(reached);
+        }
+        reached = std::max(reached, c.to);
+    }
+    return reached < end ? open + true_angle(end) - true_angle(reached) : open;
 }
 
 // The angle up to `most` (radians) from the heading that is neither in swept cells nor covered;
@@ -296,8 +316,8 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
             for (; i < last && is_swept(at_arc(i + 1)); ++i) {
             }
             // The first arc begins and the last ends beyond `most`.
-            covered_.push_back({begin > first ? angle_of_end(begin) : -kBeyond,
-                                i < last ? angle_of_end(i + 1) : kBeyond});
+            covered_.push_back({begin > first ? angle_of_end(begin) : -kPastRear,
+                                i < last ? angle_of_end(i + 1) : kPastRear});
             continue;
         }
         for (const std::uint32_t k : cells_[cell]) {
@@ -307,22 +327,8 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
             }
         }
     }
-    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
-        return a.from < b.from || (a.from == b.from && a.to < b.to);
-    });
-    const double end = most > 0.5 * kPi ? diamond_angle({std::cos(most), std::sin(most)}) : kFront;
-    double reached = -end;
-    double open = 0.0;
-    for (const Interval& c : covered_) {
-        if (c.from >= end) {
-            break;
-        }
-        if (c.from > reached) {
-            open += true_angle(c.from) - true_angle(reached);
-        }
-        reached = std::max(reached, c.to);
-    }
-    return reached < end ? open + true_angle(end) - true_angle(reached) : open;
+    return open_between_covered(most > 0.5 * kPi ? diamond_angle({std::cos(most), std::sin(most)})
+                                                 : kFront);
 }
 
 // A point of the circle keeps its angle from the heading, so it moves along an arc about the edge's
@@ -362,8 +368,8 @@ int SweptArea::covered_front(const Disc& disc,
     if (part && part->from <= part->to) {
         add(part->from, part->to);
     } else if (part) {
-        add(-kBeyond, part->to);
-        add(part->from, kBeyond);
+        add(-kPastRear, part->to);
+        add(part->from, kPastRear);
     }
     return n;
 }

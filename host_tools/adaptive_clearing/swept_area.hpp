@@ -83,6 +83,7 @@ private:
     };
     template <typename Cover>
     double open_angle(const Pose2d& pose, double most, const Cover& cover) const;
+    double open_between_covered(double end) const;
     int covered_front(const Disc& disc, const Pose2d& pose, double shrink, Interval* parts) const;
     void add_covered_at_both(const Disc& disc, const Pose2d* poses, double shrink) const;
     int next_open(std::size_t first, int i, int last) const;

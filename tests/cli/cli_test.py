@@ -293,7 +293,7 @@ class Cli(unittest.TestCase):
         self.write("floor.stl", text + "endsolid sheet\n")
         job = JOB.replace("floor.json", "floor.stl")
         self.write("job.toml", job)
-        self.expect(0, "1 facets without area left out", "plan", "job.toml", "-o", "p.ngc")
+        self.expect(0, "1 facet without area left out", "plan", "job.toml", "-o", "p.ngc")
         self.expect(0, "all bounds hold", "verify", "job.toml", "p.ngc")
         (self.folder / "p.ngc").unlink()
         self.write("floor.stl", text)
