@@ -10,7 +10,8 @@
 //
 // Steered passes widen a hole until only narrow corners and necks are left of the part of the region
 // that a tight turn reaches; passes along the contours of the region opened by shrinking radii cut
-// into these. Trochoids open necks and slots that have hardly room for a turn. Each move is measured, before it is made, against what is swept until then.
+// into these. Trochoids open necks and slots that have hardly room for a turn. Each move is measured,
+// before it is made, against what is swept until then.
 #pragma once
 
 #include <functional>
