@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/deepest_place.hpp"
+#include "host_tools/adaptive_clearing/entry_spiral.hpp"
 #include "host_tools/adaptive_clearing/mirrored_path.hpp"
 #include "host_tools/adaptive_clearing/neck_ways.hpp"
 #include "host_tools/adaptive_clearing/open_places.hpp"
@@ -44,8 +46,10 @@ namespace {
 // In radii of the tool.
 constexpr double kSteered[] = {0.3, 0.1, 0.03};  // turning radii
 constexpr double kStrip = 0.04;                  // left along the walls by the first of them
+constexpr double kWide = 1.0;                    // turning radius of the first passes into corners
 constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
 constexpr double kRatio = 0.2;                   // from one opening to the next
+constexpr double kFine = 0.05;                   // with smaller radii what is over is short
 constexpr double kSpot = 0.5;                    // around stock in a corner
 constexpr double kHelix = 0.3;
 constexpr double kLeastNeck = 0.02;  // room of the tool's centre in a neck
@@ -55,16 +59,8 @@ constexpr double kLeastHelix = 0.02;
 constexpr double kPiece = 0.1;
 constexpr double kTargetMargin = 0.2;
 constexpr double kSteerShare = 0.995;  // of the engagement
-constexpr int kPoleGrid = 48;
-constexpr double kMoreLength = 1.3;  // times the area over the width of a straight cut
+constexpr double kMoreLength = 1.3;    // times the area over the width of a straight cut
 constexpr double kMostProgress = 0.99;
-
-bool is_inside(const Region2d& region, const RegionPart& part, Vec2d point)
-{
-    return surrounds(region.contours[part.outer], point) &&
-           std::none_of(part.holes.begin(), part.holes.end(),
-                        [&](std::size_t k) { return surrounds(region.contours[k], point); });
-}
 
 class Planner {
 public:
@@ -92,17 +88,18 @@ public:
                 break;
             }
             if (opened > 0.0) {
-                narrow(opened, turn);
+                narrow(opened, turn, least_sliver());
             }
             steer(turn,
                   opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
             cut_walls(turn, turn, box_, 0);
             if (opened <= 0.0) {
+                narrow(kWide * radius_, turn, least_sliver());
                 open_necks();
             }
             opened = turn;
         }
-        narrow(opened, finest);
+        narrow(opened, finest, least_sliver());
         cut_rest();
         cut_slivers();
         return std::move(result_);
@@ -161,7 +158,7 @@ private:
     // Enters the part by a helix, unless a hole is swept there already, or it is open.
     void enter(const Region2d& centres, const RegionPart& part, PassStarts& starts)
     {
-        const Vec2d pole = deepest_place(centres, part);
+        const Vec2d pole = deepest_place(centres, part, walls_);
         if (swept_.contains(pole) || std::any_of(open_.begin(), open_.end(), [&](Vec2d place) {
                 return is_inside(centres, part, place);
             })) {
@@ -181,32 +178,18 @@ private:
 
     void add_helix(Vec2d centre, double r)
     {
-        AdaptiveRun run;
-        run.helix = EntryHelix{centre, r};
-        result_.runs.push_back(run);
-        swept_.add_disc(centre, radius_ + r);
-        at_ = centre + Vec2d{r, 0.0};
-    }
-
-    // The point of a grid over the part that is farthest from walls.
-    Vec2d deepest_place(const Region2d& centres, const RegionPart& part) const
-    {
-        const Contour& outer = centres.contours[part.outer];
-        const Box2d box = box_of(Region2d{{outer}});
-        Vec2d best = outer.front().start;
-        double most = walls_.nearest(best, kUnbounded);
-        for (int j = 0; j < kPoleGrid; ++j) {
-            for (int i = 0; i < kPoleGrid; ++i) {
-                const Vec2d p{box.x0 + (box.x1 - box.x0) * (i + 0.5) / kPoleGrid,
-                              box.y0 + (box.y1 - box.y0) * (j + 0.5) / kPoleGrid};
-                const double d = walls_.nearest(p, kUnbounded);
-                if (d > most && is_inside(centres, part, p)) {
-                    best = p;
-                    most = d;
-                }
-            }
+        link_.clear();
+        at_ = centre;
+        if (r <= 0.0) {
+            swept_.add_disc(centre, radius_);
+            result_.runs.emplace_back();
+        } else {
+            const EntrySpiral spiral =
+                entry_spiral(swept_, centre, r, {settings_.max_engagement, settings_.tolerance});
+            result_.engagement_bound = std::max(result_.engagement_bound, spiral.engagement_bound);
+            add_run(spiral.path);
         }
-        return best;
+        result_.runs.back().helix = EntryHelix{centre, r};
     }
 
     // Trochoids into the stock of each neck.
@@ -266,14 +249,14 @@ private:
         return true;
     }
 
-    // Finds the places where the region opened by the radius `to` still has stock. Cuts each by
-    // passes along its walls, with turning radii that fall from `from` to `to`.
-    void narrow(double from, double to)
+    // Finds the places where the region opened by the radius `to` still has stock thicker than
+    // `sliver` (mm). Cuts each by passes along its walls, with turning radii that fall from `from`
+    // to `to`.
+    void narrow(double from, double to, double sliver)
     {
         std::vector<Box2d> spots;
         for (const Contour& contour : opened(to).contours) {
-            for (const std::vector<Edge>& path :
-                 stretches(contour, least_sliver(), 2 * kPi, box_).paths) {
+            for (const std::vector<Edge>& path : stretches(contour, sliver, 2 * kPi, box_).paths) {
                 spots.push_back(grown_box(box_of(Region2d{{path}}), kSpot * radius_));
             }
         }
@@ -297,7 +280,6 @@ private:
     // radius of the passes before; if the engagement is too large, radii in between come first.
     void cut_walls(double from, double to, const Box2d& spot, int depth)
     {
-        constexpr int kMostDepth = 1;
         bool left = false;
         for (const Contour& contour : opened(to).contours) {
             const WallPasses passes =
@@ -311,7 +293,8 @@ private:
                 }
             }
         }
-        if (left && depth < kMostDepth && from > 1.05 * to) {
+        const int most_halvings = from > kFine * radius_ ? 3 : 1;
+        if (left && depth < most_halvings && from > 1.05 * to) {
             cut_walls(from, std::sqrt(from * to), spot, depth + 1);
             cut_walls(std::sqrt(from * to), to, spot, depth + 1);
         }

@@ -5,7 +5,7 @@
 //     settings.max_engagement = 60.0 / 180.0 * kPi;
 //     const AdaptivePath path = clear_adaptively(region, settings);
 //     path.runs[0].helix->centre;      // down there first
-//     path.runs[1].path;               // lines and arcs, tangent to each other
+//     path.runs[0].path;               // lines and arcs, tangent to each other
 //     path.engagement_bound;           // radians: nowhere more outside entries and `over`
 //
 // Steered passes widen a hole until only narrow corners and necks are left of the part of the region
@@ -38,14 +38,15 @@ struct AdaptiveSettings {
     std::function<void(double)> progress;
 };
 
-// An entry from above: turns about the centre down to the depth, and a level one.
+// An entry from above: turns about the centre down to the depth, the last half turn into the centre.
 struct EntryHelix {
     Vec2d centre;
     double radius;  // mm; 0: no room, straight down
 };
 
 struct AdaptiveRun {
-    std::optional<EntryHelix> helix;  // then there is no path
+    // Then the path is an entry_spiral() from its centre, or empty.
+    std::optional<EntryHelix> helix;
     std::vector<offset::Edge> path;
     std::vector<LinkLeg> link;     // from the end of the run before; empty: the tool lifts
     double tolerance{kUnbounded};  // mm, most: of chords in place of arcs

@@ -26,52 +26,56 @@ void AdaptivePathWriter::write(const AdaptivePath& path, double above, double z)
     for (const AdaptiveRun& run : path.runs) {
         if (run.helix) {
             enter(*run.helix, above, z);
-            continue;
-        }
-        const Vec2d start = run.path.front().start;
-        if (run.link.empty()) {
+        } else if (run.link.empty()) {
+            const Vec2d start = run.path.front().start;
             // Lower down the tool may meet slivers, so it descends at the plunge feed.
             writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
             writer_.line(MoveKind::kPlunge, {start.x, start.y, z});
         }
-        for (std::size_t i = 0; i < run.link.size(); ++i) {
-            // Rapid legs run above the floor.
-            const bool raised =
-                run.link[i].free || (i + 1 < run.link.size() && run.link[i + 1].free);
-            const Vec2d to = run.link[i].end;
-            writer_.line(run.link[i].free ? MoveKind::kRapid : MoveKind::kLink,
-                         {to.x, to.y, raised ? z + kRaised + settings_.scallops : z});
-        }
+        link(run.link, z);
         for (const Edge& edge : run.path) {
             cut(edge, z, std::min(run.tolerance, settings_.chord_tolerance));
         }
     }
 }
 
+// Rapid legs run above the floor. The last of them comes down on its way: beside it is nothing, and
+// below it only what a round end left.
+void AdaptivePathWriter::link(const std::vector<LinkLeg>& legs, double z)
+{
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+        const bool goes_on = i + 1 < legs.size() && legs[i + 1].free;
+        const bool raised = goes_on || (legs[i].free && settings_.scallops > 0.0);
+        const Vec2d to = legs[i].end;
+        writer_.line(legs[i].free ? MoveKind::kRapid : MoveKind::kLink,
+                     {to.x, to.y, raised ? z + kRaised + settings_.scallops : z});
+    }
+}
+
 void AdaptivePathWriter::enter(const EntryHelix& helix, double above, double z)
 {
     const Vec2d c = helix.centre;
-    const Vec2d side[2] = {{c.x + helix.radius, c.y}, {c.x - helix.radius, c.y}};
+    const double r = helix.radius;
+    const bool straight = r <= 0.0 || settings_.plunges;
+    const Vec2d side[2] = {straight ? c : Vec2d{c.x + r, c.y}, {c.x - r, c.y}};
     writer_.approach(side[0], std::min(above + kRapidClearance, writer_.clearance_z()));
     ++entries_;
-    if (helix.radius <= 0.0 || settings_.plunges) {
+    writer_.line(MoveKind::kPlunge, {side[0].x, side[0].y, straight ? z : std::max(above, z)});
+    if (straight) {
         plunges_ += above > z ? 1 : 0;
-        writer_.line(MoveKind::kPlunge, {side[0].x, side[0].y, z});
-    } else {
-        writer_.line(MoveKind::kPlunge, {side[0].x, side[0].y, std::max(above, z)});
-    }
-    if (helix.radius <= 0.0) {
         return;
     }
     const double from = writer_.at().z;
-    const double turn = 2 * kPi * helix.radius * kHelixSlope;
-    const int halves = 2 * static_cast<int>(std::ceil((from - z) / turn));
-    // A level turn clears what the last slope left.
-    for (int i = 1; i <= halves + 2; ++i) {
+    const double turns = (from - z) / (2 * kPi * r * kHelixSlope);
+    // The half turn into the centre is half as long as one about it.
+    const int halves = 2 * std::max(0, static_cast<int>(std::ceil(turns - 0.25)));
+    const double drop = (from - z) / (halves + 0.5);
+    for (int i = 1; i <= halves; ++i) {
         const Vec2d p = side[i % 2];
-        const double at = i < halves ? from + (z - from) * i / halves : z;
+        const double at = from - drop * i;
         writer_.arc(MoveKind::kPlunge, {{p.x, p.y, at}, {c.x, c.y, at}, ArcPlane::kXY, false});
     }
+    writer_.arc(MoveKind::kPlunge, {{c.x, c.y, z}, {c.x + 0.5 * r, c.y, z}, ArcPlane::kXY, false});
 }
 
 void AdaptivePathWriter::cut(const Edge& edge, double z, double tolerance)

@@ -36,6 +36,7 @@ private:
     int points_{0};
 
     void enter(const EntryHelix& helix, double above, double z);
+    void link(const std::vector<LinkLeg>& legs, double z);
     void cut(const offset::Edge& edge, double z, double tolerance);
 };
 

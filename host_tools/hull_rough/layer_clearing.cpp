@@ -278,7 +278,7 @@ std::vector<LayerRun> zigzag_runs(const ClearZone& zone,
     return in_near_order(std::move(out), !settings.one_way);
 }
 
-// The places of an adaptive path, entries with the level turn at their end.
+// The places of an adaptive path; entries are their foot and the turns that widen it.
 std::vector<LayerRun> runs_of(const AdaptivePath& path)
 {
     std::vector<LayerRun> out;
@@ -288,16 +288,9 @@ std::vector<LayerRun> runs_of(const AdaptivePath& path)
             continue;
         }
         const Vec2d c = run.helix->centre;
-        const double r = run.helix->radius;
-        std::vector<Edge> turn{line_edge(c, {c.x + r, c.y})};
-        for (int k = 0; k < 4 && r > 0; ++k) {
-            constexpr int kCos[] = {1, 0, -1, 0, 1};
-            const auto at = [&](int i) {
-                return Vec2d{c.x + r * kCos[i], c.y + r * kCos[(i + 3) % 4]};
-            };
-            turn.push_back(arc_edge(at(k), at(k + 1), c, 1));
-        }
-        out.push_back({std::move(turn), false});
+        std::vector<Edge> turns{line_edge(c, c)};
+        turns.insert(turns.end(), run.path.begin(), run.path.end());
+        out.push_back({std::move(turns), false});
     }
     return out;
 }

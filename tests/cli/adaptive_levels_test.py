@@ -58,8 +58,8 @@ class AdaptiveLevels(CuspCase):
             self.assertLessEqual(operation["over_engagement_mm"], 1e-3 * operation["cut_length_mm"])
             self.assertGreater(operation["mean_removal_mm3_per_min"], 0)
         if measured:
-            # Level turns at the ends of helices are entries here, and cuts there.
-            entries = sum(o["entries"] for o in roughing) * 3.15 * 0.3 * 12
+            # The first level turns of entries are part of these here, and cuts there.
+            entries = sum(o["entries"] for o in roughing) * 0.15 * 12
             self.assertLess(found["over_engagement_mm"] - entries, 0.002 * plain["cut_length_mm"])
 
     def test_hull_rough(self):

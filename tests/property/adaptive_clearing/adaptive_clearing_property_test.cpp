@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/adaptive_clearing/entry_spiral.hpp"
 #include "host_tools/adaptive_clearing/steered_pass.hpp"
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
 #include "tests/property/offset/random_regions.hpp"
@@ -109,15 +110,16 @@ Found judge(const Region2d& region,
     Vec2d tool{};
     for (const AdaptiveRun& run : path.runs) {
         if (run.helix) {
-            cutter.remove_disc(run.helix->centre, radius + run.helix->radius);
-            tool = run.helix->centre + Vec2d{run.helix->radius, 0.0};
-            continue;
+            cutter.cut(run.helix->centre);
+            tool = run.helix->centre;
+        } else {
+            found.rapid += rapid_in_stock(cutter, run.link, tool, run.path.front().start, step);
+            cutter.cut(run.path.front().start);
         }
-        found.rapid += rapid_in_stock(cutter, run.link, tool, run.path.front().start, step);
-        tool = run.path.back().end;
-        const bool listed = is_listed(path, run.path);
-        cutter.cut(run.path.front().start);
-        for (const Edge& edge : run.path) {
+        for (std::size_t k = 0; k < run.path.size(); ++k) {
+            const Edge& edge = run.path[k];
+            const bool listed = is_listed(path, run.path) || (run.helix && k < kFirstTurnEdges);
+            tool = edge.end;
             const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / step)));
             for (int i = 0; i < n; ++i) {
                 const double share = (i + 1.0) / n;

@@ -103,6 +103,21 @@ TEST(AdaptiveClearing, TrochoidsOpenSlots)
     }
 }
 
+// Passes of larger radii come first where those along the walls would end in thick stock.
+TEST(AdaptiveClearing, CornersAreCutInThinSlices)
+{
+    const Region2d square{{{line_edge({0, 0}, {60, 6}), line_edge({60, 6}, {55, 50}),
+                            line_edge({55, 50}, {-5, 44}), line_edge({-5, 44}, {0, 0})}}};
+    const AdaptivePath wide = clear_adaptively(square, settings(42.0));
+    CHECK(wide.engagement_bound <= 42.0 * kDegree);
+    CHECK(over(wide) < 0.5);
+    const Region2d kite{{{line_edge({0, 0}, {40, -12}), line_edge({40, -12}, {60, 0}),
+                          line_edge({60, 0}, {40, 12}), line_edge({40, 12}, {0, 0})}}};
+    const AdaptivePath sharp = clear_adaptively(kite, settings(60.0));
+    CHECK(sharp.engagement_bound <= 60.0 * kDegree);
+    CHECK(over(sharp) < 0.7);
+}
+
 TEST(AdaptiveClearing, TrochoidsOpenANeckFromARoom)
 {
     const Region2d rooms{{{line_edge({0, 0}, {25, 0}), line_edge({25, 0}, {25, 11.5}),

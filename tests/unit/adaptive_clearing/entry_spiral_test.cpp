@@ -1,0 +1,85 @@
+// The hole of an entry is widened within the engagement; without stock in the way it is whole.
+#include "host_tools/adaptive_clearing/entry_spiral.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace adaptive_clearing;
+using namespace offset;
+
+namespace {
+
+constexpr double kDegrees = 3.14159265358979323846 / 180.0;
+
+struct Spiral {
+    SweptArea swept{{-10, -10, 10, 10}, 3.0};
+    EntrySpiral found;
+    Spiral(double radius, double degrees)
+        : found{entry_spiral(swept, {1, 2}, radius, {degrees * kDegrees, 0.002})}
+    {
+    }
+};
+
+TEST_GROUP(EntrySpirals){};
+
+TEST(EntrySpirals, BeginInTheCentreAndEndInACircle)
+{
+    const Spiral spiral{0.9, 60.0};
+    const std::vector<Edge>& path = spiral.found.path;
+    DOUBLES_EQUAL(0.0, distance({1, 2}, path.front().start), 1e-12);
+    DOUBLES_EQUAL(0.9, spiral.found.radius, 1e-12);
+    DOUBLES_EQUAL(0.0, distance({1, 2}, path.back().centre), 1e-12);
+    DOUBLES_EQUAL(0.9, path.back().radius, 1e-12);
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        DOUBLES_EQUAL(0.0, distance(path[i - 1].end, path[i].start), 1e-12);
+        DOUBLES_EQUAL(1.0, dot(tangent_at_end(path[i - 1]), tangent_at_start(path[i])), 1e-12);
+    }
+}
+
+TEST(EntrySpirals, KeepTheEngagementAfterTheFirstTurn)
+{
+    for (const double degrees : {20.0, 35.0, 60.0, 100.0, 150.0}) {
+        const Spiral spiral{0.9, degrees};
+        CHECK(spiral.found.engagement_bound <= degrees * kDegrees);
+        // The bound that was returned is that of the path, cut again.
+        SweptArea swept{{-10, -10, 10, 10}, 3.0};
+        swept.add_disc({1, 2}, 3.0);
+        double first = 0.0;
+        for (std::size_t i = 0; i < spiral.found.path.size(); ++i) {
+            const Edge& edge = spiral.found.path[i];
+            const double bound = swept.engagement_bound(edge, degrees * kDegrees, 0.002);
+            if (i < kFirstTurnEdges) {
+                first = std::max(first, bound);
+            } else {
+                CHECK(bound <= degrees * kDegrees);
+            }
+            swept.add(edge, 0.002);
+        }
+        CHECK(first > 85.0 * kDegrees);
+    }
+}
+
+TEST(EntrySpirals, SweepTheWholeHole)
+{
+    const Spiral spiral{0.9, 60.0};
+    for (int i = 0; i < 720; ++i) {
+        const Vec2d at = Vec2d{std::cos(i * 0.5 * kDegrees), std::sin(i * 0.5 * kDegrees)};
+        CHECK(spiral.swept.contains(Vec2d{1, 2} + at * 3.89));
+        CHECK(!spiral.swept.contains(Vec2d{1, 2} + at * 3.91));
+    }
+}
+
+TEST(EntrySpirals, OfAHoleWithHardlyRoomIsItsFirstTurn)
+{
+    const Spiral spiral{0.06, 60.0};
+    DOUBLES_EQUAL(0.06, spiral.found.radius, 1e-12);
+    CHECK(spiral.found.path.size() <= kFirstTurnEdges + 2);
+}
+
+}  // namespace
+
+}  // namespace cusp::test
