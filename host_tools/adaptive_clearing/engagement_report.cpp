@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kDegrees = kPi / 180.0;
 constexpr std::size_t kNamedPlaces = 5;
+constexpr double kCornerEnd = 0.1;  // mm of way: less is the end of a corner
 
 std::string place_text(Vec2d at, std::optional<double> z)
 {
@@ -57,20 +58,35 @@ void EngagementReport::write(OperationStats& stats) const
         stats.warnings.push_back(fmt::format("a sliver stays at {}: no straight move reaches it",
                                              place_text(slivers_.front().at, slivers_.front().z)));
     }
+    // The very ends of corners have one warning together.
     std::vector<Place> worst = over_;
     std::stable_sort(worst.begin(), worst.end(), [](const Place& a, const Place& b) {
         return a.z && b.z && a.over.engagement > b.over.engagement;
     });
-    for (std::size_t i = 0; i < std::min(kNamedPlaces, worst.size()); ++i) {
+    const auto corners = std::stable_partition(
+        worst.begin(), worst.end(), [](const Place& p) { return p.over.length >= kCornerEnd; });
+    const auto named = static_cast<std::size_t>(corners - worst.begin());
+    for (std::size_t i = 0; i < std::min(kNamedPlaces, named); ++i) {
         const OverEngagement& over = worst[i].over;
         stats.warnings.push_back(
             fmt::format("the engagement is {:g} degrees at {}, over max_engagement on {:g} mm: {}",
                         std::round(over.engagement / kDegrees), place_text(over.at, worst[i].z),
                         std::round(over.length * 1e2) * 1e-2, reason_text(over)));
     }
-    if (over_.size() > kNamedPlaces) {
+    if (named > kNamedPlaces) {
         stats.warnings.push_back(
-            fmt::format("{} more places over max_engagement", over_.size() - kNamedPlaces));
+            fmt::format("{} more places over max_engagement", named - kNamedPlaces));
+    }
+    if (corners != worst.end()) {
+        const auto most = std::max_element(
+            corners, worst.end(),
+            [](const Place& a, const Place& b) { return a.over.engagement < b.over.engagement; });
+        stats.warnings.push_back(fmt::format(
+            "the engagement is up to {:g} degrees, over max_engagement on less than {:g} mm, at "
+            "the "
+            "end of {} {}, such as at {}",
+            std::round(most->over.engagement / kDegrees), kCornerEnd, worst.end() - corners,
+            worst.end() - corners == 1 ? "corner" : "corners", place_text(most->over.at, most->z)));
     }
 }
 

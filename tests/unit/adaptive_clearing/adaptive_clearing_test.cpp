@@ -104,6 +104,21 @@ TEST(AdaptiveClearing, TrochoidsOpenSlots)
 }
 
 // Passes of larger radii come first where those along the walls would end in thick stock.
+TEST(AdaptiveClearing, TheEndsOfCornersAreOneWarning)
+{
+    AdaptivePath path;
+    path.over = {{{1, 2}, 82.0 * kDegree, 0.03}, {{3, 4}, 84.0 * kDegree, 0.02}};
+    toolpath::OperationStats stats;
+    EngagementReport report{60.0};
+    report.add(path, 1);
+    report.write(stats);
+    LONGS_EQUAL(1, stats.warnings.size());
+    STRCMP_EQUAL(
+        "the engagement is up to 84 degrees, over max_engagement on less than 0.1 mm, at the "
+        "end of 2 corners, such as at (3, 4) mm",
+        stats.warnings.front().c_str());
+}
+
 TEST(AdaptiveClearing, CornersAreCutInThinSlices)
 {
     const Region2d square{{{line_edge({0, 0}, {60, 6}), line_edge({60, 6}, {55, 50}),
