@@ -13,7 +13,7 @@ namespace {
 constexpr double kFirstTurn = 0.04;  // radii of the tool
 constexpr double kMostGrowth = 1.6;  // half a turn
 constexpr double kLeastGrowth = 1.002;
-constexpr int kBisections = 10;
+constexpr int kWidthBisections = 10;
 // Of the engagement: where the gap beside the tool is thinner than rounding of the program or runout
 // of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
@@ -57,7 +57,7 @@ EntrySpiral entry_spiral(SweptArea& swept,
         double to = std::min(radius, kMostGrowth * at);
         if (bound(to) > most) {
             double good = at;
-            for (int i = 0; i < kBisections; ++i) {
+            for (int i = 0; i < kWidthBisections; ++i) {
                 const double middle = 0.5 * (good + to);
                 (bound(middle) <= most ? good : to) = middle;
             }
