@@ -2,6 +2,7 @@
 #include "host_tools/adaptive_clearing/entry_spiral.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cusp::adaptive_clearing {
 
@@ -10,13 +11,22 @@ using offset::Edge;
 
 namespace {
 
-constexpr double kFirstTurn = 0.04;  // radii of the tool
-constexpr double kMostGrowth = 1.6;  // half a turn
+constexpr double kFirstTurn = 0.04;       // radii of the tool, at least
+constexpr double kMissedBeside = 0.0004;  // radii, by SweptArea
+constexpr double kMostGrowth = 1.6;       // half a turn
 constexpr double kLeastGrowth = 1.002;
 constexpr int kWidthBisections = 10;
 // Of the engagement: where the gap beside the tool is thinner than rounding of the program or runout
 // of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
+
+// mm: the radius of the first turn. Stock of up to `missed`, that discs and chords leave beside a
+// turn already made, must be out of reach at the angle `most`.
+double first_turn(double tool_radius, double most, double tolerance)
+{
+    const double missed = kMissedBeside * tool_radius + tolerance;
+    return std::max(kFirstTurn * tool_radius, 2.0 * missed / (1.0 - std::cos(most)));
+}
 
 // Half a turn to the left from `from` to `to` mm on alternating sides of the centre.
 Edge half_turn(Vec2d centre, double from, double to, double side)
@@ -43,17 +53,16 @@ EntrySpiral entry_spiral(SweptArea& swept,
         side = -side;
         at = to;
     };
-    const double first = std::min(kFirstTurn * swept.radius(), radius);
+    const double most = kShare * limits.max_engagement;
+    const double first = std::min(first_turn(swept.radius(), most, limits.tolerance), radius);
     for (std::size_t i = 0; i < kFirstTurnEdges; ++i) {
         add(first);
     }
-    const double most = kShare * limits.max_engagement;
     const auto bound = [&](double to) {
         return swept.engagement_bound(half_turn(centre, at, to, side), most, limits.tolerance);
     };
-    // Half a turn at the same radius ends the spiral.
-    for (double last = 0.0; last < at;) {
-        last = at;
+    double whole = at;  // mm: radius of the largest whole turn
+    while (at < radius) {
         double to = std::min(radius, kMostGrowth * at);
         if (bound(to) > most) {
             double good = at;
@@ -61,14 +70,22 @@ EntrySpiral entry_spiral(SweptArea& swept,
                 const double middle = 0.5 * (good + to);
                 (bound(middle) <= most ? good : to) = middle;
             }
-            to = good < kLeastGrowth * at ? at : good;
+            to = good;
+        }
+        if (to < kLeastGrowth * at) {
+            break;
         }
         spiral.engagement_bound = std::max(spiral.engagement_bound, bound(to));
+        whole = at;
         add(to);
     }
-    // The last two half turns are a circle.
-    swept.add_disc(centre, swept.radius() + std::max(at - limits.tolerance, 0.0));
-    spiral.radius = at;
+    if (whole < at && bound(at) <= limits.max_engagement) {
+        spiral.engagement_bound = std::max(spiral.engagement_bound, bound(at));
+        add(at);
+        whole = at;
+    }
+    swept.add_disc(centre, swept.radius() + std::max(whole - limits.tolerance, 0.0));
+    spiral.radius = whole;
     return spiral;
 }
 

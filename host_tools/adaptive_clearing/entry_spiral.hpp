@@ -32,7 +32,8 @@ constexpr std::size_t kFirstTurnEdges = 3;
 
 // Sweeps the hole and the spiral.
 //
-// radius  mm, > 0: the last turn's; it is smaller if a turn cannot be widened within the limit
+// radius  mm, > 0: the last turn's; it is smaller if a turn cannot be widened within the limit. One
+//         of hardly more than nothing is a first turn alone.
 EntrySpiral entry_spiral(SweptArea& swept,
                          Vec2d centre,
                          double radius,

@@ -73,11 +73,24 @@ TEST(EntrySpirals, SweepTheWholeHole)
     }
 }
 
-TEST(EntrySpirals, OfAHoleWithHardlyRoomIsItsFirstTurn)
+TEST(EntrySpirals, OfAHoleWithHardlyRoomAreAFirstTurnAlone)
 {
-    const Spiral spiral{0.06, 60.0};
-    DOUBLES_EQUAL(0.06, spiral.found.radius, 1e-12);
-    CHECK(spiral.found.path.size() <= kFirstTurnEdges + 2);
+    for (const double radius : {0.03, 0.06, 0.12}) {
+        const Spiral spiral{radius, 60.0};
+        DOUBLES_EQUAL(radius, spiral.found.radius, 1e-12);
+        LONGS_EQUAL(kFirstTurnEdges, spiral.found.path.size());
+        DOUBLES_EQUAL(0.0, spiral.found.engagement_bound, 1e-12);
+    }
+}
+
+TEST(EntrySpirals, OfCoarseChordsKeepTheEngagementToo)
+{
+    for (const double degrees : {10.0, 35.0, 60.0, 100.0}) {
+        SweptArea swept{{-4, -4, 4, 4}, 1.0};
+        const EntrySpiral found = entry_spiral(swept, {0, 0}, 0.3, {degrees * kDegrees, 0.01});
+        CHECK(found.engagement_bound <= degrees * kDegrees);
+        CHECK(found.radius > 0.1 && found.radius <= 0.3);
+    }
 }
 
 }  // namespace
