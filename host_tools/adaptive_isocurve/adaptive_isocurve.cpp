@@ -131,11 +131,17 @@ public:
             scallop_check_->add_rim_passes(static_cast<int>(k),
                                            [&](const Points& pass) { add_pass(pass); });
         }
+        const bool checked = scallop_check_.has_value();
+        if (checked) {
+            beside_edges_ = std::max(beside_edges_, scallop_check_->left_beside_edges());
+            // Its cutters and proofs are most of the memory, and links need as much.
+            scallop_check_.reset();
+        }
         report(kMissingDone);
         PlannedOperation planned = work_.finish(spacing_, scallop_);
         report_uncovered_points(planned.stats, uncovered, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
-        if (scallop_check_) {
+        if (checked) {
             planned.stats.counts.emplace_back("cells_share", cells_share_);
         }
         report_left_beside_edges(planned.stats);
@@ -169,15 +175,13 @@ private:
 
     void report_left_beside_edges(OperationStats& stats) const
     {
-        const double left =
-            std::max(beside_edges_, scallop_check_ ? scallop_check_->left_beside_edges() : 0);
-        if (left > scallop_) {
-            stats.counts.emplace_back("left_beside_edges_mm", left);
+        if (beside_edges_ > scallop_) {
+            stats.counts.emplace_back("left_beside_edges_mm", beside_edges_);
             stats.warnings.push_back(fmt::format(
                 "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
                 "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
                 "ball would gouge from the side",
-                left));
+                beside_edges_));
         }
     }
 
@@ -445,7 +449,7 @@ private:
     double scallop_{};
     std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface: the scallop is too high
     double cells_share_{};   // of the surfaces' domains: examined by the scallop check
-    double beside_edges_{};  // mm: left there where there is no scallop check
+    double beside_edges_{};  // mm: left there
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};
