@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
+#include "host_tools/adaptive_isocurve/share_of_count.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
@@ -59,26 +59,11 @@ constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kCurvesAtOnce = 32;
 constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
-// Reports the share that is done, for use by several threads.
-class ShareOfCount {
-public:
-    ShareOfCount(std::size_t all, std::function<void(double)> report)
-        : all_{static_cast<double>(all)}, report_{std::move(report)}
-    {
-    }
-
-    void count()
-    {
-        const std::lock_guard lock{guard_};
-        report_(static_cast<double>(++done_) / all_);
-    }
-
-private:
-    double all_;
-    std::function<void(double)> report_;
-    std::mutex guard_;
-    std::size_t done_{0};
-};
+std::string place_of_faces(const Operation& operation)
+{
+    return operation.floor_files.size() == 1 ? " of " + operation.floor_files.front()
+                                             : " of the floor";
+}
 
 // Shares of the progress.
 constexpr double kPassesDone = 0.4;
@@ -286,10 +271,7 @@ private:
 
     cancellation::Part part_of(int surface) const
     {
-        const std::string where = operation_.floor_files.size() == 1
-                                      ? " of " + operation_.floor_files.front()
-                                      : std::string{" of the floor"};
-        return {"face ", surface + 1, where};
+        return {"face ", surface + 1, place_of_faces(operation_)};
     }
 
     // The passes along one isocurve.
@@ -463,6 +445,8 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     const bool mesh = !complete && !operation.mesh.empty();
     std::optional<IsocurvePlanner> planner;
     if (!mesh) {
+        const cancellation::Part part{"the model of ", static_cast<int>(operation.floor.size()),
+                                      " faces" + place_of_faces(operation)};
         planner.emplace(job, operation);
     }
     PlannedOperation finish;
