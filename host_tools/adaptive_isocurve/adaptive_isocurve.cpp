@@ -211,6 +211,7 @@ private:
 
     std::size_t add_surface(int surface, bool complete)
     {
+        const cancellation::Part part = part_of(surface);
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         std::vector<DomainCurve> curves = selection_.curves_of(surface, complete, false);
         IsocurveScallop::Highest highest = selection_.highest_between(surface, curves);
@@ -239,7 +240,7 @@ private:
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             const part_model::PartModel::SharedQueries shared{work_.model()};
             parallel::for_each(end - begin, [&](std::size_t k) {
-                const cancellation::Part part = part_of(surface);
+                const cancellation::Part same = part_of(surface);  // of another thread
                 const part_model::PartModel::SharedQueries::Part queries{work_.model()};
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
                 done.count();
@@ -452,6 +453,11 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     PlannedOperation finish;
     const auto rough = [&] {
         if (operation.roughing) {
+            std::optional<cancellation::Part> part;
+            if (!mesh) {
+                part.emplace("the roughing of ", static_cast<int>(operation.floor.size()),
+                             " faces" + place_of_faces(operation));
+            }
             out = plan_waterline_roughing(job, operation);
         }
     };
