@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
+#include "host_tools/adaptive_isocurve/share_of_count.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
@@ -59,26 +59,11 @@ constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kCurvesAtOnce = 32;
 constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
-// Reports the share that is done, for use by several threads.
-class ShareOfCount {
-public:
-    ShareOfCount(std::size_t all, std::function<void(double)> report)
-        : all_{static_cast<double>(all)}, report_{std::move(report)}
-    {
-    }
-
-    void count()
-    {
-        const std::lock_guard lock{guard_};
-        report_(static_cast<double>(++done_) / all_);
-    }
-
-private:
-    double all_;
-    std::function<void(double)> report_;
-    std::mutex guard_;
-    std::size_t done_{0};
-};
+std::string place_of_faces(const Operation& operation)
+{
+    return operation.floor_files.size() == 1 ? " of " + operation.floor_files.front()
+                                             : " of the floor";
+}
 
 // Shares of the progress.
 constexpr double kPassesDone = 0.4;
@@ -131,11 +116,17 @@ public:
             scallop_check_->add_rim_passes(static_cast<int>(k),
                                            [&](const Points& pass) { add_pass(pass); });
         }
+        const bool checked = scallop_check_.has_value();
+        if (checked) {
+            beside_edges_ = std::max(beside_edges_, scallop_check_->left_beside_edges());
+            // Its cutters and proofs are most of the memory, and links need as much.
+            scallop_check_.reset();
+        }
         report(kMissingDone);
         PlannedOperation planned = work_.finish(spacing_, scallop_);
         report_uncovered_points(planned.stats, uncovered, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
-        if (scallop_check_) {
+        if (checked) {
             planned.stats.counts.emplace_back("cells_share", cells_share_);
         }
         report_left_beside_edges(planned.stats);
@@ -169,15 +160,13 @@ private:
 
     void report_left_beside_edges(OperationStats& stats) const
     {
-        const double left =
-            std::max(beside_edges_, scallop_check_ ? scallop_check_->left_beside_edges() : 0);
-        if (left > scallop_) {
-            stats.counts.emplace_back("left_beside_edges_mm", left);
+        if (beside_edges_ > scallop_) {
+            stats.counts.emplace_back("left_beside_edges_mm", beside_edges_);
             stats.warnings.push_back(fmt::format(
                 "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
                 "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
                 "ball would gouge from the side",
-                left));
+                beside_edges_));
         }
     }
 
@@ -222,6 +211,7 @@ private:
 
     std::size_t add_surface(int surface, bool complete)
     {
+        const cancellation::Part part = part_of(surface);
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         std::vector<DomainCurve> curves = selection_.curves_of(surface, complete, false);
         IsocurveScallop::Highest highest = selection_.highest_between(surface, curves);
@@ -250,7 +240,7 @@ private:
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             const part_model::PartModel::SharedQueries shared{work_.model()};
             parallel::for_each(end - begin, [&](std::size_t k) {
-                const cancellation::Part part = part_of(surface);
+                const cancellation::Part same = part_of(surface);  // of another thread
                 const part_model::PartModel::SharedQueries::Part queries{work_.model()};
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
                 done.count();
@@ -282,10 +272,7 @@ private:
 
     cancellation::Part part_of(int surface) const
     {
-        const std::string where = operation_.floor_files.size() == 1
-                                      ? " of " + operation_.floor_files.front()
-                                      : std::string{" of the floor"};
-        return {"face ", surface + 1, where};
+        return {"face ", surface + 1, place_of_faces(operation_)};
     }
 
     // The passes along one isocurve.
@@ -445,7 +432,7 @@ private:
     double scallop_{};
     std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface: the scallop is too high
     double cells_share_{};   // of the surfaces' domains: examined by the scallop check
-    double beside_edges_{};  // mm: left there where there is no scallop check
+    double beside_edges_{};  // mm: left there
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};
@@ -459,11 +446,18 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     const bool mesh = !complete && !operation.mesh.empty();
     std::optional<IsocurvePlanner> planner;
     if (!mesh) {
+        const cancellation::Part part{"the model of ", static_cast<int>(operation.floor.size()),
+                                      " faces" + place_of_faces(operation)};
         planner.emplace(job, operation);
     }
     PlannedOperation finish;
     const auto rough = [&] {
         if (operation.roughing) {
+            std::optional<cancellation::Part> part;
+            if (!mesh) {
+                part.emplace("the roughing of ", static_cast<int>(operation.floor.size()),
+                             " faces" + place_of_faces(operation));
+            }
             out = plan_waterline_roughing(job, operation);
         }
     };

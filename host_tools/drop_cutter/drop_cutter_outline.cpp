@@ -106,8 +106,7 @@ void DropCutter::State::measure_outline(Piece& piece)
     }
     piece.outlined = true;
     end_sides(outline);
-    piece.outline = static_cast<std::uint32_t>(outlines_.size());
-    outlines_.push_back(outline);
+    piece.outline = add_outline(outline);
 }
 
 // Lower bound of the distance of a point outside the outline, mm; 0 or less inside.

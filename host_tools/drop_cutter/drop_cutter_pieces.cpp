@@ -317,8 +317,10 @@ void DropCutter::State::halve(std::uint32_t index)
     const std::size_t count = by_u ? rows : columns;
     const std::size_t stride = by_u ? columns : 1;
     const std::size_t base = nets_.size();
+    make_room(nets_, size);
     nets_.resize(base + size);
     if (patch.weighted) {
+        make_room(weights_, base + size - weights_.size());
         weights_.resize(base + size);
     }
     for (std::size_t line = 0; line < lines; ++line) {
@@ -330,6 +332,7 @@ void DropCutter::State::halve(std::uint32_t index)
     }
     const auto child = static_cast<std::uint32_t>(pieces_.size());
     pieces_[index].child = child;
+    make_room(pieces_, 2);
     pieces_.insert(pieces_.end(), 2, piece);
     Piece& first = pieces_[child];
     Piece& second = pieces_[child + 1];

@@ -127,6 +127,20 @@ struct DropCutter::State {
     }
     void halve(std::uint32_t piece);
     void forget_many_halves();
+    // Room for `more` elements. Doubled, vectors would hold as much again as the halves kept.
+    template <class T>
+    static void make_room(std::vector<T>& in, std::size_t more)
+    {
+        if (in.capacity() - in.size() < more) {
+            in.reserve(in.size() + std::max(more, in.size() / 8));
+        }
+    }
+    std::uint32_t add_outline(const Outline& outline)
+    {
+        make_room(outlines_, 1);
+        outlines_.push_back(outline);
+        return static_cast<std::uint32_t>(outlines_.size() - 1);
+    }
     void measure(Piece& piece);
     void measure_plane(Piece& piece) const;
     void measure_wall(Piece& piece, Vec3d normal) const;

@@ -200,8 +200,7 @@ void DropCutter::State::measure_remnant(Piece& piece)
     if (measured) {
         outlines_[piece.outline] = outline;
     } else {
-        piece.outline = static_cast<std::uint32_t>(outlines_.size());
-        outlines_.push_back(outline);
+        piece.outline = add_outline(outline);
     }
 }
 

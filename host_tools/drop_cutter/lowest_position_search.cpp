@@ -245,6 +245,8 @@ LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPa
         }
         part.contact = at->second;
     }
+    blocked.shrink_to_fit();
+    proof.contacts.shrink_to_fit();
     proof.parts = std::move(blocked);
     return proof;
 }

@@ -1,5 +1,6 @@
 // Cells are shared out to copies of the check, the same cells to the same copy for any number of threads.
 #include <algorithm>
+#include <mutex>
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
@@ -16,6 +17,60 @@ constexpr std::size_t kCellsAtOnce = 4;  // of a copy, before cells of the model
 constexpr std::size_t kFindingsAtOnce = 16;
 constexpr double kSharedCell = 24;  // in stepovers: larger cells are divided before
 constexpr int kSharedHalvings = 12;
+
+// Runs of `at_once` numbers below a count, dealt out to the copies in turn. A copy takes its runs in
+// order, so what it finds does not depend on the threads; the copies do not wait for each other.
+class DealtRuns {
+public:
+    DealtRuns(std::size_t count, std::size_t at_once, const std::function<void(double)>& progress)
+        : count_{count}, at_once_{at_once}, progress_{progress}
+    {
+        for (std::size_t copy = 0; copy < kCopies; ++copy) {
+            next_[copy] = copy * at_once;
+        }
+    }
+
+    struct Run {
+        std::size_t copy;
+        std::size_t begin;
+        std::size_t end;
+    };
+    // The next run of the copy that is farthest behind, of those that are free; none at the end.
+    std::optional<Run> take()
+    {
+        const std::lock_guard lock{guard_};
+        std::size_t copy = kCopies;
+        for (std::size_t k = 0; k < kCopies; ++k) {
+            const bool waits = !busy_[k] && next_[k] < count_;
+            if (waits && (copy == kCopies || next_[k] < next_[copy])) {
+                copy = k;
+            }
+        }
+        if (copy == kCopies) {
+            return std::nullopt;
+        }
+        busy_[copy] = true;
+        return Run{copy, next_[copy], std::min(count_, next_[copy] + at_once_)};
+    }
+
+    void give_back(const Run& run)
+    {
+        const std::lock_guard lock{guard_};
+        busy_[run.copy] = false;
+        next_[run.copy] += kCopies * at_once_;
+        done_ += run.end - run.begin;
+        progress_(static_cast<double>(done_) / static_cast<double>(count_));
+    }
+
+private:
+    std::size_t count_;
+    std::size_t at_once_;
+    const std::function<void(double)>& progress_;
+    std::mutex guard_;
+    std::array<std::size_t, kCopies> next_{};
+    std::array<bool, kCopies> busy_{};
+    std::size_t done_{0};
+};
 
 }  // namespace
 
@@ -40,14 +95,16 @@ void ScallopCheck::share_out(std::size_t count,
     while (copies_.size() < kCopies) {
         copies_.push_back(std::unique_ptr<ScallopCheck>{new ScallopCheck{*this, ForThread{}}});
     }
-    for (std::size_t begin = 0; begin < count; begin += kCopies * at_once) {
-        progress(static_cast<double>(begin) / static_cast<double>(count));
+    {
+        DealtRuns runs{count, at_once, progress};
         const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
-        parallel::for_each(kCopies, [&](std::size_t copy) {
-            const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
-            const std::size_t first = begin + copy * at_once;
-            for (std::size_t k = first; k < std::min(count, first + at_once); ++k) {
-                work(*copies_[copy], k);
+        parallel::for_each(kCopies, [&](std::size_t) {
+            while (const auto run = runs.take()) {
+                const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
+                for (std::size_t k = run->begin; k < run->end; ++k) {
+                    work(*copies_[run->copy], k);
+                }
+                runs.give_back(*run);
             }
         });
     }

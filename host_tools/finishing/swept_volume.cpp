@@ -68,11 +68,13 @@ void SweptVolume::add(const std::vector<Vec3d>& tips)
 {
     const Vec3d up{0, 0, radius_};
     for (std::size_t k = 1; k < tips.size(); ++k) {
-        const Move move{tips[k - 1] + up, tips[k] + up};
+        const Vec3d from = tips[k - 1] + up;
+        const Vec3d to = tips[k] + up;
+        const double length = std::hypot(to.x - from.x, to.y - from.y);
+        const Move move{from, to, length};
         const std::uint32_t number = static_cast<std::uint32_t>(moves_.size());
         moves_.push_back(move);
         const double low = std::min(move.from.z, move.to.z);
-        const double length = std::hypot(move.to.x - move.from.x, move.to.y - move.from.y);
         const int parts = std::max(1, static_cast<int>(std::ceil(4 * length / pitch_)));
         for (int part = 0; part <= parts; ++part) {
             const Vec3d at =
@@ -162,7 +164,7 @@ bool SweptVolume::passes_near(std::uint32_t move, Vec3d point) const
 std::optional<double> SweptVolume::lowest_share(const Move& move, double x, double y) const
 {
     const Vec3d way = move.to - move.from;
-    const double length = std::hypot(way.x, way.y);
+    const double length = move.length;
     const double off_x = x - move.from.x;
     const double off_y = y - move.from.y;
     const double away = off_x * off_x + off_y * off_y;

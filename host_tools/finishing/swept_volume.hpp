@@ -21,6 +21,7 @@ public:
     struct Move {
         Vec3d from;
         Vec3d to;
+        double length;  // mm, in plan
     };
 
     // radius  mm, of the ball

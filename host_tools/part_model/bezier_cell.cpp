@@ -13,16 +13,17 @@ using nurbs::SurfacePoint;
 namespace {
 
 constexpr std::size_t kMostControls = 32;
-using Row = std::array<double, kMostControls>;
 
-// Bernstein polynomials with first and second derivatives.
+// Bernstein polynomials with first and second derivatives, of up to `Room` control points.
+template <std::size_t Room>
 struct Basis {
-    Row value;
-    Row first;
-    Row second;
+    std::array<double, Room> value;
+    std::array<double, Room> first;
+    std::array<double, Room> second;
 };
 
-void raise_degree(Row& row, std::size_t degree, double s)
+template <std::size_t Room>
+void raise_degree(std::array<double, Room>& row, std::size_t degree, double s)
 {
     double carried = 0;
     for (std::size_t i = 0; i < degree; ++i) {
@@ -33,7 +34,10 @@ void raise_degree(Row& row, std::size_t degree, double s)
     row[degree] = carried;
 }
 
-void differences(const Row& lower, std::size_t degree, Row& out)
+template <std::size_t Room>
+void differences(const std::array<double, Room>& lower,
+                 std::size_t degree,
+                 std::array<double, Room>& out)
 {
     const double p = static_cast<double>(degree);
     out[0] = -p * lower[0];
@@ -43,15 +47,16 @@ void differences(const Row& lower, std::size_t degree, Row& out)
     out[degree] = p * lower[degree - 1];
 }
 
-void bernstein(std::size_t degree, double s, Basis& out)
+template <std::size_t Room>
+void bernstein(std::size_t degree, double s, Basis<Room>& out)
 {
-    Row row;
+    std::array<double, Room> row;
     row[0] = 1;
     for (std::size_t k = 1; k + 1 < degree; ++k) {
         raise_degree(row, k, s);
     }
     if (degree >= 2) {
-        Row slope;
+        std::array<double, Room> slope;
         differences(row, degree - 1, slope);
         differences(slope, degree, out.second);
         raise_degree(row, degree - 1, s);
@@ -177,6 +182,85 @@ SurfacePoint tangents(const Vec3d* points, double s, double t)
             {}};
 }
 
+// Enough for a basis of so many control points, where they are known as this is compiled.
+template <class Count>
+constexpr std::size_t kRoomFor = kMostControls;
+template <std::size_t Count>
+constexpr std::size_t kRoomFor<std::integral_constant<std::size_t, Count>> =
+    std::max<std::size_t>(Count, 2);
+
+// Calls evaluate(count) with a constant for the usual numbers of control points: loops of known
+// length are unrolled, and give the same to the last bit.
+template <class Evaluate>
+SurfacePoint with_fixed_count(std::size_t count, const Evaluate& evaluate)
+{
+    switch (count) {
+        case 2:
+            return evaluate(std::integral_constant<std::size_t, 2>{});
+        case 3:
+            return evaluate(std::integral_constant<std::size_t, 3>{});
+        case 4:
+            return evaluate(std::integral_constant<std::size_t, 4>{});
+        case 6:
+            return evaluate(std::integral_constant<std::size_t, 6>{});
+        default:
+            return evaluate(count);
+    }
+}
+
+// weights  null: all 1
+template <class CountS, class CountT>
+SurfacePoint rational_at(
+    CountS count_s, CountT count_t, const Vec3d* points, const double* weights, double s, double t)
+{
+    Basis<kRoomFor<CountS>> bs;
+    Basis<kRoomFor<CountT>> bt;
+    bernstein(count_s - 1, s, bs);
+    bernstein(count_t - 1, t, bt);
+    SurfacePoint out;
+    double w = 0;
+    double ws = 0;
+    double wt = 0;
+    double wss = 0;
+    double wst = 0;
+    double wtt = 0;
+    for (std::size_t i = 0; i < count_s; ++i) {
+        Vec3d p;
+        Vec3d pt;
+        Vec3d ptt;
+        const Vec3d* row = &points[i * count_t];
+        for (std::size_t j = 0; j < count_t; ++j) {
+            p = p + row[j] * bt.value[j];
+            pt = pt + row[j] * bt.first[j];
+            ptt = ptt + row[j] * bt.second[j];
+        }
+        out.point = out.point + p * bs.value[i];
+        out.du = out.du + p * bs.first[i];
+        out.duu = out.duu + p * bs.second[i];
+        out.dv = out.dv + pt * bs.value[i];
+        out.duv = out.duv + pt * bs.first[i];
+        out.dvv = out.dvv + ptt * bs.value[i];
+        for (std::size_t j = 0; weights != nullptr && j < count_t; ++j) {
+            const double weight = weights[i * count_t + j];
+            w += weight * bt.value[j] * bs.value[i];
+            ws += weight * bt.value[j] * bs.first[i];
+            wss += weight * bt.value[j] * bs.second[i];
+            wt += weight * bt.first[j] * bs.value[i];
+            wst += weight * bt.first[j] * bs.first[i];
+            wtt += weight * bt.second[j] * bs.value[i];
+        }
+    }
+    if (weights != nullptr) {
+        out.point = out.point / w;
+        out.du = (out.du - out.point * ws) / w;
+        out.dv = (out.dv - out.point * wt) / w;
+        out.duu = (out.duu - out.du * (2 * ws) - out.point * wss) / w;
+        out.duv = (out.duv - out.du * wt - out.dv * ws - out.point * wst) / w;
+        out.dvv = (out.dvv - out.dv * (2 * wt) - out.point * wtt) / w;
+    }
+    return out;
+}
+
 // De Casteljau's algorithm at the middle, for `count` values `stride` apart.
 template <class T>
 void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t stride)
@@ -284,52 +368,13 @@ SurfacePoint BezierCell::bends_on_cut(const Curve4& cut, double t)
 // Any degree, and rational cells.
 SurfacePoint BezierCell::at_any_degree(double s, double t) const
 {
-    Basis bs;
-    Basis bt;
-    bernstein(count_s_ - 1, s, bs);
-    bernstein(count_t_ - 1, t, bt);
-    SurfacePoint out;
-    double w = 0;
-    double ws = 0;
-    double wt = 0;
-    double wss = 0;
-    double wst = 0;
-    double wtt = 0;
-    for (std::size_t i = 0; i < count_s_; ++i) {
-        Vec3d p;
-        Vec3d pt;
-        Vec3d ptt;
-        const Vec3d* row = &points_[i * count_t_];
-        for (std::size_t j = 0; j < count_t_; ++j) {
-            p = p + row[j] * bt.value[j];
-            pt = pt + row[j] * bt.first[j];
-            ptt = ptt + row[j] * bt.second[j];
-        }
-        out.point = out.point + p * bs.value[i];
-        out.du = out.du + p * bs.first[i];
-        out.duu = out.duu + p * bs.second[i];
-        out.dv = out.dv + pt * bs.value[i];
-        out.duv = out.duv + pt * bs.first[i];
-        out.dvv = out.dvv + ptt * bs.value[i];
-        for (std::size_t j = 0; j < (weights_.empty() ? 0 : count_t_); ++j) {
-            const double weight = weights_[i * count_t_ + j];
-            w += weight * bt.value[j] * bs.value[i];
-            ws += weight * bt.value[j] * bs.first[i];
-            wss += weight * bt.value[j] * bs.second[i];
-            wt += weight * bt.first[j] * bs.value[i];
-            wst += weight * bt.first[j] * bs.first[i];
-            wtt += weight * bt.second[j] * bs.value[i];
-        }
-    }
-    if (!weights_.empty()) {
-        out.point = out.point / w;
-        out.du = (out.du - out.point * ws) / w;
-        out.dv = (out.dv - out.point * wt) / w;
-        out.duu = (out.duu - out.du * (2 * ws) - out.point * wss) / w;
-        out.duv = (out.duv - out.du * wt - out.dv * ws - out.point * wst) / w;
-        out.dvv = (out.dvv - out.dv * (2 * wt) - out.point * wtt) / w;
-    }
-    return out;
+    const double* const weights = weights_.empty() ? nullptr : weights_.data();
+    return with_fixed_count(count_s_, [&](auto count_s) {
+        return with_fixed_count(count_t_, [&](auto count_t) {
+            return rational_at<decltype(count_s), decltype(count_t)>(count_s, count_t,
+                                                                     points_.data(), weights, s, t);
+        });
+    });
 }
 
 bool BezierCell::is_halved_across_u() const

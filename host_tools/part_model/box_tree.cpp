@@ -14,25 +14,27 @@ struct Item {
     std::uint32_t number;
 };
 
+// Makes tree.nodes[here] the root of a tree over the items [begin, end).
+//
 // box_of(number, low, high) extends a box by that of an item.
 template <class BoxOf>
-int build(BoxTree& tree,
-          std::vector<Item>& items,
-          std::size_t begin,
-          std::size_t end,
-          std::size_t leaf,
-          const BoxOf& box_of)
+void build(BoxTree& tree,
+           std::size_t here,
+           std::vector<Item>& items,
+           std::size_t begin,
+           std::size_t end,
+           std::size_t leaf,
+           const BoxOf& box_of)
 {
-    const int here = static_cast<int>(tree.nodes.size());
-    tree.nodes.push_back({{kInfinite, kInfinite, kInfinite},
-                          {-kInfinite, -kInfinite, -kInfinite},
-                          {-static_cast<int>(begin) - 1, static_cast<int>(end - begin)}});
+    BoxTree::Node node{{kInfinite, kInfinite, kInfinite},
+                       {-kInfinite, -kInfinite, -kInfinite},
+                       {-static_cast<int>(begin) - 1, static_cast<int>(end - begin)}};
     if (end - begin <= leaf) {
-        BoxTree::Node& node = tree.nodes.back();
         for (std::size_t k = begin; k < end; ++k) {
             box_of(items[k].number, node.low, node.high);
         }
-        return here;
+        tree.nodes[here] = node;
+        return;
     }
     std::array<float, 3> low = items[begin].middle;
     std::array<float, 3> high = low;
@@ -53,17 +55,19 @@ int build(BoxTree& tree,
     std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
         return a.middle[axis] < b.middle[axis];
     });
-    const int first = build(tree, items, begin, middle, leaf, box_of);
-    const int second = build(tree, items, middle, end, leaf, box_of);
-    BoxTree::Node& node = tree.nodes[static_cast<std::size_t>(here)];
-    const BoxTree::Node& a = tree.nodes[static_cast<std::size_t>(first)];
-    const BoxTree::Node& b = tree.nodes[static_cast<std::size_t>(second)];
+    // Side by side: a search looks at both boxes at once.
+    const std::size_t first = tree.nodes.size();
+    tree.nodes.resize(first + 2);
+    build(tree, first, items, begin, middle, leaf, box_of);
+    build(tree, first + 1, items, middle, end, leaf, box_of);
+    const BoxTree::Node& a = tree.nodes[first];
+    const BoxTree::Node& b = tree.nodes[first + 1];
     for (unsigned k = 0; k < 3; ++k) {
         node.low[k] = std::min(a.low[k], b.low[k]);
         node.high[k] = std::max(a.high[k], b.high[k]);
     }
-    node.child = {first, second};
-    return here;
+    node.child = {static_cast<int>(first), static_cast<int>(first + 1)};
+    tree.nodes[here] = node;
 }
 
 // The tree over items 0 to count - 1.
@@ -90,7 +94,8 @@ BoxTree tree_over(std::size_t count,
     }
     // No leaf is less than about half full.
     tree.nodes.reserve(2 * (count / std::max<std::size_t>(1, (leaf + 1) / 2) + 1));
-    build(tree, items, 0, count, leaf, box_of);
+    tree.nodes.resize(1);
+    build(tree, 0, items, 0, count, leaf, box_of);
     order.reserve(count);
     for (const Item& item : items) {
         order.push_back(item.number);

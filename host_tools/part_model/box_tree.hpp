@@ -14,7 +14,7 @@ struct BoxTree {
     struct Node {
         Vec3d low;
         Vec3d high;
-        // Children; a leaf has child[0] < 0 and holds child[1] items from -child[0] - 1 on.
+        // Children, side by side; a leaf has child[0] < 0 and holds child[1] items from -child[0] - 1 on.
         std::array<int, 2> child;
     };
     std::vector<Node> nodes;  // the first is the root

@@ -269,8 +269,12 @@ public:
             if (far.distance < near.distance) {
                 std::swap(near, far);
             }
-            stack[count++] = far;
-            stack[count++] = near;
+            if (far.distance < found_) {
+                stack[count++] = far;
+            }
+            if (near.distance < found_) {
+                stack[count++] = near;
+            }
         }
         return {std::min(bound_, found_), place_};
     }

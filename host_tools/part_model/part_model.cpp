@@ -139,7 +139,9 @@ PartModel::PartModel(const std::vector<Surface>& surfaces, double edge_error)
             state.edge_surface.push_back(static_cast<int>(k));
         }
     }
+    state.edges.shrink_to_fit();
     std::vector<std::array<Vec3d, 2>> boxes;
+    boxes.reserve(state.cells.size() + state.edges.size());
     for (const auto& cell : state.cells) {
         boxes.push_back({cell->low(), cell->high()});
     }

@@ -198,6 +198,7 @@ void TrimRegion::make_rows()
     }
     low_ = high_ = sides_.front()[0].y;
     for (const auto& [a, b] : sides_) {
+        largest_u_ = std::max({largest_u_, std::abs(a.x), std::abs(b.x)});
         low_ = std::min({low_, a.y, b.y});
         high_ = std::max({high_, a.y, b.y});
     }
@@ -210,7 +211,37 @@ void TrimRegion::make_rows()
             rows_[at].push_back(static_cast<std::uint32_t>(k));
         }
     }
+    for (const std::vector<std::uint32_t>& row : rows_) {
+        std::vector<std::array<double, 2>> blocks((row.size() + kBlock - 1) / kBlock,
+                                                  {kInfinite, -kInfinite});
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            auto& [low, high] = blocks[k / kBlock];
+            const auto& [a, b] = sides_[row[k]];
+            low = std::min({low, a.x, b.x});
+            high = std::max({high, a.x, b.x});
+        }
+        blocks_.push_back(std::move(blocks));
+    }
 }
+
+template <class Visit>
+void TrimRegion::visit_sides(std::size_t row, double low, double high, const Visit& visit) const
+{
+    const std::vector<std::uint32_t>& sides = rows_[row];
+    const std::vector<std::array<double, 2>>& blocks = blocks_[row];
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        if (blocks[block][0] > high || blocks[block][1] < low) {
+            continue;
+        }
+        const std::size_t end = std::min(sides.size(), (block + 1) * kBlock);
+        for (std::size_t k = block * kBlock; k < end; ++k) {
+            visit(sides[k]);
+        }
+    }
+}
+
+// Where a side crosses a row is rounded: it counts as left of u no nearer than this.
+double TrimRegion::left_of(double u) const { return u - kLengthRounding * largest_u_; }
 
 bool TrimRegion::inside(double u, double v) const
 {
@@ -218,12 +249,12 @@ bool TrimRegion::inside(double u, double v) const
         return true;
     }
     bool in = false;
-    for (const std::uint32_t side : rows_[row(v)]) {
+    visit_sides(row(v), left_of(u), kInfinite, [&](std::uint32_t side) {
         const auto& [a, b] = sides_[side];
         if ((a.y > v) != (b.y > v) && u < a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y)) {
             in = !in;
         }
-    }
+    });
     return in;
 }
 
@@ -243,10 +274,13 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
     const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
     for (std::size_t at = first; at <= last; ++at) {
-        for (const std::uint32_t side : rows_[at]) {
-            if (is_seen_first(side, at, first) && part_in(sides_[side], box.low, box.high)) {
-                return Part::kCut;
-            }
+        bool cut = false;
+        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t side) {
+            cut =
+                cut || (is_seen_first(side, at, first) && part_in(sides_[side], box.low, box.high));
+        });
+        if (cut) {
+            return Part::kCut;
         }
     }
     return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside
@@ -257,14 +291,14 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
 std::array<bool, 2> TrimRegion::inside_at(const std::array<double, 2>& u, double v) const
 {
     std::array<bool, 2> in{false, false};
-    for (const std::uint32_t side : rows_[row(v)]) {
+    visit_sides(row(v), left_of(std::min(u[0], u[1])), kInfinite, [&](std::uint32_t side) {
         const auto& [a, b] = sides_[side];
         if ((a.y > v) != (b.y > v)) {
             const double crossed = a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y);
             in[0] = in[0] != (u[0] < crossed);
             in[1] = in[1] != (u[1] < crossed);
         }
-    }
+    });
     return in;
 }
 
@@ -280,9 +314,9 @@ TrimRegion::Part TrimRegion::remnant(
     const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
     for (std::size_t at = first; at <= last; ++at) {
-        for (const std::uint32_t index : rows_[at]) {
+        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t index) {
             if (!is_seen_first(index, at, first)) {
-                continue;
+                return;
             }
             const std::array<Vec2d, 2>& side = sides_[index];
             if (const auto part = part_in(side, box.low, box.high)) {
@@ -290,7 +324,7 @@ TrimRegion::Part TrimRegion::remnant(
                 out.edge.push_back(side[0] + way * (*part)[0]);
                 out.edge.push_back(side[0] + way * (*part)[1]);
             }
-        }
+        });
     }
     if (out.edge.empty()) {
         return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside

@@ -49,8 +49,12 @@ private:
     };
     static Box widened(double u_begin, double u_end, double v_begin, double v_end);
     std::size_t row(double v) const;
+    double left_of(double u) const;
     std::array<bool, 2> inside_at(const std::array<double, 2>& u, double v) const;
     void make_rows();
+    // The sides of a row, in their order, but for some that lie beside [low, high] in u.
+    template <class Visit>
+    void visit_sides(std::size_t row, double low, double high, const Visit& visit) const;
     // Whether rows from `first` on up to this one hold the side for the first time: a long side is in
     // many rows.
     bool is_seen_first(std::uint32_t side, std::size_t row, std::size_t first) const
@@ -61,9 +65,13 @@ private:
     std::vector<std::array<Vec2d, 2>> sides_;
     // The sides that touch each of the equal rows between the least and the greatest v.
     std::vector<std::vector<std::uint32_t>> rows_;
+    // Of each kBlock sides of a row: least and greatest u. An edge along u has all its sides in one row.
+    static constexpr std::size_t kBlock = 8;
+    std::vector<std::vector<std::array<double, 2>>> blocks_;
     std::vector<std::uint32_t> first_rows_;  // of each side
     double low_{};
     double high_{};
+    double largest_u_{};
     std::vector<std::vector<Vec2d>> loops_;
 };
 

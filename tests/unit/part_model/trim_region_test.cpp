@@ -160,6 +160,73 @@ TEST(TrimRegion, LeavesARemnantThatHoldsWhatIsInside)
     CHECK(count[0] > 50 && count[1] > 50 && count[2] > 50);
 }
 
+// A band whose long sides are waves so flat that hundreds of polyline sides share a few rows.
+Curve flat_band()
+{
+    constexpr int kPoints = 200;
+    Curve band;
+    band.degree = 1;
+    for (int i = 0; i < 2 * kPoints; ++i) {
+        const double share = static_cast<double>(i % kPoints) / (kPoints - 1);
+        const double wave = 2e-3 * std::sin(40 * share);
+        band.points.push_back(i < kPoints ? Vec3d{0.1 + 0.8 * share, 0.3 + wave, 0}
+                                          : Vec3d{0.9 - 0.8 * share, 0.7 + wave, 0});
+    }
+    band.points.push_back(band.points.front());
+    const std::size_t count = band.points.size();
+    band.weights.assign(count, 1.0);
+    band.knots.push_back(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        band.knots.push_back(static_cast<double>(i));
+    }
+    band.knots.push_back(static_cast<double>(count - 1));
+    return band;
+}
+
+bool is_inside_loops(const TrimRegion& region, Vec2d at)
+{
+    bool in = false;
+    for (const std::vector<Vec2d>& loop : region.loops()) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Vec2d a = loop[k];
+            const Vec2d b = loop[(k + 1) % loop.size()];
+            if ((a.y > at.y) != (b.y > at.y) &&
+                at.x < a.x + (b.x - a.x) * (at.y - a.y) / (b.y - a.y)) {
+                in = !in;
+            }
+        }
+    }
+    return in;
+}
+
+TEST(TrimRegion, AnswersByItsLoopsWhereManySidesShareARow)
+{
+    Surface surface = turned_plate({0.0, 0.0}, {1.0, 0.0}, kSide, kSide, 0.0);
+    surface.trims = {{flat_band()}};
+    const TrimRegion region{surface, kTrimEdgeError};
+    LONGS_EQUAL(1, region.loops().size());
+    CHECK(region.loops().front().size() > 300);
+    int inside = 0;
+    for (int i = 0; i < kLooks; ++i) {
+        // Half of them beside the waves.
+        const double u = std::fmod(0.618 * i, 1.0);
+        const double v =
+            i % 2 == 0 ? std::fmod(0.7548 * i, 1.0) : 0.3 + 4e-3 * (std::fmod(0.57 * i, 1.0) - 0.5);
+        const bool expected = is_inside_loops(region, {u, v});
+        CHECK_EQUAL(expected, region.inside(u, v));
+        inside += expected ? 1 : 0;
+        TrimRegion::Remnant left;
+        constexpr double kHalf = 1e-5;
+        const TrimRegion::Part part =
+            region.remnant(u - kHalf, u + kHalf, v - kHalf, v + kHalf, left);
+        CHECK(part == region.part(u - kHalf, u + kHalf, v - kHalf, v + kHalf));
+        if (part != TrimRegion::Part::kCut) {
+            CHECK_EQUAL(expected, part == TrimRegion::Part::kInside);
+        }
+    }
+    CHECK(inside > kLooks / 10 && inside < kLooks * 9 / 10);
+}
+
 TEST(TrimRegion, KeepsItsEdgesInSpaceWithinTheirError)
 {
     Surface surface = bent_sheet();
