@@ -26,15 +26,6 @@ Vec3f displacement_mm(const Block& block) noexcept
            kPathUnitsPerMillimetre;
 }
 
-PathOffset line_position(const Block& block, std::uint32_t offset) noexcept
-{
-    const auto part = static_cast<std::int64_t>(fraction(block, offset));
-    const auto scale = [part](std::int32_t whole) {
-        return static_cast<std::int32_t>((whole * part + (std::int64_t{1} << 30)) >> 31);
-    };
-    return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
-}
-
 // To the nearest integer. Precondition: |x| < 2^31.
 std::int32_t rounded(float x) noexcept
 {
@@ -261,17 +252,8 @@ void set_length(Block& block, std::uint32_t length) noexcept
     block.reciprocal_shift = shift;
 }
 
-std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept
+PathOffset curved_position(const Block& block, std::uint32_t offset) noexcept
 {
-    const std::uint64_t product = static_cast<std::uint64_t>(offset) * block.reciprocal;
-    return static_cast<std::uint32_t>(product >> (block.reciprocal_shift + 1U));
-}
-
-PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
-{
-    if (offset >= block.length) {
-        return block.displacement;
-    }
     switch (block.shape) {
         case BlockShape::kArc:
             return arc_position(block.arc, offset);
