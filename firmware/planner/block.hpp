@@ -72,18 +72,19 @@ void set_length(Block& block, std::uint32_t length) noexcept;
 // offset / length in units of 2^-31, within 2^-30. Precondition: offset <= length.
 inline std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept
 {
-    const std::uint64_t product = static_cast<std::uint64_t>(offset) * block.reciprocal;
-    return static_cast<std::uint32_t>(product >> (block.reciprocal_shift + 1U));
+    // The offset has at most reciprocal_shift + 1 bits: its top bit goes to bit 31 at most.
+    const std::uint32_t shifted = offset << (31U - block.reciprocal_shift);
+    return static_cast<std::uint32_t>((std::uint64_t{shifted} * block.reciprocal) >> 32U);
 }
 
 // On the chord. Precondition: offset < length.
 inline PathOffset line_position(const Block& block, std::uint32_t offset) noexcept
 {
-    // Below 2^31: a product of two int32 is one instruction of the target.
+    // Below 2^31, and twice a displacement of 64 mm is, too: a product, rounded to its upper word.
     const auto part = static_cast<std::int32_t>(fraction(block, offset));
     const auto scale = [part](std::int32_t whole) {
-        return static_cast<std::int32_t>(
-            (std::int64_t{whole} * part + (std::int64_t{1} << 30)) >> 31);
+        const std::int64_t twice = std::int64_t{2 * whole} * part;
+        return static_cast<std::int32_t>((twice + (std::int64_t{1} << 31)) >> 32);
     };
     return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
 }
