@@ -86,15 +86,20 @@ void PathServo::reset(std::uint32_t filter) noexcept
 
 std::int32_t PathServo::tick(const Conditions& conditions) noexcept
 {
+    passed_stop_ = false;
     // The ends of the queue are read once: the main loop does not run meanwhile.
     Ahead ahead{queue_.interval_begin(), queue_.published(), nullptr};
-    passed_stop_ = false;
-    const float speed =
-        enter_path(ahead, conditions.may_pass) ? next_speed(ahead, conditions) : 0.0F;
+    float speed = 0;
     std::int32_t step = 0;
-    if (speed > 0) {
-        step = advance(ahead, speed);
-    } else {
+    if (ahead.begin != ahead.published) {
+        ahead.first = &queue_.interval(ahead.begin);
+        const bool inside = offset_ < ahead.first->length;
+        if (inside || pass_intervals(ahead, conditions.may_pass)) {
+            speed = next_speed(ahead, conditions);
+            step = speed > 0 ? advance(ahead, speed) : 0;
+        }
+    }
+    if (speed <= 0) {
         residue_ = 0;
     }
     speed_ = speed;
@@ -103,27 +108,31 @@ std::int32_t PathServo::tick(const Conditions& conditions) noexcept
 }
 
 // Leaves intervals that are passed. False where no path is ahead, or the filters must drain first.
-inline bool PathServo::enter_path(Ahead& ahead, bool may_pass) noexcept
+inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
 {
-    for (; ahead.begin != ahead.published; ++ahead.begin) {
-        const Interval& here = queue_.interval(ahead.begin);
-        ahead.first = &here;
-        if (offset_ < here.length) {
-            return true;
-        }
-        if (here.stop_at_end && !may_pass) {
+    const planner::Interval* here = ahead.first;
+    for (;;) {
+        if (here->stop_at_end && !may_pass) {
             return false;
         }
-        if (!here.stop_at_end && ahead.begin + 1 == ahead.published) {
+        if (!here->stop_at_end && ahead.begin + 1 == ahead.published) {
             return false;
         }
-        if (here.stop_at_end) {
+        if (here->stop_at_end) {
             passed_stop_ = true;
         }
-        offset_ -= here.length;
+        offset_ -= here->length;
         queue_.drop_interval();
+        ++ahead.begin;
+        if (ahead.begin == ahead.published) {
+            return false;
+        }
+        here = &queue_.interval(ahead.begin);
+        if (offset_ < here->length) {
+            ahead.first = here;
+            return true;
+        }
     }
-    return false;
 }
 
 [[gnu::always_inline]] inline PathServo::Bounds PathServo::bounds(const Ahead& ahead,

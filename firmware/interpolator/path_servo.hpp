@@ -51,9 +51,9 @@ private:
     struct Ahead {
         std::uint32_t begin;  // its first interval, as counted by the queue
         std::uint32_t published;
-        const planner::Interval* first;  // for enter_path() to find
+        const planner::Interval* first;  
     };
-    bool enter_path(Ahead& ahead, bool may_pass) noexcept;
+    bool pass_intervals(Ahead& ahead, bool may_pass) noexcept;
     Bounds bounds(const Ahead& ahead,
                   float greatest,
                   const OverrideFactors& factors) const noexcept;

@@ -40,7 +40,7 @@ float last_of(const std::array<float, kOrder>& points, float u) noexcept
     }
 }
 
-// point_at() of the orders that programs have. Weights of 1 change no bit, and are left out.
+// point_at() of one order. Weights of 1 change no bit, and are left out.
 template <unsigned kOrder>
 Vec3f point_of_order(const path::BezierPiece& piece, float u) noexcept
 {
@@ -316,15 +316,16 @@ Vec3f point_at(const path::BezierPiece& piece, float u) noexcept
     if (u >= 1) {
         return piece.points[piece.order - 1U];
     }
-    if (piece.order == 4) {
-        return point_of_order<4>(piece, u);
+    switch (piece.order) {
+        case 2:
+            return point_of_order<2>(piece, u);
+        case 3:
+            return point_of_order<3>(piece, u);
+        case 4:
+            return point_of_order<4>(piece, u);
+        default:
+            return point_of_order<path::kMaxOrder>(piece, u);
     }
-    if (piece.order == 5) {
-        return point_of_order<5>(piece, u);
-    }
-    Net net = net_of(piece);
-    reduce(net, piece.order, 1, u);
-    return net[0].point * (1.0F / net[0].weight);
 }
 
 }  // namespace cusp::nurbs

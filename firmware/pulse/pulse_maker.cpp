@@ -43,11 +43,13 @@ std::int32_t to_pulse_tick(float time) noexcept
     return static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F);
 }
 
-// `lines`: raised ones in the low byte, lowered ones in the high byte.
-PulseEdge edge_at(std::uint32_t tick, std::uint32_t lines) noexcept
+// Writes an edge as one word. `lines`: raised ones in the low byte, lowered ones in the high byte.
+void put_edge(PulseEdge* out, std::uint32_t tick, std::uint32_t lines) noexcept
 {
-    return {static_cast<std::uint16_t>(tick), static_cast<PulseLines>(lines & 0xFFU),
-            static_cast<PulseLines>(lines >> 8U)};
+    static_assert(sizeof(PulseEdge) == sizeof(std::uint32_t) && offsetof(PulseEdge, tick) == 0 &&
+                  offsetof(PulseEdge, raise) == 2 && offsetof(PulseEdge, lower) == 3);
+    const std::uint32_t edge = tick | lines << 16U;
+    __builtin_memcpy(out, &edge, sizeof edge);
 }
 
 // Puts the steps of one axis into the frame's edges.
@@ -233,10 +235,10 @@ void PulseMaker::compress(PulseFrame& frame) noexcept
             if constexpr (kTicksPerWord == 4) {
                 // Desktop processors predict badly which ticks have edges: written in any case,
                 // and kept where there is one. Never beyond the edge of the frame's last tick.
-                *out = edge_at(tick + k, lines);
+                put_edge(out, tick + k, lines);
                 out += lines != 0 ? 1 : 0;
             } else if (lines != 0) {
-                *out++ = edge_at(tick + k, lines);
+                put_edge(out++, tick + k, lines);
             }
         };
         // Not a loop: with one, GCC takes an instruction more for a word without edges.
