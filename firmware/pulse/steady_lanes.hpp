@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/base/pulse_frame.hpp"
 #include "firmware/pulse/step_times.hpp"
 
 namespace cusp::pulse {
@@ -11,53 +12,50 @@ namespace cusp::pulse {
 // step waits for the division of the one before; those of other axes do not.
 class SteadyLanes {
 public:
-    using Times = float __attribute__((vector_size(16)));
+    using Ticks = std::int32_t __attribute__((vector_size(16)));
 
     // Precondition: times.steady(); next() has been called.
     void put(unsigned lane, const StepTimes& times) noexcept
     {
-        set(lane, times.cubic_, times.one_step_, times.level_, times.time_);
+        c0_[lane] = times.cubic_.c0;
+        c1_[lane] = times.cubic_.c1;
+        c2_[lane] = times.cubic_.c2;
+        c3_[lane] = times.cubic_.c3;
+        twice_c2_[lane] = times.twice_c2_;
+        one_step_[lane] = times.one_step_;
+        level_[lane] = times.level_;
+        time_[lane] = times.time_;
     }
-    // Gives back the times of a lane, and lets it rest.
-    void take(unsigned lane, StepTimes& times) noexcept
+    // Gives back what put() took.
+    void take(unsigned lane, StepTimes& times) const noexcept
     {
         times.level_ = level_[lane];
         times.time_ = time_[lane];
-        rest(lane);
     }
 
-    // As StepTimes::next_steady() of all lanes. Those that rest give 0.
-    Times next() noexcept
+    // As StepTimes::next_steady() of all lanes, in pulse ticks as to_pulse_tick() has them. Empty
+    // lanes stay at 0.
+    Ticks next() noexcept
     {
-        const Times position = c0_ + time_ * (c1_ + time_ * (c2_ + time_ * c3_));
-        const Times slope = c1_ + time_ * (twice_c2_ + time_ * 3.0F * c3_);
+        const Lanes position = c0_ + time_ * (c1_ + time_ * (c2_ + time_ * c3_));
+        const Lanes slope = c1_ + time_ * (twice_c2_ + time_ * 3.0F * c3_);
         time_ += (level_ - position) / slope;
         level_ += one_step_;
-        return time_;
+        return __builtin_convertvector(time_ * static_cast<float>(kPulseTicksPerFrame) + 0.5F,
+                                       Ticks);
     }
 
 private:
-    void rest(unsigned lane) noexcept { set(lane, {0.0F, 1.0F, 0.0F, 0.0F}, 0.0F, 0.0F, 0.0F); }
-    void set(unsigned lane, const TickCubic& cubic, float one_step, float level, float time) noexcept
-    {
-        c0_[lane] = cubic.c0;
-        c1_[lane] = cubic.c1;
-        c2_[lane] = cubic.c2;
-        c3_[lane] = cubic.c3;
-        twice_c2_[lane] = 2.0F * cubic.c2;
-        one_step_[lane] = one_step;
-        level_[lane] = level;
-        time_[lane] = time;
-    }
+    using Lanes = float __attribute__((vector_size(16)));
 
-    Times c0_{};
-    Times c1_ = Times{} + 1.0F;  // at rest: a division by 1
-    Times c2_{};
-    Times c3_{};
-    Times twice_c2_{};
-    Times one_step_{};
-    Times level_{};
-    Times time_{};
+    Lanes c0_{};
+    Lanes c1_ = Lanes{} + 1.0F;  // an empty lane divides by 1
+    Lanes c2_{};
+    Lanes c3_{};
+    Lanes twice_c2_{};
+    Lanes one_step_{};
+    Lanes level_{};
+    Lanes time_{};
 };
 
 }  // namespace cusp::pulse
