@@ -31,14 +31,22 @@ void add_steady(const std::array<Run*, kAxisCount>& runs, std::int32_t steps) no
     auto first = runs[0]->writer;
     auto second = runs[kCount > 1 ? 1 : 0]->writer;
     auto third = runs[kCount > 2 ? 2 : 0]->writer;
-    for (std::int32_t step = 0; step < steps; ++step) {
-        const SteadyLanes::Ticks ticks = lanes.next();
+    const auto add = [&](const SteadyLanes::Ticks& ticks) {
         first.add(ticks[0]);
         if constexpr (kCount > 1) {
             second.add(ticks[1]);
         }
         if constexpr (kCount > 2) {
             third.add(ticks[2]);
+        }
+    };
+    if (lanes.even()) {
+        for (std::int32_t step = 0; step < steps; ++step) {
+            add(lanes.next_even());
+        }
+    } else {
+        for (std::int32_t step = 0; step < steps; ++step) {
+            add(lanes.next());
         }
     }
     runs[0]->writer = first;
