@@ -246,7 +246,6 @@ void Planner::work() noexcept
 {
     constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
     bool changed = false;
-    Block block;
     while (queue_.free_intervals() > kIntervalsOfAStretch) {
         if (next_stretch_ != stretches_) {
             add_stretch();
@@ -257,8 +256,11 @@ void Planner::work() noexcept
             (maker_.done() && !next_move())) {
             break;
         }
-        if (!maker_.done() && maker_.make(move_, queue_, block)) {
-            add_block(block);
+        if (!maker_.done()) {
+            Block block;
+            if (maker_.make(move_, queue_, block)) {
+                add_block(block);
+            }
         }
     }
     const bool cut = maker_.done() && next_stretch_ == stretches_;
