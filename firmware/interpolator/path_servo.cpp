@@ -135,9 +135,8 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
     }
 }
 
-[[gnu::always_inline]] inline PathServo::Bounds PathServo::bounds(const Ahead& ahead,
-                                           float greatest,
-                                           const OverrideFactors& factors) const noexcept
+[[gnu::always_inline]] inline PathServo::Bounds PathServo::bounds(
+    const Ahead& ahead, float greatest, const OverrideFactors& factors) const noexcept
 {
     Bounds least{greatest, greatest, kUnlimited};
     const Interval* interval = ahead.first;
@@ -168,7 +167,8 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
     }
 }
 
-[[gnu::always_inline]] inline float PathServo::next_speed(const Ahead& ahead, const Conditions& conditions) noexcept
+[[gnu::always_inline]] inline float PathServo::next_speed(const Ahead& ahead,
+                                                          const Conditions& conditions) noexcept
 {
     const OverrideFactors& factors = conditions.factors;
     const float present = speed_;

@@ -51,7 +51,7 @@ private:
     struct Ahead {
         std::uint32_t begin;  // its first interval, as counted by the queue
         std::uint32_t published;
-        const planner::Interval* first;  
+        const planner::Interval* first;
     };
     bool pass_intervals(Ahead& ahead, bool may_pass) noexcept;
     Bounds bounds(const Ahead& ahead,
@@ -63,7 +63,7 @@ private:
     std::int32_t advance(const Ahead& ahead, float speed) noexcept;
 
     planner::PathQueue& queue_;
-    std::uint32_t filter_{1};  // length of the path filter, ticks
+    std::uint32_t filter_{1};      // length of the path filter, ticks
     std::uint32_t offset_{0};      // path units into the first interval
     std::uint64_t position_{0};    // path units since the reset
     float speed_{0};               // mm/s

@@ -168,7 +168,9 @@ struct Quintic {
     float c1, c2, c3, c4, c5;
 };
 
-inline Quintic quintic_between(const ArcLengthNode& a, const ArcLengthNode& b, float length) noexcept
+inline Quintic quintic_between(const ArcLengthNode& a,
+                               const ArcLengthNode& b,
+                               float length) noexcept
 {
     const float c1 = length * a.du;
     const float c2 = 0.5F * length * length * a.ddu;

@@ -37,7 +37,8 @@ PathOffset arc_position(const ArcBlock& arc, std::uint32_t offset) noexcept
     const float angle = static_cast<float>(offset) * arc.angle_per_unit;
     // Half angles keep 1 - cos exact for small angles.
     const float half = 0.5F * angle;
-    const auto [sine, cosine] = quarter_turns(half) < 1.0F ? sin_cos_near_zero(half) : sin_cos(half);
+    const auto [sine, cosine] =
+        quarter_turns(half) < 1.0F ? sin_cos_near_zero(half) : sin_cos(half);
     const float along = 2.0F * sine * cosine;
     const float inward = 2.0F * sine * sine;
     const float grown = arc.spread * angle;

@@ -104,7 +104,8 @@ void PulseMaker::play_axes(const PerAxis<AxisTravel>& travels) noexcept
         StepWriter writer{edges_, marks_, settings_, settings_.step_lines[i], axes_[i].last_rise};
         writer.add(first);
         const std::int32_t left = std::abs(path.steps) - 1;
-        runs[i].emplace(StepRun<decltype(writer)>{times, writer, left, times.steady() ? left - 1 : 0});
+        runs[i].emplace(
+            StepRun<decltype(writer)>{times, writer, left, times.steady() ? left - 1 : 0});
     }
     add_all_steady(runs);
     for (unsigned i = 0; i < kAxisCount; ++i) {

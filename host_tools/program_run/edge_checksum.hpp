@@ -25,7 +25,7 @@ public:
 private:
     // Lines as the edges of one pulse tick are ordered.
     static constexpr std::array<PulseLines, 2 * kAxisCount> kLinesInOrder{
-        direction_line(0), step_line(0), direction_line(1),
+        direction_line(0), step_line(0),      direction_line(1),
         step_line(1),      direction_line(2), step_line(2)};
 
     void fold(std::size_t count, std::uint32_t end);
