@@ -107,7 +107,7 @@ Position Interpolator::tick() noexcept
 // between them they fall on the same one, which only an overlap allows for. The axis filters need
 // not be empty: with no speed and no acceleration left they leave the corner by less than a
 // nanometre. They must be where the next block has others.
-// Precondition: the servo stands.
+// Precondition: the servo is at rest.
 bool Interpolator::ready_to_go_on() noexcept
 {
     if (!trailing_->filter.drained()) {

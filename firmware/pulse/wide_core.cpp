@@ -1,7 +1,6 @@
 // The steps of all axes at once, for cores that wait for divisions. Apart from pulse_maker.cpp, whose
 // calls a compiler for narrow cores is to see alone when it chooses what to put in line.
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
 #include "firmware/pulse/steady_lanes.hpp"
@@ -103,7 +102,7 @@ void PulseMaker::play_axes(const PerAxis<AxisTravel>& travels) noexcept
         turn(i, first, forward);
         StepWriter writer{edges_, marks_, settings_, settings_.step_lines[i], axes_[i].last_rise};
         writer.add(first);
-        const std::int32_t left = std::abs(path.steps) - 1;
+        const std::int32_t left = (forward ? path.steps : -path.steps) - 1;
         runs[i].emplace(
             StepRun<decltype(writer)>{times, writer, left, times.steady() ? left - 1 : 0});
     }
