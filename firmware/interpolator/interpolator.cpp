@@ -19,6 +19,8 @@ float squared_part(unsigned percent) noexcept
 Interpolator::Interpolator(planner::Planner& planner) noexcept
     : planner_{planner}, queue_{planner.queue()}, servo_{planner.queue()}, shaper_{planner.shaper()}
 {
+    leading_ = &tracks_[0];
+    trailing_ = &tracks_[1];
     reset({});
 }
 

@@ -88,8 +88,8 @@ private:
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;
-    Track* leading_{&tracks_[0]};
-    Track* trailing_{&tracks_[1]};
+    Track* leading_{nullptr};  // of tracks_
+    Track* trailing_{nullptr};
     OverrideFactors factors_{};
     Position position_{};
     PerAxis<ExactDivision> axis_division_{};
