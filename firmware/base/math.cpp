@@ -67,19 +67,18 @@ SinCos<double> sin_cos(double angle) noexcept
 
 SinCos<float> sin_cos(float angle) noexcept
 {
-    constexpr float kTwoOverPi = 0.636619772F;
     // pi/2 in three floats: k times the first two is exact for |k| < 2^12.
     constexpr float kPart1 = 1.5703125F;
     constexpr float kPart2 = 4.83751297e-4F;
     constexpr float kPart3 = 7.54978995e-8F;
-    const float k = std::floor(angle * kTwoOverPi + 0.5F);
+    // Rounded down without the library's floor: the argument is far within an int32.
+    const float turns = quarter_turns(angle);
+    const auto cut = static_cast<std::int32_t>(turns);
+    const std::int32_t quadrant = static_cast<float>(cut) > turns ? cut - 1 : cut;
+    const auto k = static_cast<float>(quadrant);
     const float x = ((angle - k * kPart1) - k * kPart2) - k * kPart3;
-    const float z = x * x;
-    const float sine =
-        x + x * z * (((2.7557319e-6F * z - 1.9841270e-4F) * z + 8.3333333e-3F) * z - 1.6666667e-1F);
-    const float cosine =
-        1.0F - z * (0.5F - z * ((2.4801587e-5F * z - 1.3888889e-3F) * z + 4.1666667e-2F));
-    return rotate_by_quadrants(sine, cosine, static_cast<std::int32_t>(k));
+    const auto [sine, cosine] = sin_cos_near_zero(x);
+    return rotate_by_quadrants(sine, cosine, quadrant);
 }
 
 namespace {

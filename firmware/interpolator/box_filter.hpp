@@ -25,12 +25,14 @@ public:
     // Adds a value, forgets the one n calls ago, and returns the new sum.
     Value add(Value value) noexcept
     {
-        Value& place = values_[next_];
-        sum_ = sum_ + (value - place);
-        place = value;
-        next_ = next_ + 1 == length_ ? 0 : next_ + 1;
-        filled_ = value == Value{} ? filled_ - (filled_ > 0 ? 1U : 0U) : length_;
-        return sum_;
+        const std::uint32_t place = next_;
+        const std::uint32_t length = length_;
+        const Value sum = sum_ + (value - values_[place]);
+        sum_ = sum;
+        values_[place] = value;
+        next_ = place + 1 == length ? 0 : place + 1;
+        filled_ = value == Value{} ? filled_ - (filled_ > 0 ? 1U : 0U) : length;
+        return sum;
     }
 
     // The value added n calls ago.

@@ -6,6 +6,8 @@
 namespace cusp::interpolator {
 namespace {
 
+constexpr OverrideFactors kHeld{0, 0};
+
 float squared_part(unsigned percent) noexcept
 {
     const float part = static_cast<float>(percent) / 100.0F;
@@ -17,6 +19,8 @@ float squared_part(unsigned percent) noexcept
 Interpolator::Interpolator(planner::Planner& planner) noexcept
     : planner_{planner}, queue_{planner.queue()}, servo_{planner.queue()}, shaper_{planner.shaper()}
 {
+    leading_ = &tracks_[0];
+    trailing_ = &tracks_[1];
     reset({});
 }
 
@@ -67,29 +71,35 @@ Position Interpolator::tick() noexcept
 {
     drained_before_ = drained_;
     drained_ = leading_->filter.drained();
-    const OverrideFactors factors = holding_ ? OverrideFactors{0, 0} : factors_;
+    const OverrideFactors& factors = holding_ ? kHeld : factors_;
+    const bool may_pass = servo_.standing() && ready_to_go_on();
     const std::int32_t step =
-        servo_.tick({factors, ready_to_go_on(), trail_drained_, leading_->filter.oldest()});
+        servo_.tick({factors, may_pass, trail_drained_, leading_->filter.oldest()});
     trail_drained_ = trailing_->filter.drained();
     if (servo_.passed_stop()) {
         change_track();
+        drop_passed_blocks();
         drained_ = false;
         trail_drained_ = trailing_->filter.drained();
     }
+    const bool trails = !trail_drained_;
+    PathOffset behind;
     along_ = 0;
-    PathOffset moved{};
-    if (!trailing_->filter.drained()) {
-        moved = travel(*trailing_, 0);
+    if (trails) {
+        behind = trail();
     }
-    moved = moved + travel(*leading_, step);
-    drop_passed_blocks();
+    PathOffset moved = travel(*leading_, step);
+    if (trails) {
+        moved = moved + behind;
+        drop_passed_blocks();
+    }
     PathOffset smooth = second_.add(first_.add(moved));
     if (shaper_.on()) {
         smooth = shaper_.add(smooth);
     }
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-        position_[i] += axis_division_[i].divide(smooth[i]);
-    }
+    position_.x += axis_division_[0].divide(smooth.x);
+    position_.y += axis_division_[1].divide(smooth.y);
+    position_.z += axis_division_[2].divide(smooth.z);
     at_rest_ = servo_.standing() && filters_drained();
     return position_;
 }
@@ -99,9 +109,10 @@ Position Interpolator::tick() noexcept
 // between them they fall on the same one, which only an overlap allows for. The axis filters need
 // not be empty: with no speed and no acceleration left they leave the corner by less than a
 // nanometre. They must be where the next block has others.
+// Precondition: the servo is at rest.
 bool Interpolator::ready_to_go_on() noexcept
 {
-    if (!servo_.standing() || !trailing_->filter.drained()) {
+    if (!trailing_->filter.drained()) {
         return false;
     }
     // A shaper reaches too far for that: what it holds is on the path before the stop.
@@ -157,33 +168,56 @@ void Interpolator::change_track() noexcept
 }
 
 // Moves a track on along its blocks. Returns by how much, per axis, path units.
-PathOffset Interpolator::travel(Track& track, std::int32_t step) noexcept
+[[gnu::always_inline]] inline PathOffset Interpolator::travel(Track& track,
+                                                              std::int32_t step) noexcept
 {
     const std::int32_t along = track.division.divide(track.filter.add(step));
     along_ += along;
     if (along == 0) {
         return {};
     }
+    const std::uint32_t offset = track.offset + static_cast<std::uint32_t>(along);
+    const planner::Block& block = queue_.block(track.block);
+    if (track.block == queue_.block_end() || offset >= block.length) {
+        return pass_blocks(track, offset);
+    }
+    line_ = block.line;
+    const PathOffset place = planner::position_at(block, offset);
+    const PathOffset moved = place - track.place;
+    track.offset = offset;
+    track.place = place;
+    return moved;
+}
+
+// As travel(), to an offset that is not in the track's block, if there is one.
+PathOffset Interpolator::pass_blocks(Track& track, std::uint32_t offset) noexcept
+{
     PathOffset before = track.place;
-    track.offset += static_cast<std::uint32_t>(along);
+    PathOffset place{};
     while (track.block != queue_.block_end()) {
         const planner::Block& block = queue_.block(track.block);
         line_ = block.line;
-        if (track.offset < block.length) {
-            track.place = planner::position_at(block, track.offset);
-            return track.place - before;
+        if (offset < block.length) {
+            place = planner::position_at(block, offset);
+            break;
         }
-        track.offset -= block.length;
+        offset -= block.length;
         before = before - block.displacement;
         ++track.block;
         if (block.stops) {
             break;
         }
     }
-    track.place = {};
-    return track.place - before;
+    track.offset = offset;
+    track.place = place;
+    drop_passed_blocks();
+    return place - before;
 }
 
+// The trailing track, where it still moves.
+PathOffset Interpolator::trail() noexcept { return travel(*trailing_, 0); }
+
+// After a track has passed a block, or has drained.
 void Interpolator::drop_passed_blocks() noexcept
 {
     const Track& last = trailing_->filter.drained() ? *leading_ : *trailing_;

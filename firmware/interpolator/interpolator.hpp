@@ -77,6 +77,9 @@ private:
     };
     void set_axis_filter(planner::AxisFilter filter) noexcept;
     PathOffset travel(Track& track, std::int32_t step) noexcept;
+    PathOffset pass_blocks(Track& track, std::uint32_t offset) noexcept;
+    // Never inline: ticks on one track do not pay for it.
+    [[gnu::noinline]] PathOffset trail() noexcept;
     bool filters_drained() const noexcept;
     bool ready_to_go_on() noexcept;
     bool find_stop(std::uint32_t& block) const noexcept;
@@ -85,24 +88,25 @@ private:
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;
-    PathServo servo_;
-    std::array<Track, 2> tracks_;
-    Track* leading_{&tracks_[0]};
-    Track* trailing_{&tracks_[1]};
+    Track* leading_{nullptr};  // of tracks_
+    Track* trailing_{nullptr};
+    OverrideFactors factors_{};
+    Position position_{};
+    PerAxis<ExactDivision> axis_division_{};
+    std::int32_t along_{0};  // path units travelled in this tick
+    std::uint32_t line_{0};
+    planner::AxisFilter axis_filter_{};
     bool drained_{false};         // the path filter of the leading track, before this tick
     bool drained_before_{false};  // and before the last one
     bool trail_drained_{true};    // that of the trailing track, before the last tick
-    RunningSum<PathOffset, kMaxAxisFilter> first_;
-    RunningSum<PathOffset, kMaxSecondFilter> second_;
-    PerAxis<ExactDivision> axis_division_{};
-    planner::AxisFilter axis_filter_{};
-    Position position_{};
-    std::int32_t along_{0};  // path units travelled in this tick
-    std::uint32_t line_{0};
-    OverrideFactors factors_{};
     bool holding_{false};
     bool at_rest_{true};
-    ShaperFilter shaper_;  // last, and large: what the tick reads stays within reach of an offset
+    RunningSum<PathOffset, kMaxSecondFilter> second_;
+    RunningSum<PathOffset, kMaxAxisFilter> first_;
+    // Then what is large: what the tick reads above stays within reach of an offset.
+    PathServo servo_;
+    std::array<Track, 2> tracks_;
+    ShaperFilter shaper_;
 };
 
 }  // namespace cusp::interpolator

@@ -34,7 +34,10 @@ float lower_root(float square, float speed) noexcept
 // So that the last tick before a stop brakes no harder, the slowest speeds are those from which n
 // ticks that slow down by `slope` each end where the envelope does, after D mm, were it to fall on:
 // D/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
-float speed_under(float end, float slope, float distance, float greatest) noexcept
+[[gnu::noinline]] float speed_under_envelope(float end,
+                                             float slope,
+                                             float distance,
+                                             float greatest) noexcept
 {
     constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
     const float half = 0.5F * slope * kServoTick;
@@ -56,6 +59,16 @@ float speed_under(float end, float slope, float distance, float greatest) noexce
     return past_end ? std::max(under, std::sqrt(std::max(end, 0.0F))) : under;
 }
 
+// The same, with what most ticks need of it in line: that `greatest` is surely under the envelope.
+inline float speed_under(float end, float slope, float distance, float greatest) noexcept
+{
+    const float half = 0.5F * slope * kServoTick;
+    const float most = greatest + 1.25F * half;
+    // Not cut to 0 where it is negative: the test only fails then.
+    const float square = half * half + (end + 2.0F * slope * distance);
+    return square >= most * most ? greatest : speed_under_envelope(end, slope, distance, greatest);
+}
+
 }  // namespace
 
 void PathServo::reset(std::uint32_t filter) noexcept
@@ -74,8 +87,18 @@ void PathServo::reset(std::uint32_t filter) noexcept
 std::int32_t PathServo::tick(const Conditions& conditions) noexcept
 {
     passed_stop_ = false;
-    const float speed = enter_path(conditions.may_pass) ? next_speed(conditions) : 0.0F;
-    const std::int32_t step = speed > 0 ? advance(speed) : 0;
+    // The ends of the queue are read once: the main loop does not run meanwhile.
+    Ahead ahead{queue_.interval_begin(), queue_.published(), nullptr};
+    float speed = 0;
+    std::int32_t step = 0;
+    if (ahead.begin != ahead.published) {
+        ahead.first = &queue_.interval(ahead.begin);
+        const bool inside = offset_ < ahead.first->length;
+        if (inside || pass_intervals(ahead, conditions.may_pass)) {
+            speed = next_speed(ahead, conditions);
+            step = speed > 0 ? advance(ahead, speed) : 0;
+        }
+    }
     if (speed <= 0) {
         residue_ = 0;
     }
@@ -85,49 +108,53 @@ std::int32_t PathServo::tick(const Conditions& conditions) noexcept
 }
 
 // Leaves intervals that are passed. False where no path is ahead, or the filters must drain first.
-bool PathServo::enter_path(bool may_pass) noexcept
+inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
 {
-    while (queue_.interval_begin() != queue_.published()) {
-        const Interval& here = queue_.interval(queue_.interval_begin());
-        if (offset_ < here.length) {
-            return true;
-        }
-        if (here.stop_at_end && !may_pass) {
+    const planner::Interval* here = ahead.first;
+    for (;;) {
+        if (here->stop_at_end && !may_pass) {
             return false;
         }
-        if (!here.stop_at_end && queue_.interval_begin() + 1 == queue_.published()) {
+        if (!here->stop_at_end && ahead.begin + 1 == ahead.published) {
             return false;
         }
-        if (here.stop_at_end) {
+        if (here->stop_at_end) {
             passed_stop_ = true;
         }
-        offset_ -= here.length;
+        offset_ -= here->length;
         queue_.drop_interval();
+        ++ahead.begin;
+        if (ahead.begin == ahead.published) {
+            return false;
+        }
+        here = &queue_.interval(ahead.begin);
+        if (offset_ < here->length) {
+            ahead.first = here;
+            return true;
+        }
     }
-    return false;
 }
 
-PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& factors) const noexcept
+[[gnu::always_inline]] inline PathServo::Bounds PathServo::bounds(
+    const Ahead& ahead, float greatest, const OverrideFactors& factors) const noexcept
 {
     Bounds least{greatest, greatest, kUnlimited};
-    std::uint32_t index = queue_.interval_begin();
-    const std::uint32_t published = queue_.published();
-    float to_end = 0;
+    const Interval* interval = ahead.first;
+    std::uint32_t index = ahead.begin;
+    float to_end = millimetres(interval->length - offset_);
     for (std::uint32_t i = 0;; ++i) {
-        const Interval& interval = queue_.interval(index);
-        const planner::Envelope& envelope = interval.envelope;
+        const planner::Envelope& envelope = interval->envelope;
         const float slope = envelope.slope;
-        to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
         least.speed = lower_root(envelope.limit.cap, least.speed);
         least.speed = speed_under(envelope.end_speed, slope, to_end, least.speed);
         const float scaled_off =
-            (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
-        least.feed = lower_root(factors.of(interval.rapid) * envelope.limit.feed, least.feed);
+            (1.0F - factors.of(interval->origin_is_rapid)) * envelope.feed_origin;
+        least.feed = lower_root(factors.of(interval->rapid) * envelope.limit.feed, least.feed);
         least.feed = speed_under(envelope.feed_end - scaled_off, slope, to_end, least.feed);
         least.acceleration = std::min(
             least.acceleration, envelope.limit.acceleration_behind(speed_, queue_.half_filter()));
         ++index;
-        const bool last = interval.stop_at_end || index == published;
+        const bool last = interval->stop_at_end || index == ahead.published;
         if (last || 0.5F * least.speed * kServoTick <= to_end) {
             return least;
         }
@@ -135,28 +162,31 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
             least.speed = to_end / kServoTick;
             return least;
         }
+        interval = &queue_.interval(index);
+        to_end += millimetres(interval->length);
     }
 }
 
-float PathServo::next_speed(const Conditions& conditions) noexcept
+[[gnu::always_inline]] inline float PathServo::next_speed(const Ahead& ahead,
+                                                          const Conditions& conditions) noexcept
 {
     const OverrideFactors& factors = conditions.factors;
+    const float present = speed_;
     // Between acceleration and braking, one path filter long, neither: so that the filtered
     // acceleration, a difference over one filter, changes by at most one limit.
     const std::int32_t change = passed_stop_ ? 0 : conditions.oldest_step - oldest_step_;
     const float before = static_cast<float>(change) / (kPathUnitsPerTick * kServoTick);
-    const float reach =
-        speed_ + queue_.interval(queue_.interval_begin()).envelope.limit.u0 * kServoTick;
-    const Bounds bound = bounds(reach, factors);
+    const float reach = present + ahead.first->envelope.limit.u0 * kServoTick;
+    const Bounds bound = bounds(ahead, reach, factors);
     const float most = bound.acceleration;
     const float up = std::max(0.0F, most - std::max(0.0F, -before));
     const float down = conditions.may_brake ? std::max(0.0F, most - std::max(0.0F, before)) : 0.0F;
-    const float slowest = std::max(0.0F, speed_ - down * kServoTick);
-    float wanted = speed_ + up * kServoTick;
+    const float slowest = std::max(0.0F, present - down * kServoTick);
+    float wanted = present + up * kServoTick;
     wanted = std::min(wanted, std::max(slowest, bound.feed));
     wanted = std::min(wanted, bound.speed);
-    if (wanted > speed_) {
-        wanted = std::max(speed_, coasting_speed(wanted, factors));
+    if (wanted > present) {
+        wanted = std::max(present, coasting_speed(wanted, factors));
         wanted = std::min(wanted, std::max(bound.speed, slowest));
     }
     return wanted;
@@ -212,16 +242,16 @@ float PathServo::kept_speed(float time, const OverrideFactors& factors) const no
     return to_begin / time;
 }
 
-std::int32_t PathServo::advance(float speed) noexcept
+inline std::int32_t PathServo::advance(const Ahead& ahead, float speed) noexcept
 {
     const float travel = speed * kPathUnitsPerTick + residue_;
     auto step = static_cast<std::uint32_t>(travel);
     residue_ = travel - static_cast<float>(step);
     // Never past a stop or the end of what is published.
-    std::uint32_t index = queue_.interval_begin();
-    std::uint32_t left = queue_.interval(index).length - offset_;
+    std::uint32_t index = ahead.begin;
+    std::uint32_t left = ahead.first->length - offset_;
     while (step + kArrived > left && !queue_.interval(index).stop_at_end &&
-           index + 1 != queue_.published()) {
+           index + 1 != ahead.published) {
         ++index;
         left += queue_.interval(index).length;
     }

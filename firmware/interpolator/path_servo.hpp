@@ -20,7 +20,7 @@ public:
     void reset(std::uint32_t filter) noexcept;
 
     struct Conditions {
-        OverrideFactors factors;  // of squared speeds, by the overrides; {0, 0} holds
+        const OverrideFactors& factors;  // of squared speeds, by the overrides; {0, 0} holds
         // Whether the present stop may be left: the filters are empty, but for the overlap that
         // the stop allows.
         bool may_pass;
@@ -47,16 +47,23 @@ private:
         float feed;          // mm/s, by feed and override
         float acceleration;  // mm/s^2
     };
-    bool enter_path(bool may_pass) noexcept;
-    Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
-    float next_speed(const Conditions& conditions) noexcept;
+    // The published path of one tick.
+    struct Ahead {
+        std::uint32_t begin;  // its first interval, as counted by the queue
+        std::uint32_t published;
+        const planner::Interval* first;
+    };
+    bool pass_intervals(Ahead& ahead, bool may_pass) noexcept;
+    Bounds bounds(const Ahead& ahead,
+                  float greatest,
+                  const OverrideFactors& factors) const noexcept;
+    float next_speed(const Ahead& ahead, const Conditions& conditions) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
     float kept_speed(float time, const OverrideFactors& factors) const noexcept;
-    std::int32_t advance(float speed) noexcept;
+    std::int32_t advance(const Ahead& ahead, float speed) noexcept;
 
     planner::PathQueue& queue_;
-    std::uint32_t filter_{1};  // length of the path filter, ticks
-    MinSpeedWindow speed_window_;
+    std::uint32_t filter_{1};      // length of the path filter, ticks
     std::uint32_t offset_{0};      // path units into the first interval
     std::uint64_t position_{0};    // path units since the reset
     float speed_{0};               // mm/s
@@ -64,6 +71,7 @@ private:
     std::int32_t oldest_step_{0};  // of the last tick
     bool passed_stop_{false};
     std::atomic<std::uint32_t> travelled_{0};
+    MinSpeedWindow speed_window_;  // last, and large: what each tick reads is near
 };
 
 }  // namespace cusp::interpolator

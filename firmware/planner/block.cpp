@@ -26,15 +26,6 @@ Vec3f displacement_mm(const Block& block) noexcept
            kPathUnitsPerMillimetre;
 }
 
-PathOffset line_position(const Block& block, std::uint32_t offset) noexcept
-{
-    const auto part = static_cast<std::int64_t>(fraction(block, offset));
-    const auto scale = [part](std::int32_t whole) {
-        return static_cast<std::int32_t>((whole * part + (std::int64_t{1} << 30)) >> 31);
-    };
-    return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
-}
-
 // To the nearest integer. Precondition: |x| < 2^31.
 std::int32_t rounded(float x) noexcept
 {
@@ -45,7 +36,9 @@ PathOffset arc_position(const ArcBlock& arc, std::uint32_t offset) noexcept
 {
     const float angle = static_cast<float>(offset) * arc.angle_per_unit;
     // Half angles keep 1 - cos exact for small angles.
-    const auto [sine, cosine] = sin_cos(0.5F * angle);
+    const float half = 0.5F * angle;
+    const auto [sine, cosine] =
+        quarter_turns(half) < 1.0F ? sin_cos_near_zero(half) : sin_cos(half);
     const float along = 2.0F * sine * cosine;
     const float inward = 2.0F * sine * sine;
     const float grown = arc.spread * angle;
@@ -261,17 +254,8 @@ void set_length(Block& block, std::uint32_t length) noexcept
     block.reciprocal_shift = shift;
 }
 
-std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept
+PathOffset curved_position(const Block& block, std::uint32_t offset) noexcept
 {
-    const std::uint64_t product = static_cast<std::uint64_t>(offset) * block.reciprocal;
-    return static_cast<std::uint32_t>(product >> (block.reciprocal_shift + 1U));
-}
-
-PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
-{
-    if (offset >= block.length) {
-        return block.displacement;
-    }
     switch (block.shape) {
         case BlockShape::kArc:
             return arc_position(block.arc, offset);

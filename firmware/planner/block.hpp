@@ -70,12 +70,39 @@ struct Block {
 void set_length(Block& block, std::uint32_t length) noexcept;
 
 // offset / length in units of 2^-31, within 2^-30. Precondition: offset <= length.
-std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept;
+inline std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept
+{
+    // The offset has at most reciprocal_shift + 1 bits: its top bit goes to bit 31 at most.
+    const std::uint32_t shifted = offset << (31U - block.reciprocal_shift);
+    return static_cast<std::uint32_t>((std::uint64_t{shifted} * block.reciprocal) >> 32U);
+}
+
+// On the chord. Precondition: offset < length.
+inline PathOffset line_position(const Block& block, std::uint32_t offset) noexcept
+{
+    // Below 2^31, and twice a displacement of 64 mm is, too: a product, rounded to its upper word.
+    const auto part = static_cast<std::int32_t>(fraction(block, offset));
+    const auto scale = [part](std::int32_t whole) {
+        const std::int64_t twice = std::int64_t{2 * whole} * part;
+        return static_cast<std::int32_t>((twice + (std::int64_t{1} << 31)) >> 32);
+    };
+    return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
+}
+
+// As position_at(), of a block that is no line. Precondition: offset < length.
+PathOffset curved_position(const Block& block, std::uint32_t offset) noexcept;
 
 // The place at `offset` path units from the start, relative to the start; the exact displacement at
 // the end. Within 1 nm of the true path on lines, 2 nm on arcs and
 // 4 nm on curves. Context: servo tick.
-PathOffset position_at(const Block& block, std::uint32_t offset) noexcept;
+inline PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
+{
+    if (offset >= block.length) {
+        return block.displacement;
+    }
+    return block.shape == BlockShape::kLine ? line_position(block, offset)
+                                            : curved_position(block, offset);
+}
 
 // Direction and curvature vector of the block at one of its ends, for the junction with its
 // neighbour.

@@ -47,6 +47,27 @@ Vec3d to_double(Vec3f a) noexcept
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
+// mm, of nanometres.
+Vec3f scaled(Vec3<std::int32_t> nm) noexcept
+{
+    constexpr float kScale = 1e-6F;
+    return Vec3f{static_cast<float>(nm.x), static_cast<float>(nm.y), static_cast<float>(nm.z)} *
+           kScale;
+}
+
+// What a fit leaves of a vertex, mm. An array of these is not cleared first.
+struct Leave {
+    float x, y, z;
+
+    void set(Vec3f a) noexcept
+    {
+        x = a.x;
+        y = a.y;
+        z = a.z;
+    }
+    Vec3f get() const noexcept { return {x, y, z}; }
+};
+
 Vec3f unit(Vec3f a) noexcept
 {
     const float length = norm(a);
@@ -108,12 +129,7 @@ void LineSmoother::clear() noexcept
 // mm
 Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 {
-    constexpr float kScale = 1e-6F;
-    const Vec3<std::int32_t> a = vertices_[from].at;
-    const Vec3<std::int32_t> b = vertices_[to].at;
-    return Vec3f{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y),
-                 static_cast<float>(b.z - a.z)} *
-           kScale;
+    return scaled(vertices_[to].at - vertices_[from].at);
 }
 
 // nm: of the axis that travels farthest, from a vertex to the next.
@@ -154,22 +170,21 @@ float LineSmoother::fit_knot(std::size_t index,
     constexpr std::size_t kMost = 2 * kBeyond + 1;
     constexpr unsigned kTerms = 4;
     std::array<float, kMost> x;
-    std::array<Vec3f, kMost> left;  // what the terms so far leave
+    std::array<Leave, kMost> left;
     std::array<float, kMost> value;
     std::array<float, kMost> before;
     const std::size_t count = to - from + 1;
     const std::size_t here = index - from;
+    const Vertex* const vertices = vertices_.begin() + from;
     for (std::size_t i = 0; i < count; ++i) {
-        left[i] = between(index, from + i);
-        value[i] = 1.0F;
-        before[i] = 0.0F;
+        left[i].set(scaled(vertices[i].at - vertices[here].at));
     }
     x[here] = 0;
     for (std::size_t i = here; i-- > 0;) {
-        x[i] = x[i + 1] - norm(left[i + 1] - left[i]);
+        x[i] = x[i + 1] - norm(left[i + 1].get() - left[i].get());
     }
     for (std::size_t i = here + 1; i < count; ++i) {
-        x[i] = x[i - 1] + norm(left[i] - left[i - 1]);
+        x[i] = x[i - 1] + norm(left[i].get() - left[i - 1].get());
     }
     const bool one_sided = index == from || index == to;
     const std::size_t terms = std::min<std::size_t>(count, one_sided ? kTerms - 1 : kTerms);
@@ -184,11 +199,20 @@ float LineSmoother::fit_knot(std::size_t index,
         float square = 0;
         float moment = 0;
         Vec3f product{};
-        for (std::size_t i = 0; i < count; ++i) {
-            const float v = value[i];
-            square += v * v;
-            moment += x[i] * v * v;
-            product = product + left[i] * v;
+        if (k == 0) {
+            // The first polynomial is 1: no bit changes where it is left out.
+            for (std::size_t i = 0; i < count; ++i) {
+                moment += x[i];
+                product = product + left[i].get();
+            }
+            square = static_cast<float>(count);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) {
+                const float v = value[i];
+                square += v * v;
+                moment += x[i] * v * v;
+                product = product + left[i].get() * v;
+            }
         }
         const Vec3f part = product / square;
         place = place + part * now[0];
@@ -196,11 +220,24 @@ float LineSmoother::fit_knot(std::size_t index,
         bend = bend + part * now[2];
         const float shift = moment / square;
         const float back = k == 0 ? 0.0F : square / square_before;
-        for (std::size_t i = 0; i < count; ++i) {
-            left[i] = left[i] - part * value[i];
-            const float next = (x[i] - shift) * value[i] - back * before[i];
-            before[i] = value[i];
-            value[i] = next;
+        if (k == 0) {
+            for (std::size_t i = 0; i < count; ++i) {
+                left[i].set(left[i].get() - part);
+                before[i] = 1.0F;
+                value[i] = x[i] - shift;
+            }
+        } else if (k + 1 == terms) {
+            for (std::size_t i = 0; i < count; ++i) {
+                left[i].set(left[i].get() - part * value[i]);
+            }
+            break;
+        } else {
+            for (std::size_t i = 0; i < count; ++i) {
+                const float v = value[i];
+                left[i].set(left[i].get() - part * v);
+                value[i] = (x[i] - shift) * v - back * before[i];
+                before[i] = v;
+            }
         }
         const float next[3] = {-shift * now[0] - back * last[0],
                                now[0] - shift * now[1] - back * last[1],
@@ -213,7 +250,7 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     float worst = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        worst = std::max(worst, dot(left[i], left[i]));
+        worst = std::max(worst, dot(left[i].get(), left[i].get()));
     }
     const float speed = norm(slope);
     knot.end.tangent = slope / std::max(speed, 1e-6F);
@@ -246,20 +283,25 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
     const float square = tolerance * tolerance;
     float along = 0;
     float whole = 0;
+    const Vertex* const vertices = vertices_.begin();
     for (std::size_t i = 0; i < last; ++i) {
-        whole += norm(between(i, i + 1));
+        whole += norm(scaled(vertices[i + 1].at - vertices[i].at));
     }
     Vec3f before = -start_.at;
     for (std::size_t i = 1; i <= last; ++i) {
-        const Vec3f here = between(0, i) - start_.at;
+        const Vec3f here = scaled(vertices[i].at - vertices[0].at) - start_.at;
         const float length = norm(here - before);
         for (const float part : {0.5F, 1.0F}) {
             const Vec3f point = before + (here - before) * part;
             const float x = (along + length * part) / whole;
             const Vec3f off = point - point_at(fit.piece, fit.chord, x);
+            const float distance = dot(off, off);
+            if (distance <= square) {
+                continue;  // near whichever way the curve goes
+            }
             const Vec3f slope = slope_at(fit.piece, fit.chord, x);
             const float ahead = dot(off, slope);
-            if (dot(off, off) - ahead * ahead / dot(slope, slope) > square) {
+            if (distance - ahead * ahead / dot(slope, slope) > square) {
                 return false;
             }
         }

@@ -173,13 +173,12 @@ bool Planner::empty() const noexcept
            blender_.empty() && queue_.block_begin() == queue_.block_end();
 }
 
-void Planner::start(const path::Move& move) noexcept
+void Planner::start() noexcept
 {
-    move_ = move;
     within_move_ = false;
-    choice_ = filter_for(move.tolerance);
+    choice_ = filter_for(move_.tolerance);
     const AxisFilter filter = choice_.filter;
-    maker_.start(move, filter);
+    maker_.start(move_, filter);
     // The path stops where the axis filters change: no limit is spread over that.
     const float half = queue_.half_filter() + 2.0F * kServoTick;
     const float beyond = half + window_of(filter);
@@ -222,23 +221,23 @@ bool Planner::next_smoothed(path::Move& move) noexcept
     return true;
 }
 
-// Takes the next move to cut into blocks.
+// Takes the next move to cut into blocks. Precondition: the one before is cut: while none is found
+// its place serves those on their way.
 bool Planner::next_move() noexcept
 {
-    path::Move move;
-    while (!blender_.next(false, move)) {
-        if (next_smoothed(move)) {
-            const AxisFilter filter = filter_for(move.tolerance).filter;
-            blender_.add(move, static_cast<float>(filter.first) * kServoTick);
+    while (!blender_.next(false, move_)) {
+        if (next_smoothed(move_)) {
+            const AxisFilter filter = filter_for(move_.tolerance).filter;
+            blender_.add(move_, static_cast<float>(filter.first) * kServoTick);
             continue;
         }
         const bool ending = close_requested_ && !waiting_ && smoother_.empty();
-        if (!blender_.next(ending, move)) {
+        if (!blender_.next(ending, move_)) {
             return false;
         }
         break;
     }
-    start(move);
+    start();
     return true;
 }
 
@@ -246,7 +245,6 @@ void Planner::work() noexcept
 {
     constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
     bool changed = false;
-    Block block;
     while (queue_.free_intervals() > kIntervalsOfAStretch) {
         if (next_stretch_ != stretches_) {
             add_stretch();
@@ -257,8 +255,11 @@ void Planner::work() noexcept
             (maker_.done() && !next_move())) {
             break;
         }
-        if (!maker_.done() && maker_.make(move_, queue_, block)) {
-            add_block(block);
+        if (!maker_.done()) {
+            Block block;
+            if (maker_.make(move_, queue_, block)) {
+                add_block(block);
+            }
         }
     }
     const bool cut = maker_.done() && next_stretch_ == stretches_;

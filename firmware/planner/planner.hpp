@@ -89,7 +89,7 @@ private:
     bool path_is_short() const noexcept;
     bool next_move() noexcept;
     bool next_smoothed(path::Move& move) noexcept;
-    void start(const path::Move& move) noexcept;
+    void start() noexcept;
     void add_block(const Block& block) noexcept;
     void join(const EndGeometry& after,
               const Block& block,

@@ -5,6 +5,7 @@
 
 #include "firmware/base/assert.hpp"
 #include "firmware/pulse/step_times.hpp"
+#include "firmware/pulse/step_writer.hpp"
 
 namespace cusp::pulse {
 namespace {
@@ -37,57 +38,15 @@ Split split(std::int64_t position) noexcept
 
 float in_steps(std::int64_t value) noexcept { return static_cast<float>(value) * 1e-9F; }
 
-// The pulse tick nearest to a time in servo ticks.
-std::int32_t to_pulse_tick(float time) noexcept
+// Writes an edge as one word. `lines`: raised ones in the low byte, lowered ones in the high byte.
+void put_edge(PulseEdge* out, std::uint32_t tick, std::uint32_t lines) noexcept
 {
-    return static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F);
+    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+    static_assert(sizeof(PulseEdge) == sizeof(std::uint32_t) && offsetof(PulseEdge, tick) == 0 &&
+                  offsetof(PulseEdge, raise) == 2 && offsetof(PulseEdge, lower) == 3);
+    const std::uint32_t edge = tick | lines << 16U;
+    __builtin_memcpy(out, &edge, sizeof edge);
 }
-
-// `lines`: raised ones in the low byte, lowered ones in the high byte.
-PulseEdge edge_at(std::uint32_t tick, std::uint32_t lines) noexcept
-{
-    return {static_cast<std::uint16_t>(tick), static_cast<PulseLines>(lines & 0xFFU),
-            static_cast<PulseLines>(lines >> 8U)};
-}
-
-// Puts the steps of one axis into the frame's edges.
-class StepWriter {
-public:
-    template <std::size_t N>
-    StepWriter(std::array<std::uint16_t, N>& edges,
-               const StepSettings& settings,
-               PulseLines line,
-               std::int32_t last_rise) noexcept
-        : edges_{edges.data()},
-          pulse_{settings.pulse_us},
-          delay_{settings.direction_setup_us},
-          end_{static_cast<std::int32_t>(N) - pulse_},
-          earliest_{last_rise + 2 * pulse_},
-          raise_{line},
-          lower_{static_cast<std::uint32_t>(line) << 8U}
-    {
-    }
-
-    // The step that is due at `rise` comes a set-up time later, or when the last lets it.
-    void add(std::int32_t rise) noexcept
-    {
-        rise = std::max(rise + delay_, earliest_);
-        CUSP_ASSERT(rise < end_);
-        edges_[rise] = static_cast<std::uint16_t>(edges_[rise] | raise_);
-        edges_[rise + pulse_] = static_cast<std::uint16_t>(edges_[rise + pulse_] | lower_);
-        earliest_ = rise + 2 * pulse_;
-    }
-    std::int32_t last_rise() const noexcept { return earliest_ - 2 * pulse_; }
-
-private:
-    std::uint16_t* edges_;
-    std::int32_t pulse_;
-    std::int32_t delay_;
-    std::int32_t end_;
-    std::int32_t earliest_;
-    std::uint32_t raise_;
-    std::uint32_t lower_;
-};
 
 }  // namespace
 
@@ -138,32 +97,56 @@ PerAxis<std::int32_t> PulseMaker::position_steps() const noexcept
 
 void PulseMaker::make_frame(Position set_point, PulseFrame& frame) noexcept
 {
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-        AxisState& axis = axes_[i];
-        const std::int64_t before = axis.now;
-        const std::int64_t target =
-            set_point[i] * static_cast<std::int64_t>(settings_.millisteps_per_mm[i]);
-        axis.now = axis.next;
-        axis.next = target - axis.set_point;
-        axis.set_point = target;
-        play_axis(i, before);
+    if constexpr (kWideCore) {
+        PerAxis<AxisTravel> travels{};
+        for (unsigned i = 0; i < kAxisCount; ++i) {
+            const std::int64_t before = take_set_point(i, set_point[i]);
+            if (axes_[i].now != 0) {
+                travels[i] = travel(i, before);
+            }
+        }
+        play_axes(travels);
+    } else {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
+            play_axis(i, take_set_point(i, set_point[i]));
+        }
     }
     compress(frame);
 }
 
-void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
+// Begins the next tick of an axis. Returns its travel in the tick before, 1e-9 steps.
+inline std::int64_t PulseMaker::take_set_point(unsigned index, std::int64_t nanometres) noexcept
 {
     AxisState& axis = axes_[index];
-    if (axis.now == 0) {
-        return;
-    }
+    const std::int64_t before = axis.now;
+    const std::int64_t target =
+        nanometres * static_cast<std::int64_t>(settings_.millisteps_per_mm[index]);
+    axis.now = axis.next;
+    axis.next = target - axis.set_point;
+    axis.set_point = target;
+    return before;
+}
+
+// The path of an axis in the tick, and its steps, which its state counts.
+inline PulseMaker::AxisTravel PulseMaker::travel(unsigned index, std::int64_t before) noexcept
+{
+    AxisState& axis = axes_[index];
     const Split end = split(axis.remainder + axis.now);
     const TickCubic cubic = tick_cubic(in_steps(axis.remainder), in_steps(before),
                                        in_steps(axis.now), in_steps(axis.next));
     axis.steps += end.steps;
     axis.remainder = end.remainder;
-    if (end.steps != 0) {
-        add_steps(index, StepTimes{cubic, end.steps > 0}, end.steps);
+    return {cubic, end.steps};
+}
+
+void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
+{
+    if (axes_[index].now == 0) {
+        return;
+    }
+    const AxisTravel path = travel(index, before);
+    if (path.steps != 0) {
+        add_steps(index, StepTimes{path.cubic, path.steps > 0}, path.steps);
     }
 }
 
@@ -176,7 +159,7 @@ void PulseMaker::add_steps(unsigned index, StepTimes times, std::int32_t steps) 
     const std::int32_t count = forward ? steps : -steps;
     const std::int32_t first = to_pulse_tick(times.next());
     turn(index, first, forward);
-    StepWriter writer{edges_, settings_, settings_.step_lines[index], axis.last_rise};
+    StepWriter writer{edges_, marks_, settings_, settings_.step_lines[index], axis.last_rise};
     writer.add(first);
     std::int32_t done = 1;
     if (times.steady()) {
@@ -187,9 +170,7 @@ void PulseMaker::add_steps(unsigned index, StepTimes times, std::int32_t steps) 
     for (; done < count; ++done) {
         writer.add(to_pulse_tick(times.next()));
     }
-    axis.last_rise = writer.last_rise();
-    const std::int32_t last_fall = axis.last_rise + settings_.pulse_us;
-    edges_end_ = std::max(edges_end_, static_cast<std::uint32_t>(last_fall) + 1);
+    end_steps(axis, writer.last_rise());
 }
 
 void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
@@ -206,48 +187,49 @@ void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
     CUSP_ASSERT(static_cast<std::size_t>(change) < edges_.size());
     edges_[static_cast<std::size_t>(change)] |=
         static_cast<std::uint16_t>(forward ? line : line << 8U);
+    marks_.mark(change);
     axis.last_rise = std::max(axis.last_rise, change + settings_.direction_setup_us - 2 * pulse);
     axis.forward = forward;
     axis.direction_known = true;
 }
 
-void PulseMaker::compress(PulseFrame& frame) noexcept
+// Moves the edges before `end` into the frame.
+inline void PulseMaker::take_edges(std::uint32_t end, PulseFrame& frame) noexcept
 {
-    const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
     frame.edges.clear();
     // Written past the vector's size, which is set at the end: no count is kept in memory.
     PulseEdge* const first = frame.edges.begin();
     PulseEdge* out = first;
-    // A word at a time, the earliest tick in its lowest bits: most words have no edge.
-    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-    static_assert(kPulseTicksPerFrame % kTicksPerWord == 0);
-    for (std::uint32_t tick = 0; tick < end; tick += kTicksPerWord) {
-        EdgeWord word = 0;
-        __builtin_memcpy(&word, &edges_[tick], sizeof word);
-        if (word == 0) {
-            continue;
-        }
-        __builtin_memset(&edges_[tick], 0, sizeof word);
-        const auto put = [&](std::uint32_t k) {
-            const auto lines = static_cast<std::uint32_t>(word >> 16U * k & 0xFFFFU);
-            if constexpr (kTicksPerWord == 4) {
-                // Desktop processors predict badly which ticks have edges: written in any case,
-                // and kept where there is one. Never beyond the edge of the frame's last tick.
-                *out = edge_at(tick + k, lines);
-                out += lines != 0 ? 1 : 0;
-            } else if (lines != 0) {
-                *out++ = edge_at(tick + k, lines);
+    if constexpr (kWideCore) {
+        marks_.take(end, [&](std::uint32_t tick) {
+            put_edge(out++, tick, edges_[tick]);
+            edges_[tick] = 0;
+        });
+    } else {
+        // A word at a time, the earlier tick in its lower half: most words have no edge.
+        static_assert(kPulseTicksPerFrame % 2 == 0);
+        for (std::uint32_t tick = 0; tick < end; tick += 2) {
+            std::uint32_t word = 0;
+            __builtin_memcpy(&word, &edges_[tick], sizeof word);
+            if (word == 0) {
+                continue;
             }
-        };
-        // Not a loop: with one, GCC takes an instruction more for a word without edges.
-        put(0);
-        put(1);
-        if constexpr (kTicksPerWord == 4) {
-            put(2);
-            put(3);
+            __builtin_memset(&edges_[tick], 0, sizeof word);
+            if ((word & 0xFFFFU) != 0) {
+                put_edge(out++, tick, word & 0xFFFFU);
+            }
+            if (word >> 16U != 0) {
+                put_edge(out++, tick + 1, word >> 16U);
+            }
         }
     }
     frame.edges.grow(static_cast<std::size_t>(out - first));
+}
+
+void PulseMaker::compress(PulseFrame& frame) noexcept
+{
+    const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
+    take_edges(end, frame);
     const std::uint32_t left = edges_end_ - end;
     for (std::uint32_t i = 0; i < left; ++i) {
         edges_[i] = edges_[kPulseTicksPerFrame + i];

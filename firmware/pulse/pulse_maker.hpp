@@ -11,11 +11,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
 #include "firmware/base/vec.hpp"
+#include "firmware/pulse/edge_marks.hpp"
 #include "firmware/pulse/step_times.hpp"
 
 namespace cusp::pulse {
@@ -74,21 +74,39 @@ private:
         bool forward{false};
         bool direction_known{false};
     };
+    // What an axis does in the tick whose frame is made.
+    struct AxisTravel {
+        TickCubic cubic;
+        std::int32_t steps;
+    };
+    std::int64_t take_set_point(unsigned axis, std::int64_t nanometres) noexcept;
+    AxisTravel travel(unsigned axis, std::int64_t before) noexcept;
     void play_axis(unsigned axis, std::int64_t before) noexcept;
-    void turn(unsigned axis, std::int32_t rise, bool forward) noexcept;
+    void play_axes(const PerAxis<AxisTravel>& travels) noexcept;
     void add_steps(unsigned axis, StepTimes times, std::int32_t steps) noexcept;
+    void end_steps(AxisState& axis, std::int32_t last_rise) noexcept
+    {
+        axis.last_rise = last_rise;
+        const std::int32_t last_fall = last_rise + settings_.pulse_us;
+        const auto end = static_cast<std::uint32_t>(last_fall) + 1;
+        edges_end_ = end > edges_end_ ? end : edges_end_;
+    }
+    void turn(unsigned axis, std::int32_t rise, bool forward) noexcept;
+    void take_edges(std::uint32_t end, PulseFrame& frame) noexcept;
     void compress(PulseFrame& frame) noexcept;
+
+    // Processors with registers of 64 bits wait for a division longer than for all else: there the
+    // steps of all axes are made at once, and the ticks that have edges are marked.
+    static constexpr bool kWideCore = sizeof(std::size_t) == 8;
 
     // Edges of the frame being made and the beginning of the next: raised lines in the low byte,
     // lowered ones in the high byte.
     static constexpr std::size_t kOverhang = 512;
-    // As many ticks as a register holds: compress() looks for edges in them at once.
-    using EdgeWord = std::conditional_t<sizeof(std::size_t) == 8, std::uint64_t, std::uint32_t>;
-    static constexpr std::uint32_t kTicksPerWord = sizeof(EdgeWord) / sizeof(std::uint16_t);
     StepSettings settings_{};
     PerAxis<AxisState> axes_{};
-    alignas(EdgeWord) std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
+    alignas(std::uint32_t) std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
     std::uint32_t edges_end_{0};  // beyond the last edge that is set
+    EdgeMarks<kWideCore, kPulseTicksPerFrame + kOverhang> marks_;
 };
 
 }  // namespace cusp::pulse

@@ -70,6 +70,8 @@ public:
     }
 
 private:
+    friend class SteadyLanes;
+
     // The largest second derivative of the cubic over the tick, without its sign.
     static float sharpest_bend(const TickCubic& cubic) noexcept
     {

@@ -25,6 +25,17 @@ constexpr std::array<std::uint64_t, kAllAxes + 1> kStepsOfLines = [] {
     return counts;
 }();
 
+// All counts of the axes whose bit is set.
+constexpr std::array<std::uint64_t, kAllAxes + 1> kCountsOfLines = [] {
+    std::array<std::uint64_t, kAllAxes + 1> counts{};
+    for (unsigned lines = 0; lines < counts.size(); ++lines) {
+        counts[lines] = kStepsOfLines[lines] * kCountMask;
+    }
+    return counts;
+}();
+constexpr unsigned kDirectionLines =
+    direction_line(0) | direction_line(1) | direction_line(2) | kSecondDirectionLine;
+
 }  // namespace
 
 std::uint16_t SimulatedMill::inputs() const noexcept
@@ -63,16 +74,19 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
 {
     std::uint64_t taken = 0;
     std::uint64_t plus = 0;
+    unsigned levels = levels_;
+    unsigned changed = 0;
     for (const PulseEdge& edge : frame.edges) {
-        const unsigned risen = edge.raise & ~unsigned{levels_};
-        levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
-        const unsigned towards = unsigned{levels_} / direction_line(0);
-        const unsigned forward = towards ^ geometry_.inverted_directions;
-        taken += kStepsOfLines[risen & kAllAxes];
-        plus += kStepsOfLines[risen & forward & kAllAxes];
-        if ((risen & kSecondStepLine) != 0) {
-            take_second_step();
-        }
+        taken += kStepsOfLines[edge.raise & ~levels & kAllAxes];
+        levels = (levels | edge.raise) & ~unsigned{edge.lower};
+        changed |= unsigned{edge.raise} | edge.lower;
+    }
+    if ((changed & (kDirectionLines | kSecondStepLine)) == 0) {
+        // No axis turns: most frames.
+        levels_ = static_cast<PulseLines>(levels);
+        plus = taken & kCountsOfLines[forward_axes()];
+    } else {
+        plus = count_steps_forward(frame);
     }
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         const std::uint64_t steps = taken >> kCountBits * axis & kCountMask;
@@ -80,6 +94,26 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
         steps_taken_[axis] += steps;
         steps_[axis] += static_cast<std::int64_t>(2 * forward) - static_cast<std::int64_t>(steps);
     }
+}
+
+unsigned SimulatedMill::forward_axes() const noexcept
+{
+    return (unsigned{levels_} / direction_line(0) ^ geometry_.inverted_directions) & kAllAxes;
+}
+
+// The steps of each axis towards plus; follows the levels and the second motor.
+std::uint64_t SimulatedMill::count_steps_forward(const PulseFrame& frame)
+{
+    std::uint64_t plus = 0;
+    for (const PulseEdge& edge : frame.edges) {
+        const unsigned risen = edge.raise & ~unsigned{levels_};
+        levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
+        plus += kStepsOfLines[risen & forward_axes()];
+        if ((risen & kSecondStepLine) != 0) {
+            take_second_step();
+        }
+    }
+    return plus;
 }
 
 void SimulatedMill::set_geometry(const MillGeometry& geometry) { geometry_ = geometry; }

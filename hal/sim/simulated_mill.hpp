@@ -63,6 +63,8 @@ public:
     void force_low(std::uint16_t inputs) noexcept { forced_low_ = inputs; }
 
 private:
+    unsigned forward_axes() const noexcept;
+    std::uint64_t count_steps_forward(const PulseFrame& frame);
     void take_second_step() noexcept;
 
     MillGeometry geometry_;

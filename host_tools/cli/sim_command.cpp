@@ -128,6 +128,7 @@ int run_once(const SimArguments& arguments)
     options.probe_z = arguments.probe_z;
     options.bits_per_second = arguments.bits_per_second;
     options.stock_grbl = arguments.dialect == "grbl";
+    options.sums_edges = !arguments.stats_file.empty();  // no other output has the sum
     const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
     if (on_terminal) {
         options.progress = show_progress;

@@ -1,25 +1,40 @@
 // EdgeChecksum: one number for all edges of a run, to compare the pulses of two machines.
 #pragma once
 
-#include "host_tools/program_run/edge_listener.hpp"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/base/axis.hpp"
+#include "hal/sim/simulated_player.hpp"
 
 namespace cusp::program_run {
 
-// CRC-32 (IEEE 802.3) of all edges in the order of the pulse trace. An edge is 10 bytes: its pulse tick
-// in us as 8 bytes, little endian, its wire, and its level, 0 or 1.
-class EdgeChecksum : public EdgeListener<EdgeChecksum> {
+// CRC-32 (IEEE 802.3) of all edges in the order of the pulse trace (edge_listener.hpp). An edge is 10 bytes: its
+// pulse tick in us as 8 bytes, little endian, its wire, and its level, 0 or 1.
+class EdgeChecksum : public hal::FrameListener {
 public:
-    using EdgeListener::EdgeListener;
+    //   start   pulse tick of virtual time that counts as 0; earlier frames are ignored
+    //   levels  of the lines at that time
+    EdgeChecksum(std::uint64_t start, PulseLines levels) : start_{start}, levels_{levels} {}
+
+    void frame_played(std::uint64_t start_tick, const PulseFrame& frame) final;
 
     std::uint32_t value() const { return ~remainder_; }
 
-    void edge(std::uint64_t tick, unsigned wire, bool level);
-
 private:
+    // Lines as the edges of one pulse tick are ordered.
+    static constexpr std::array<PulseLines, 2 * kAxisCount> kLinesInOrder{
+        direction_line(0), step_line(0),      direction_line(1),
+        step_line(1),      direction_line(2), step_line(2)};
+
+    void fold(std::size_t count, std::uint32_t end);
+
+    std::uint64_t start_;
+    PulseLines levels_;
     std::uint32_t remainder_{0xFFFFFFFFU};
-    // The remainder of the upper half of the tick, which changes every 71 minutes.
-    std::uint32_t high_{0};
-    std::uint32_t after_high_{0};
+    // Of a frame: the tick of each edge, with what the edge before it leaves.
+    std::array<std::uint32_t, kLinesInOrder.size() * kPulseTicksPerFrame> digits_{};
 };
 
 }  // namespace cusp::program_run
