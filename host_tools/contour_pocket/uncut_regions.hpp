@@ -32,6 +32,7 @@ struct UncutSettings {
     double top;             // z of the stock: regions at walls reach up to it
     double min_height;
     bool valleys;  // false if the floor has no valley that the tool does not reach
+    offset::Region2d air{};  // nothing stays there
 };
 std::vector<UncutRegion> uncut_regions(const offset::RegionOffset& walls,
                                        const offset::Region2d& centres,
