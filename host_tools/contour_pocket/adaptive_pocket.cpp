@@ -133,8 +133,8 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     const auto begin = std::chrono::steady_clock::now();
     const ToleranceSplit tolerances = split_tolerances(job, operation);
     const Region2d pocket = make_region(operation, tolerances.fit);
-    const std::optional<OpenSides> open = open_sides(
-        job, operation, pocket, {operation.tool.radius, tolerances.wall_clearance});
+    const std::optional<OpenSides> open =
+        open_sides(job, operation, pocket, {operation.tool.radius, tolerances.wall_clearance});
     const Region2d& region = open ? open->region : pocket;
     check_work(job, operation, region, tolerances);
     check_size(operation, region);

@@ -29,7 +29,7 @@ using offset::without;
 
 namespace {
 
-constexpr double kReach = 3.7;   // wall clearances: of the air around open stretches; less is a neck
+constexpr double kReach = 3.7;  // wall clearances: of the air around open stretches; less is a neck
 constexpr double kStrip = 0.01;  // mm: along the edge, in which open stretches are found
 
 Region2d rectangle(const Box2d& box)
