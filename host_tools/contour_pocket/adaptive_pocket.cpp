@@ -126,6 +126,17 @@ AdaptivePath passes_of(const Job& job,
     return path;
 }
 
+void warn_beside_stock(const Job& job,
+                       const Operation& operation,
+                       const Region2d& pocket,
+                       OperationStats& stats)
+{
+    if (lies_beside_stock(job, pocket)) {
+        stats.warnings.push_back(operation.boundary_file +
+                                 ": the pocket lies beside the stock: the program cuts none");
+    }
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operation& operation)
@@ -134,7 +145,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     const ToleranceSplit tolerances = split_tolerances(job, operation);
     const Region2d pocket = make_region(operation, tolerances.fit);
     const std::optional<OpenSides> open =
-        open_sides(job, operation, pocket, {operation.tool.radius, tolerances.wall_clearance});
+        open_sides(job, operation, pocket, tolerances.wall_clearance);
     const Region2d& region = open ? open->region : pocket;
     check_work(job, operation, region, tolerances);
     check_size(operation, region);
@@ -177,10 +188,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     }
     report_plunges(cutter.plunges(), stats);
     report_air(result.path.moves, job.stock_top, stats);
-    if (lies_beside_stock(job, pocket)) {
-        stats.warnings.push_back(operation.boundary_file +
-                                 ": the pocket lies beside the stock: the program cuts none");
-    }
+    warn_beside_stock(job, operation, pocket, stats);
     const RegionOffset walls{region};
     report_uncut({job, operation, region, walls, floor, tolerances.wall_clearance, false,
                   open ? open->air : Region2d{}},

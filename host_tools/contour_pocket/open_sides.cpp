@@ -78,12 +78,12 @@ bool lies_beside_stock(const Job& job, const Region2d& pocket)
 std::optional<OpenSides> open_sides(const Job& job,
                                     const Operation& operation,
                                     const Region2d& pocket,
-                                    const CutterRoom& room)
+                                    double wall_clearance)
 {
     if (!is_open_pocket(job, operation) || lies_beside_stock(job, pocket)) {
         return std::nullopt;
     }
-    const double reach = kReach * room.wall_clearance;
+    const double reach = kReach * wall_clearance;
     const Box2d beyond = grown_box(box_of(pocket), 4.0 * reach);
     const Region2d stock = rectangle(stock_box(job, beyond, kOnEdge));
     const Region2d core = rectangle(stock_box(job, beyond, kOnEdge + kStrip));
@@ -93,9 +93,9 @@ std::optional<OpenSides> open_sides(const Job& job,
         return std::nullopt;
     }
     const Region2d around = grown(stretches, reach);
-    const Region2d centres = grown(stretches, reach - room.wall_clearance);
+    const Region2d centres = grown(stretches, reach - wall_clearance);
     const Region2d stays = known(without(stock, pocket), operation);
-    const double beside = std::max(room.wall_clearance, room.radius + 2.0 * kOnEdge);
+    const double beside = std::max(wall_clearance, operation.tool.radius + 2.0 * kOnEdge);
     OpenSides open;
     open.region = known(without(known(united(around, core), operation), stays), operation);
     open.in_stock = known(common(pocket, stock), operation);

@@ -1,6 +1,6 @@
 // Pockets that reach the stock's edge: the ground beside the stock belongs to where the tool may be.
 //
-//     if (const auto open = open_sides(job, operation, pocket, {radius, wall_clearance})) {
+//     if (const auto open = open_sides(job, operation, pocket, wall_clearance)) {
 //         open->region;    // of the tool's body: the pocket in the stock, and air in front of it
 //         open->starts;    // of the tool's centre: passes come in from there
 //     }
@@ -20,11 +20,8 @@ struct OpenSides {
     offset::Region2d starts;    // of the tool's centre: there it meets neither stock nor walls
 };
 
-struct CutterRoom {
-    double radius;          // mm
-    double wall_clearance;  // mm: least distance of the tool's centre from walls
-};
-
+// wall_clearance  mm: least distance of the tool's centre from walls
+//
 // None where the pocket is closed, or lies beside the stock as a whole. The air reaches 3.7 wall
 // clearances around each stretch of the stock's edge that the pocket has; elsewhere beside the
 // stock the tool does not go.
@@ -34,7 +31,7 @@ struct CutterRoom {
 std::optional<OpenSides> open_sides(const job::Job& job,
                                     const job::Operation& operation,
                                     const offset::Region2d& pocket,
-                                    const CutterRoom& room);
+                                    double wall_clearance);
 
 // Whether all of the pocket lies beside the stock.
 bool lies_beside_stock(const job::Job& job, const offset::Region2d& pocket);

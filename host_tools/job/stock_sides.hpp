@@ -1,8 +1,6 @@
 // The stock's outline in plan, and pockets that reach it.
 #pragma once
 
-#include <limits>
-
 #include "host_tools/job/job.hpp"
 
 namespace cusp::job {
@@ -10,12 +8,12 @@ namespace cusp::job {
 // mm: an outline that is no farther inside than this lies on the stock's edge.
 inline constexpr double kOnEdge = 0.002;
 
-// Where the stock ends; infinite where the job does not say.
+// Where the stock ends; unbounded where the job does not say.
 struct StockSides {
-    double x_low{-std::numeric_limits<double>::infinity()};
-    double x_high{std::numeric_limits<double>::infinity()};
-    double y_low{-std::numeric_limits<double>::infinity()};
-    double y_high{std::numeric_limits<double>::infinity()};
+    double x_low{-kUnbounded};
+    double x_high{kUnbounded};
+    double y_low{-kUnbounded};
+    double y_high{kUnbounded};
 };
 
 StockSides stock_sides(const Job& job);

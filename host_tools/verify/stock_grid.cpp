@@ -37,7 +37,7 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
         box.y_low = std::min(box.y_low, (*job.stock_y)[0]);
         box.y_high = std::max(box.y_high, (*job.stock_y)[1]);
     }
-    // Beside the stock there is air, also where the drawing of a pocket goes on.
+    // Beside the stock there is air, also where the drawing of a pocket continues.
     if (std::any_of(job.operations.begin(), job.operations.end(),
                     [&](const job::Operation& o) { return is_open_pocket(job, o); })) {
         const job::StockSides sides = stock_sides(job);

@@ -261,6 +261,7 @@ job::Operation pocket_of(const Region2d& region, const AdaptiveSettings& setting
 {
     job::Operation operation;
     operation.strategy = "contour_pocket";
+    operation.tool.radius = settings.tool_radius;
     operation.max_engagement = settings.max_engagement / kDegrees;
     operation.boundary.emplace();
     for (const Edge& edge : region.contours.front()) {
@@ -291,9 +292,8 @@ TEST(RandomAdaptiveClearing, ComesInFromOpenSides)
         job::Job job;
         job.stock_x = {uniform(random, -45.0, -20.0), uniform(random, 20.0, 70.0)};
         job.stock_y = {-100.0, uniform(random, 10.0, 40.0)};
-        const auto open =
-            contour_pocket::open_sides(job, pocket_of(region, settings), region,
-                                       {settings.tool_radius, settings.wall_clearance});
+        const auto open = contour_pocket::open_sides(job, pocket_of(region, settings), region,
+                                                     settings.wall_clearance);
         if (!open) {
             continue;
         }

@@ -71,7 +71,7 @@ Operation pocket(const Loop& outline)
 std::optional<OpenSides> sides_of(const Loop& outline)
 {
     const Operation operation = pocket(outline);
-    return open_sides(plate(), operation, make_region(operation, 0.001), {kRadius, kClearance});
+    return open_sides(plate(), operation, make_region(operation, 0.001), kClearance);
 }
 
 double figure(const PlannedOperation& planned, const std::string& name)
@@ -91,7 +91,7 @@ TEST(OpenSides, APocketInsideTheStockIsClosed)
     Job endless = plate();
     endless.stock_x.reset();
     const Operation operation = pocket(loop(40, 10, 80, 50));
-    CHECK(!open_sides(endless, operation, make_region(operation, 0.001), {kRadius, kClearance}));
+    CHECK(!open_sides(endless, operation, make_region(operation, 0.001), kClearance));
 }
 
 TEST(OpenSides, OnTheEdgeAndBeyondAreTheSame)
@@ -131,8 +131,7 @@ TEST(OpenSides, AnIslandAndTwoSidesKeepTheirWalls)
     Operation operation = pocket(loop(-2, 40, 82, 55));  // through the stock
     operation.islands = {loop(30, 45, 36, 50)};
     operation.island_files = {"plate.dxf#island"};
-    const auto open =
-        open_sides(plate(), operation, make_region(operation, 0.001), {kRadius, kClearance});
+    const auto open = open_sides(plate(), operation, make_region(operation, 0.001), kClearance);
     CHECK(open.has_value());
     LONGS_EQUAL(2, open->region.contours.size());
     LONGS_EQUAL(2, open->air.contours.size());
