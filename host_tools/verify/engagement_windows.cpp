@@ -16,9 +16,9 @@ using job::Job;
 namespace {
 
 constexpr double kPitchesPerRadius = 150;
-constexpr double kMostCells = 4e6;     // of a window
+constexpr double kMostWindowCells = 4e6;  // of a window
 constexpr double kWorthwhile = 0.7;    // pitches of the height map: a coarser window shows no more
-constexpr double kTile = 4.0;          // radii
+constexpr double kWindowTile = 4.0;    // radii
 constexpr double kBeside = 4.0;        // pitches
 constexpr double kLift = 1.0;          // mm over the stock
 constexpr std::size_t kMostLooks = 2;  // at all positions, together
@@ -79,7 +79,7 @@ public:
 private:
     Tile tile_of(Vec3d tip) const
     {
-        const double size = kTile * least_;
+        const double size = kWindowTile * least_;
         return {std::lround(std::floor(tip.x / size)), std::lround(std::floor(tip.y / size))};
     }
 
@@ -126,7 +126,7 @@ private:
             widest = found_[run].counts_over < kUnbounded ? std::max(widest, runs_[run].tool.radius)
                                                           : widest;
         }
-        const double size = kTile * least_;
+        const double size = kWindowTile * least_;
         const double beyond = widest + kBeside * grid_.pitch;
         const Vec2d corner{static_cast<double>(tile.first) * size,
                            static_cast<double>(tile.second) * size};
@@ -139,7 +139,8 @@ private:
         const Vec2d high{std::min(corner.x + size + beyond, end(grid_.x0, grid_.nx)),
                          std::min(corner.y + size + beyond, end(grid_.y0, grid_.ny))};
         const double area = std::max(0.0, high.x - low.x) * std::max(0.0, high.y - low.y);
-        return {low, high, std::max(least_ / kPitchesPerRadius, std::sqrt(area / kMostCells))};
+        return {low, high,
+                std::max(least_ / kPitchesPerRadius, std::sqrt(area / kMostWindowCells))};
     }
 
     NearRun near_run(const ToolPositions& run, const Window& window) const
