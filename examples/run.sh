@@ -23,7 +23,7 @@ after=
 for program in $(ls -tr "$out"/program*.ngc); do
     of=$(basename "$program" .ngc | sed s/program//)
     "$cusp" verify "$top/examples/$name.toml" "$program" ${after:+--after $after} --stats "$out/verify$of.json" \
-        --path-picture "$out/path$of.svg" --left-picture "$out/left$of.svg"
+        --path-picture "$out/path$of.svg" --left-picture "$out/left$of.svg" --engagement-picture "$out/engagement$of.svg"
     after="$after $program"
 done
-echo "in $out: program.ngc plan.json verify.json path.svg left.svg, of each set-up"
+echo "in $out: program.ngc plan.json verify.json path.svg left.svg engagement.svg, of each set-up"

@@ -21,11 +21,11 @@ constexpr int kWidthBisections = 10;
 constexpr double kShare = 0.8;
 
 // mm: the radius of the first turn. Stock of up to `missed`, that discs and chords leave beside a
-// turn already made, must be out of reach at the angle `most`.
+// turn already made, must be small beside it at the angle `most`.
 double first_turn(double tool_radius, double most, double tolerance)
 {
     const double missed = kMissedBeside * tool_radius + tolerance;
-    return std::max(kFirstTurn * tool_radius, 2.0 * missed / (1.0 - std::cos(most)));
+    return std::max(kFirstTurn * tool_radius, 4.0 * missed / (1.0 - std::cos(most)));
 }
 
 // Half a turn to the left from `from` to `to` mm on alternating sides of the centre.
@@ -61,16 +61,24 @@ EntrySpiral entry_spiral(SweptArea& swept,
     const auto bound = [&](double to) {
         return swept.engagement_bound(half_turn(centre, at, to, side), most, limits.tolerance);
     };
+    // The farthest that half a turn may end from the centre.
+    const auto widest = [&](double limit) {
+        double over = std::min(radius, kMostGrowth * at);
+        if (bound(over) <= limit) {
+            return over;
+        }
+        double good = at;
+        for (int i = 0; i < kWidthBisections; ++i) {
+            const double middle = 0.5 * (good + over);
+            (bound(middle) <= limit ? good : over) = middle;
+        }
+        return good;
+    };
     double whole = at;  // mm: radius of the largest whole turn
     while (at < radius) {
-        double to = std::min(radius, kMostGrowth * at);
-        if (bound(to) > most) {
-            double good = at;
-            for (int i = 0; i < kWidthBisections; ++i) {
-                const double middle = 0.5 * (good + to);
-                (bound(middle) <= most ? good : to) = middle;
-            }
-            to = good;
+        double to = widest(most);
+        if (to < kLeastGrowth * at) {
+            to = widest(limits.max_engagement);
         }
         if (to < kLeastGrowth * at) {
             break;

@@ -94,8 +94,8 @@ public:
         const auto begin = std::chrono::steady_clock::now();
         const Box2d& plan = work_.stock.plan;
         const bool adaptive = work_.operation.max_engagement.has_value();
-        // Passes of bounded engagement start and turn beside the stock.
-        const double out = (adaptive ? 1.6 : 1.05) * (tool_.radius + work_.operation.allowance);
+        // Passes of bounded engagement start and turn beside the stock, in a strip that is no neck.
+        const double out = (adaptive ? 2.7 : 1.05) * (tool_.radius + work_.operation.allowance);
         SliceSettings settings;
         settings.clearance = clearance_;
         settings.excess = 0.5 * work_.operation.plan_tolerance;

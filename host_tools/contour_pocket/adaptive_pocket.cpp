@@ -9,6 +9,7 @@
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/contour_pocket/open_sides.hpp"
 #include "host_tools/contour_pocket/pocket_report.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
@@ -100,6 +101,7 @@ double chord_tolerance(const Operation& operation, const ToleranceSplit& toleran
 AdaptivePath passes_of(const Job& job,
                        const Operation& operation,
                        const Region2d& region,
+                       const std::optional<OpenSides>& open,
                        const ToleranceSplit& tolerances)
 {
     AdaptiveSettings settings;
@@ -109,6 +111,9 @@ AdaptivePath passes_of(const Job& job,
     settings.tolerance = chord_tolerance(operation, tolerances);
     settings.corner = tolerances.plan_tolerance;
     settings.direction = operation.direction_of_cut;
+    if (open) {
+        settings.open.push_back(open->starts);
+    }
     settings.progress = [&](double share) {
         job.report_progress(share);
     };
@@ -121,19 +126,33 @@ AdaptivePath passes_of(const Job& job,
     return path;
 }
 
+void warn_beside_stock(const Job& job,
+                       const Operation& operation,
+                       const Region2d& pocket,
+                       OperationStats& stats)
+{
+    if (lies_beside_stock(job, pocket)) {
+        stats.warnings.push_back(operation.boundary_file +
+                                 ": the pocket lies beside the stock: the program cuts none");
+    }
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
     const ToleranceSplit tolerances = split_tolerances(job, operation);
-    const Region2d region = make_region(operation, tolerances.fit);
+    const Region2d pocket = make_region(operation, tolerances.fit);
+    const std::optional<OpenSides> open =
+        open_sides(job, operation, pocket, tolerances.wall_clearance);
+    const Region2d& region = open ? open->region : pocket;
     check_work(job, operation, region, tolerances);
     check_size(operation, region);
     const DropCutter floor{operation.floor, operation.tool, tolerances.accuracy};
-    check_coverage(operation, region, floor);
+    check_coverage(operation, open ? open->in_stock : pocket, floor);
     const std::vector<double> heights = heights_of(job, operation, level_of(operation));
-    const AdaptivePath path = passes_of(job, operation, region, tolerances);
+    const AdaptivePath path = passes_of(job, operation, region, open, tolerances);
 
     PlannedOperation result;
     set_tool(result.path, job, operation.tool);
@@ -164,10 +183,16 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     EngagementReport engagement{*operation.max_engagement};
     engagement.add(path, heights.size());
     engagement.write(stats);
+    if (open) {
+        stats.counts.emplace_back("open_pocket", 1.0);
+    }
     report_plunges(cutter.plunges(), stats);
     report_air(result.path.moves, job.stock_top, stats);
+    warn_beside_stock(job, operation, pocket, stats);
     const RegionOffset walls{region};
-    report_uncut({job, operation, region, walls, floor, tolerances.wall_clearance, false}, stats);
+    report_uncut({job, operation, region, walls, floor, tolerances.wall_clearance, false,
+                  open ? open->air : Region2d{}},
+                 stats);
     result.path.comments = {"contour_pocket: adaptive clearing, engagement at most " +
                             number_text(path.engagement_bound / kDegrees) + " degrees"};
     stats.planning_s =

@@ -13,6 +13,7 @@ namespace cusp::contour_pocket {
 using clearing::AxialDepthTracker;
 using offset::area;
 using offset::Region2d;
+using offset::RegionOffset;
 using toolpath::MoveKind;
 using toolpath::OperationStats;
 using toolpath::ToolMove;
@@ -65,17 +66,22 @@ void report_uncut(const FinishedPocket& pocket, OperationStats& stats)
     constexpr std::size_t kNamed = 5;
     const Region2d centres = pocket.walls.at(pocket.wall_clearance);
     const double least = std::max(*pocket.operation.scallop, 0.02 * pocket.operation.tool.radius);
-    const std::vector<UncutRegion> places =
-        uncut_regions(pocket.walls, centres, pocket.operation.floor, pocket.floor,
-                      {pocket.wall_clearance, pocket.job.stock_top, least, pocket.valleys});
+    const std::vector<UncutRegion> places = uncut_regions(
+        pocket.walls, centres, pocket.operation.floor, pocket.floor,
+        {pocket.wall_clearance, pocket.job.stock_top, least, pocket.valleys, pocket.air});
     double volume = 0.0;
     double height = 0.0;
     for (const UncutRegion& place : places) {
         volume += place.volume;
         height = std::max(height, place.height);
     }
-    stats.counts.emplace_back("rest_area_mm2",
-                              unswept_area(pocket.region, centres, pocket.wall_clearance));
+    double rest = unswept_area(pocket.region, centres, pocket.wall_clearance);
+    if (!pocket.air.contours.empty()) {
+        // Corners between the stock's side and the end of the air.
+        const Region2d room = RegionOffset{pocket.air}.at(pocket.wall_clearance);
+        rest = std::max(0.0, rest - unswept_area(pocket.air, room, pocket.wall_clearance));
+    }
+    stats.counts.emplace_back("rest_area_mm2", rest);
     stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
     stats.counts.emplace_back("rest_volume_mm3", volume);
     stats.counts.emplace_back("rest_height_max_mm", height);

@@ -25,8 +25,9 @@ struct FinishedPocket {
     const offset::Region2d& region;
     const offset::RegionOffset& walls;  // of the region
     const drop_cutter::DropCutter& floor;
-    double wall_clearance;  // mm: of the tool's axis
-    bool valleys;           // false if the tool reaches all of the floor
+    double wall_clearance;   // mm: of the tool's axis
+    bool valleys;            // false if the tool reaches all of the floor
+    offset::Region2d air{};  // part of the region beside the stock: nothing stays there
 };
 
 // Adds area, number, volume and height of the regions that the tool does not reach, and names the

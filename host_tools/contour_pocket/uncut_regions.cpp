@@ -54,7 +54,7 @@ public:
 
     std::vector<UncutRegion> run(const UncutSettings& settings)
     {
-        find_uncut_at_walls(settings.top, settings.min_height);
+        find_uncut_at_walls(settings);
         if (settings.valleys) {
             find_valleys(settings.min_height);
         }
@@ -121,18 +121,18 @@ private:
         }
     }
 
-    void find_uncut_at_walls(double top, double min_height)
+    void find_uncut_at_walls(const UncutSettings& settings)
     {
         for (int i = 0; i < columns_; ++i) {
             for (int j = 0; j < rows_; ++j) {
                 const Vec2d p = centre(i, j);
                 if (places_[index(i, j)] != Place::kBeside ||
-                    centres_.any_nearer(p, wall_clearance_)) {
+                    centres_.any_nearer(p, wall_clearance_) || contains(settings.air, p)) {
                     continue;
                 }
                 const auto floor = floor_.drop(p);
-                if (floor && top - floor->z > min_height) {
-                    rest_[index(i, j)] = top - floor->z;
+                if (floor && settings.top - floor->z > settings.min_height) {
+                    rest_[index(i, j)] = settings.top - floor->z;
                     by_wall_[index(i, j)] = true;
                 }
             }

@@ -31,7 +31,8 @@ struct UncutSettings {
     double wall_clearance;  // mm: least distance of `centres` from the contours
     double top;             // z of the stock: regions at walls reach up to it
     double min_height;
-    bool valleys;  // false if the floor has no valley that the tool does not reach
+    bool valleys;            // false if the floor has no valley that the tool does not reach
+    offset::Region2d air{};  // nothing stays there
 };
 std::vector<UncutRegion> uncut_regions(const offset::RegionOffset& walls,
                                        const offset::Region2d& centres,

@@ -295,8 +295,9 @@ std::vector<LayerRun> runs_of(const AdaptivePath& path)
     return out;
 }
 
-// mm: from the limits of the axis to the stock: a strip in which a pass may start and turn.
-double open_strip(double kept, bool adaptive) { return adaptive ? 1.5 * kept : 1.1 * kept; }
+// mm: from the limits of the axis to the stock: a strip in which a pass may start and turn. With less
+// than 1.7 radii of room it would be a neck, to be opened by trochoids.
+double open_strip(double kept, bool adaptive) { return adaptive ? 2.7 * kept : 1.1 * kept; }
 
 }  // namespace
 

@@ -87,8 +87,8 @@ void check_adaptive_levels(const JobTable& table, const Operation& operation)
     if (operation.strategy == "grid_pocket") {
         table.refuse(
             "clearing",
-            "grid_pocket does not have \"adaptive\": its layers follow the floor from cell to "
-            "cell: rough with contour_pocket or hull_rough, then finish with grid_pocket");
+            "grid_pocket does not have \"adaptive\": its passes follow the floor from cell to cell "
+            "in slots of their own: rough with hull_rough, then finish with grid_pocket");
     }
     if (operation.strategy != "hull_rough" && !operation.roughing) {
         table.refuse("clearing",

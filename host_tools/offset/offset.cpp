@@ -10,6 +10,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/offset/edge_crossings.hpp"
+#include "host_tools/offset/edge_runs.hpp"
 #include "host_tools/offset/piece_trim.hpp"
 #include "host_tools/offset/raw_offset.hpp"
 
@@ -18,9 +19,7 @@ namespace cusp::offset {
 namespace {
 
 constexpr double kSlack = 1e-9;       // a crossing may lie this far beyond an edge's end
-constexpr double kShortest = 1e-8;    // pieces below are dropped
 constexpr double kNearer = 2e-8;      // a run this much too near is still kept
-constexpr double kSameVertex = 1e-6;  // run ends that meet
 constexpr std::size_t kCrowded = 25;  // pairs a piece beside each other: trimming them is cheaper
 
 struct Cut {
@@ -28,22 +27,6 @@ struct Cut {
     double along;  // share of the chord
     Vec2d point;
 };
-
-// The pieces between two crossings: all are kept or none. A run with an open end is never kept: raw
-// pieces are disconnected only at inner corners and where an arc has vanished, and these ends are
-// nearer to the next edge than the distance.
-struct Run {
-    std::vector<Edge> edges;
-    std::vector<std::uint32_t> origins;  // of its pieces
-    bool closed{};
-    bool open_end{};
-};
-
-double share_of_chord(const Edge& edge, Vec2d p)
-{
-    const Vec2d chord = edge.end - edge.start;
-    return dot(p - edge.start, chord) / dot(chord, chord);
-}
 
 void cut_pair(const std::vector<RawPiece>& pieces,
               const std::vector<std::uint32_t>& next,
@@ -130,7 +113,7 @@ public:
     }
     void add(const Edge& edge, std::uint32_t origin)
     {
-        if (distance(edge.start, edge.end) > kShortest) {
+        if (distance(edge.start, edge.end) > kShortestPiece) {
             run_.edges.push_back(edge);
             run_.origins.push_back(origin);
         }
@@ -223,81 +206,6 @@ Vec2d middle_of(const Run& run)
         return chord_middle;
     }
     return longest->centre + unit(chord_middle - longest->centre) * longest->radius;
-}
-
-Vec2d start_of(const Run& run) { return run.edges.front().start; }
-
-// The unused run that starts at the end of `last` with the sharpest left turn, if any.
-//
-// by_x  the open runs, by x of their starts
-std::optional<std::size_t> next_run(const std::vector<Run>& runs,
-                                    const std::vector<std::size_t>& by_x,
-                                    const std::vector<bool>& used,
-                                    const Edge& last)
-{
-    auto at = std::lower_bound(by_x.begin(), by_x.end(), last.end.x - kSameVertex,
-                               [&](std::size_t i, double x) { return start_of(runs[i]).x < x; });
-    std::optional<std::size_t> best;
-    double best_turn = -kUnbounded;
-    const Vec2d arriving = tangent_at_end(last);
-    for (; at != by_x.end() && start_of(runs[*at]).x <= last.end.x + kSameVertex; ++at) {
-        if (used[*at] || std::abs(start_of(runs[*at]).y - last.end.y) > kSameVertex) {
-            continue;
-        }
-        const Vec2d leaving = tangent_at_start(runs[*at].edges.front());
-        const double turn = std::atan2(cross(arriving, leaving), dot(arriving, leaving));
-        if (turn > best_turn) {
-            best = *at;
-            best_turn = turn;
-        }
-    }
-    return best;
-}
-
-// Joins runs at common ends. If several start at a vertex, the sharpest left turn separates parts
-// that only touch. None where an end has no partner.
-std::optional<Region2d> joined(std::vector<Run>& runs)
-{
-    std::vector<std::size_t> by_x;
-    Region2d region;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        if (runs[i].closed) {
-            region.contours.push_back(std::move(runs[i].edges));
-        } else {
-            by_x.push_back(i);
-        }
-    }
-    std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
-        return start_of(runs[a]).x < start_of(runs[b]).x;
-    });
-    std::vector<bool> used(runs.size(), false);
-    for (const std::size_t first : by_x) {
-        if (used[first]) {
-            continue;
-        }
-        Contour contour;
-        std::optional<std::size_t> at = first;
-        const Vec2d origin = start_of(runs[first]);
-        while (true) {
-            if (!at) {
-                return std::nullopt;
-            }
-            used[*at] = true;
-            if (!contour.empty()) {
-                contour.back().end = start_of(runs[*at]);
-            }
-            contour.insert(contour.end(), runs[*at].edges.begin(), runs[*at].edges.end());
-            const Vec2d end = contour.back().end;
-            at = next_run(runs, by_x, used, contour.back());
-            const bool home = distance(end, origin) < kSameVertex;
-            if (home) {
-                contour.back().end = origin;
-                break;
-            }
-        }
-        region.contours.push_back(std::move(contour));
-    }
-    return region;
 }
 
 // Fast test by chords: the segment of an arc is no larger than the half disc over its chord.

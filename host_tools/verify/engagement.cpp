@@ -49,14 +49,17 @@ std::optional<double> engagement_limit(const Job& job,
     return least;
 }
 
+void set_limit(const Tool& tool, std::optional<double> limit, double pitch, EngagementRun& run)
+{
+    run.counts_over = limit ? found_over(*limit, tool.radius, pitch) : kUnbounded;
+}
+
 void add_engagement(const ToolPositions& positions,
                     std::optional<double> limit,
-                    double pitch,
-                    EngagementRun& run,
+                    const EngagementRun& run,
                     EngagementFigures& figures)
 {
     if (limit) {
-        run.counts_over = found_over(*limit, positions.tool.radius, pitch);
         figures.limit = std::min(figures.limit.value_or(*limit), *limit);
         figures.over_length = figures.over_length.value_or(0);
     }

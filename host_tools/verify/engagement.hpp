@@ -29,12 +29,17 @@ std::optional<double> engagement_limit(const job::Job& job,
                                        const toolpath::Tool& tool,
                                        std::optional<double> asked);
 
-// Adds a run of one tool, and sets what counts as over in it. Over the limit is what is over by more than 5 %, and by more than 0.7
-// pitches of a straight cut's width, which the grid does not resolve.
+// Sets what counts as over in a run: what is over the limit by more than 5 %, and by more than 0.7
+// pitches of a straight cut's width, which the grid does not resolve. Nothing without a limit.
+void set_limit(const toolpath::Tool& tool,
+               std::optional<double> limit,
+               double pitch,
+               EngagementRun& run);
+
+// Adds a run of one tool. Precondition: set_limit().
 void add_engagement(const ToolPositions& positions,
                     std::optional<double> limit,
-                    double pitch,
-                    EngagementRun& run,
+                    const EngagementRun& run,
                     EngagementFigures& figures);
 
 // Feed moves at their feed, rapid moves at the rates of the controller's default machine; without

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/job/stock_sides.hpp"
 #include "host_tools/verify/cut_regions.hpp"
 
 namespace cusp::verify {
@@ -35,6 +36,15 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
     if (job.stock_y) {
         box.y_low = std::min(box.y_low, (*job.stock_y)[0]);
         box.y_high = std::max(box.y_high, (*job.stock_y)[1]);
+    }
+    // Beside the stock there is air, also where the drawing of a pocket continues.
+    if (std::any_of(job.operations.begin(), job.operations.end(),
+                    [&](const job::Operation& o) { return is_open_pocket(job, o); })) {
+        const job::StockSides sides = stock_sides(job);
+        box.x_low = std::max(box.x_low, sides.x_low);
+        box.x_high = std::min(box.x_high, sides.x_high);
+        box.y_low = std::max(box.y_low, sides.y_low);
+        box.y_high = std::min(box.y_high, sides.y_high);
     }
     const double width = box.x_high - box.x_low;
     const double height = box.y_high - box.y_low;

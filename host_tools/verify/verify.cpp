@@ -9,6 +9,7 @@
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/verify/cut_regions.hpp"
 #include "host_tools/verify/earlier_programs.hpp"
+#include "host_tools/verify/engagement_windows.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/level_judgement.hpp"
 #include "host_tools/verify/pocket_boundaries.hpp"
@@ -365,14 +366,22 @@ void cut_stock(const Job& job,
 
 void sum_engagement(const Job& job,
                     const std::vector<ToolPositions>& runs,
-                    std::optional<double> asked,
+                    const VerifySettings& settings,
+                    double spacing,
                     double removed_volume,
                     Verification& result)
 {
     EngagementFigures& figures = result.figures.engagement.emplace();
+    std::vector<std::optional<double>> limits;
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        add_engagement(runs[k], engagement_limit(job, runs[k].tool, asked), result.grid.pitch,
-                       result.engagement[k], figures);
+        limits.push_back(engagement_limit(job, runs[k].tool, settings.max_engagement));
+        set_limit(runs[k].tool, limits[k], result.grid.pitch, result.engagement[k]);
+    }
+    if (!settings.pitch) {
+        look_closer(job, result.grid, spacing, runs, result.engagement);
+    }
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        add_engagement(runs[k], limits[k], result.engagement[k], figures);
     }
     figures.removed_volume = removed_volume;
     figures.seconds = programmed_seconds(result.program);
@@ -450,7 +459,7 @@ Verification verify(const Job& job,
     const double removed_before = cut_earlier_programs(job, spacing, stock);
     cut_stock(job, runs, spacing, settings.engagement, progress, stock, result);
     if (settings.engagement) {
-        sum_engagement(job, runs, settings.max_engagement, stock.removed_volume() - removed_before,
+        sum_engagement(job, runs, settings, spacing, stock.removed_volume() - removed_before,
                        result);
     }
     progress(1.0);

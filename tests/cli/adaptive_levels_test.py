@@ -83,7 +83,7 @@ class AdaptiveLevels(CuspCase):
         adaptive = 'clearing = "adaptive"\n'
         self.assertIn("overlap: does not go with", refused("hull_rough", adaptive + "overlap = 1"))
         grid = f'boundary = "{PARTS / "choi-polygon-boundary.json"}"\ngrid = [1, 1]\n'
-        self.assertIn("rough with contour_pocket or hull_rough", refused("grid_pocket", adaptive + grid))
+        self.assertIn("rough with hull_rough, then finish", refused("grid_pocket", adaptive + grid))
         self.assertIn('clearing: "adaptive" needs roughing = true',
                       refused("parallel_planes", adaptive + "scallop = 0.1"))
         self.assertIn("max_engagement: needs clearing", refused("hull_rough", "max_engagement = 60"))

@@ -1,4 +1,4 @@
-// Adaptive clearing of random pockets and slots, cut again on a raster: the engagement keeps its bound, all
+// Adaptive clearing of random pockets, open or not, and slots, cut again on a raster: the engagement keeps its bound, all
 // that contour clearing cuts is cut, every path keeps its clearance from walls, and links at rapid
 // meet no stock.
 //
@@ -14,6 +14,7 @@
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/adaptive_clearing/entry_spiral.hpp"
 #include "host_tools/adaptive_clearing/steered_pass.hpp"
+#include "host_tools/contour_pocket/open_sides.hpp"
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
@@ -95,8 +96,10 @@ bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
     });
 }
 
+// air    part of the region without stock
 // finer  times the raster and the steps
 Found judge(const Region2d& region,
+            const Region2d& air,
             const AdaptiveSettings& settings,
             const AdaptivePath& path,
             double finer)
@@ -106,6 +109,7 @@ Found judge(const Region2d& region,
     const double step = kStep * radius / finer;
     const RegionOffset walls{region};
     RasterCutter cutter{region, radius, pitch, 2.0 * pitch};
+    cutter.remove(air);
     Found found;
     Vec2d tool{};
     for (const AdaptiveRun& run : path.runs) {
@@ -157,12 +161,15 @@ Found judge(const Region2d& region,
 }
 
 // Whether all holds; prints the case where it does not.
-bool holds(const Region2d& region, const AdaptiveSettings& settings, unsigned number)
+bool holds(const Region2d& region,
+           const AdaptiveSettings& settings,
+           unsigned number,
+           const Region2d& air = {})
 {
     const AdaptivePath path = clear_adaptively(region, settings);
-    Found found = judge(region, settings, path, 1.0);
+    Found found = judge(region, air, settings, path, 1.0);
     if (found.over > 0.001 * found.way) {
-        found = judge(region, settings, path, kFiner);
+        found = judge(region, air, settings, path, kFiner);
     }
     double listed = 0.0;
     for (const OverEngagement& over : path.over) {
@@ -251,7 +258,54 @@ std::optional<Region2d> random_slot(Random& random, const AdaptiveSettings& sett
     return find_fault(region) || area(region) < 0.0 ? std::nullopt : std::optional{region};
 }
 
+// An operation of a pocket that has this region; open_sides() looks at its outline alone.
+job::Operation pocket_of(const Region2d& region, const AdaptiveSettings& settings)
+{
+    job::Operation operation;
+    operation.strategy = "contour_pocket";
+    operation.tool.radius = settings.tool_radius;
+    operation.max_engagement = settings.max_engagement / kDegrees;
+    operation.boundary.emplace();
+    for (const Edge& edge : region.contours.front()) {
+        operation.boundary->push_back(
+            {1,
+             {0.0, 0.0, 1.0, 1.0},
+             {{edge.start.x, edge.start.y, 0.0}, {edge.end.x, edge.end.y, 0.0}},
+             {1.0, 1.0}});
+    }
+    return operation;
+}
+
 TEST_GROUP(RandomAdaptiveClearing){};
+
+// The stock ends somewhere in the pocket, on two or three sides: the tool comes in from there.
+TEST(RandomAdaptiveClearing, ComesInFromOpenSides)
+{
+    constexpr unsigned kSeed = 26;
+    const int cases = property_cases(4);
+    int wrong = 0;
+    int open_cases = 0;
+    std::printf("%d random pockets with open sides, seeds from %u\n", cases, kSeed);
+    for (int i = 0; i < cases; ++i) {
+        const unsigned number = kSeed + static_cast<unsigned>(i);
+        Random random{number};
+        const Region2d region = random_region(random);
+        AdaptiveSettings settings = random_settings(random, number);
+        job::Job job;
+        job.stock_x = {uniform(random, -45.0, -20.0), uniform(random, 20.0, 70.0)};
+        job.stock_y = {-100.0, uniform(random, 10.0, 40.0)};
+        const auto open = contour_pocket::open_sides(job, pocket_of(region, settings), region,
+                                                     settings.wall_clearance);
+        if (!open) {
+            continue;
+        }
+        ++open_cases;
+        settings.open.push_back(open->starts);
+        wrong += holds(open->region, settings, number, open->air) ? 0 : 1;
+    }
+    LONGS_EQUAL(0, wrong);
+    CHECK(open_cases > 0);
+}
 
 // And little of their way is over the angle: corners.
 TEST(RandomAdaptiveClearing, OpensSlots)

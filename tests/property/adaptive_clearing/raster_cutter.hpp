@@ -52,6 +52,18 @@ public:
         }
     }
 
+    void remove(const offset::Region2d& air)
+    {
+        const offset::EdgeTree edges{offset::edges_of(air)};
+        for (int j = 0; j < rows_; ++j) {
+            for (int i = 0; i < columns_; ++i) {
+                if (metal_[index(i, j)] != 0 && edges.surrounds(centre(i, j))) {
+                    metal_[index(i, j)] = 0;
+                }
+            }
+        }
+    }
+
     void cut(Vec2d at) { remove_disc(at, radius_); }
 
     double ahead() const { return 2.0 * pitch_; }
