@@ -112,15 +112,9 @@ public:
             scallop_ = proved.bound;
             beside_edges_ = proved.beside_edges;
         }
-        for (std::size_t k = 0; scallop_check_ && k < work_.surfaces().size(); ++k) {
-            scallop_check_->add_rim_passes(static_cast<int>(k),
-                                           [&](const Points& pass) { add_pass(pass); });
-        }
         const bool checked = scallop_check_.has_value();
         if (checked) {
-            beside_edges_ = std::max(beside_edges_, scallop_check_->left_beside_edges());
-            // Its cutters and proofs are most of the memory, and links need as much.
-            scallop_check_.reset();
+            end_scallop_check();
         }
         report(kMissingDone);
         PlannedOperation planned = work_.finish(spacing_, scallop_);
@@ -184,6 +178,17 @@ private:
         } else {
             cut_.push_back(points);
         }
+    }
+
+    void end_scallop_check()
+    {
+        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+            scallop_check_->add_rim_passes(static_cast<int>(k),
+                                           [&](const Points& pass) { add_pass(pass); });
+        }
+        beside_edges_ = std::max(beside_edges_, scallop_check_->left_beside_edges());
+        // Its cutters and proofs are most of the memory, and links need as much.
+        scallop_check_.reset();
     }
 
     // Examines all surfaces, or of one smooth surface only the strips with too high a scallop.
