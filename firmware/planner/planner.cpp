@@ -28,6 +28,8 @@ constexpr float kTickMargin = 0.006F;
 // are off by so much, and by no more than this part of small limits.
 constexpr float kRoughAcceleration = 0.1F;  // mm/s^2
 constexpr float kRoughestShare = 0.05F;
+// nm: positions on curves are off by as much (position_at()), second differences by four times.
+constexpr float kRoughCurve = 4.0F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
@@ -77,6 +79,16 @@ MachineLimits with_margin(const MachineLimits& limits, std::uint32_t path_filter
         kept.acceleration[i] -= std::min(kRoughAcceleration, kRoughestShare * kept.acceleration[i]);
     }
     return kept;
+}
+
+// Of the axes' acceleration, what rounded positions on a curve may take behind the filters. A nanometre per
+// tick squared is 1 mm/s^2.
+void leave_to_rounding(Vec3f& acceleration, AxisFilter filter) noexcept
+{
+    const auto ticks = static_cast<float>(filter.first * filter.second);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        acceleration[i] -= std::min(4.0F * kRoughCurve / ticks, kRoughestShare * acceleration[i]);
+    }
 }
 
 }  // namespace
@@ -425,8 +437,12 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
     const auto* quintic = std::get_if<path::Quintic>(&move_.path);
     const bool is_transition = quintic != nullptr && quintic->is_transition;
+    MachineLimits limits = limits_;
+    if (block.shape == BlockShape::kCurve) {
+        leave_to_rounding(limits.acceleration, block.filter);
+    }
     Allowance of_part =
-        allowance(part.derivatives, limits_, filter_s, choice_.centripetal, kGreatestSpeed,
+        allowance(part.derivatives, limits, filter_s, choice_.centripetal, kGreatestSpeed,
                   is_transition ? kTransitionJerkShare : kCurvatureJerkShare);
     of_part.feed = feed * feed;
     return of_part;

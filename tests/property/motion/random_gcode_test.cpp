@@ -1,4 +1,9 @@
 // Limits hold for random G-code: arcs of all planes, splines, inches, numbers of few decimals.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,13 +28,12 @@ struct Moves {
     std::uint64_t curves{0};  // pieces of splines
 };
 
-Moves moves_of(std::uint64_t seed)
+Moves moves_of(const std::vector<std::string>& lines)
 {
     gcode::Interpreter interpreter;
     Moves result;
     std::uint32_t number = 0;
-    const test::RandomProgram program{seed};
-    for (const std::string& line : program.lines()) {
+    for (const std::string& line : lines) {
         if (!interpreter.execute(line, ++number)) {
             ++result.refused;
         }
@@ -42,6 +46,33 @@ Moves moves_of(std::uint64_t seed)
         }
     }
     return result;
+}
+
+Moves moves_of(std::uint64_t seed) { return moves_of(test::RandomProgram{seed}.lines()); }
+
+// A spline of mixed weights, mostly along one axis.
+std::vector<std::string> weighted_spline(std::uint64_t seed, unsigned axis)
+{
+    std::mt19937_64 random{seed};
+    const auto between = [&random](double low, double high) {
+        return std::uniform_real_distribution<double>{low, high}(random);
+    };
+    std::vector<std::string> lines{"G21 G90 G64 P0.002 F6000"};
+    const int order = 2 + static_cast<int>(random() % 4);
+    const int points = order + 4;
+    Vec3d at{};
+    for (int i = 0; i < points; ++i) {
+        for (unsigned k = 0; i > 0 && k < 3; ++k) {
+            at[k] += (k == axis ? 1 : 0.3) * between(-6, 6);
+        }
+        std::array<char, 120> text;
+        std::snprintf(text.data(), text.size(), "X%.4f Y%.4f Z%.4f R%.3f K%d", at.x, at.y, at.z,
+                      std::pow(4, between(-1, 1)), std::max(0, i - order + 1));
+        lines.push_back((i == 0 ? "G6.2 P" + std::to_string(order) + " " : "") + text.data());
+    }
+    lines.insert(lines.end(), static_cast<std::size_t>(order),
+                 "K" + std::to_string(points - order + 1));
+    return lines;
 }
 
 }  // namespace
@@ -81,5 +112,29 @@ TEST(RandomGcode, HoldsEveryLimitThroughHoldsOverridesAndStarvation)
         rig.start_at({});
         const auto samples = rig.run_disturbed(program.moves, seed);
         test::check_motion(samples, program.moves.back().end, limits, seed);
+    }
+}
+
+// The slow axis has the least acceleration, the others so much that the axis filters are short: of
+// what that axis may do, places on curves, rounded, take the largest part.
+TEST(RandomGcode, HoldsLowAccelerationsOnCurves)
+{
+    for (std::uint64_t seed = kSeed; seed < kSeed + 3 * test::motion_program_count(); ++seed) {
+        const auto slow = static_cast<unsigned>(seed % 3);
+        const Moves program = moves_of(weighted_spline(seed, slow));
+        UNSIGNED_LONGS_EQUAL(0, program.refused);
+        std::mt19937_64 random{seed};
+        const auto between = [&random](double low, double high) {
+            return static_cast<float>(std::uniform_real_distribution<double>{low, high}(random));
+        };
+        MachineLimits limits{};
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            limits.velocity[axis] = between(20, 200);
+            limits.acceleration[axis] = axis == slow ? between(40, 80) : between(4000, 8000);
+            limits.jerk[axis] = limits.acceleration[axis] * between(50, 300);
+        }
+        MotionRig rig{limits};
+        rig.start_at({});
+        test::check_motion(rig.run(program.moves), program.moves.back().end, limits, seed);
     }
 }
