@@ -28,8 +28,11 @@ constexpr float kTickMargin = 0.006F;
 // are off by so much, and by no more than this part of small limits.
 constexpr float kRoughAcceleration = 0.1F;  // mm/s^2
 constexpr float kRoughestShare = 0.05F;
-// nm: positions on curves are off by as much (position_at()), second differences by four times.
-constexpr float kRoughCurve = 4.0F;
+// nm, of second and third differences of places on curves before the filters. A place is off by 4 at
+// most (position_at()), which a second difference has four times. Its root mean square is 0.15: third
+// differences behind a filter have 8^(1/2) times that, and five times this is left.
+constexpr float kRoughCurveSecond = 16.0F;
+constexpr float kRoughCurveThird = 2.0F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
@@ -81,13 +84,16 @@ MachineLimits with_margin(const MachineLimits& limits, std::uint32_t path_filter
     return kept;
 }
 
-// Of the axes' acceleration, what rounded positions on a curve may take behind the filters. A nanometre per
-// tick squared is 1 mm/s^2.
-void leave_to_rounding(Vec3f& acceleration, AxisFilter filter) noexcept
+// What rounded places on a curve may take of the axes' acceleration and jerk behind the filters. A
+// nanometre a tick per tick is 1 mm/s2, and 1000 mm/s3 for another one.
+void leave_to_rounding(MachineLimits& limits, AxisFilter filter) noexcept
 {
     const auto ticks = static_cast<float>(filter.first * filter.second);
     for (unsigned i = 0; i < kAxisCount; ++i) {
-        acceleration[i] -= std::min(4.0F * kRoughCurve / ticks, kRoughestShare * acceleration[i]);
+        const float of_jerk = kRoughestShare * limits.jerk[i];
+        const float of_acceleration = kRoughestShare * limits.acceleration[i];
+        limits.jerk[i] -= std::min(1e3F * kRoughCurveThird / ticks, of_jerk);
+        limits.acceleration[i] -= std::min(kRoughCurveSecond / ticks, of_acceleration);
     }
 }
 
@@ -439,7 +445,7 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
     const bool is_transition = quintic != nullptr && quintic->is_transition;
     MachineLimits limits = limits_;
     if (block.shape == BlockShape::kCurve) {
-        leave_to_rounding(limits.acceleration, block.filter);
+        leave_to_rounding(limits, block.filter);
     }
     Allowance of_part =
         allowance(part.derivatives, limits, filter_s, choice_.centripetal, kGreatestSpeed,
