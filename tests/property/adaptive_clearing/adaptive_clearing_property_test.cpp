@@ -336,7 +336,7 @@ TEST(RandomAdaptiveClearing, KeepsItsBoundAndLeavesNothing)
     for (int i = 0; i < cases; ++i) {
         Random random{first + static_cast<unsigned>(i)};
         const Region2d region = random_region(random);
-        const AdaptiveSettings settings = random_settings(random, static_cast<unsigned>(i));
+        const AdaptiveSettings settings = random_settings(random, first + static_cast<unsigned>(i));
         wrong += holds(region, settings, first + static_cast<unsigned>(i)) ? 0 : 1;
     }
     LONGS_EQUAL(0, wrong);
