@@ -245,7 +245,6 @@ private:
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             const part_model::PartModel::SharedQueries shared{work_.model()};
             parallel::for_each(end - begin, [&](std::size_t k) {
-                const cancellation::Part same = part_of(surface);  // of another thread
                 const part_model::PartModel::SharedQueries::Part queries{work_.model()};
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
                 done.count();

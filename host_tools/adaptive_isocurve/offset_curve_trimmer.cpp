@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "host_tools/adaptive_isocurve/dense_tips.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/cell_chains.hpp"
 #include "host_tools/part_model/surface_length.hpp"
 
@@ -28,11 +30,30 @@ constexpr int kEdgeDeepest = 6;
 constexpr double kEdgeFound = 0.01;       // of the band: accuracy of an edge
 constexpr double kShortestTraced = 1e-3;  // mm
 constexpr std::size_t kMostChecks = 500;
+constexpr std::size_t kSidesOfAPart = 8;
 
 double length_along(const PartModel& model, int surface, Vec2d from, Vec2d to)
 {
     constexpr int kParts = 12;
     return length_between(model, surface, from, to, kParts);
+}
+
+// Calls work(k) for each k below `count`, `at_once` of them in turn a part, parts on all cores.
+void in_parts(const PartModel& model,
+              std::size_t count,
+              std::size_t at_once,
+              const std::function<void(std::size_t)>& work)
+{
+    {
+        const PartModel::SharedQueries shared{model};
+        parallel::for_each((count + at_once - 1) / at_once, [&](std::size_t part) {
+            const PartModel::SharedQueries::Part queries{model};
+            for (std::size_t k = part * at_once; k < std::min(count, (part + 1) * at_once); ++k) {
+                work(k);
+            }
+        });
+    }
+    model.forget_queries();
 }
 
 std::vector<double> even(double from, double to, std::size_t parts)
@@ -147,13 +168,12 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
     const std::vector<double> vs =
         even(s.v_begin(), s.v_end(),
              parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
-    std::vector<bool> free;
-    for (const double u : us) {
-        model.forget_many_cells();
-        for (const double v : vs) {
-            free.push_back(is_clear_at(surface, u, v));
+    std::vector<char> free(us.size() * vs.size());  // no bits: rows are written at once
+    in_parts(model, us.size(), 1, [&](std::size_t i) {
+        for (std::size_t j = 0; j < vs.size(); ++j) {
+            free[i * vs.size() + j] = is_clear_at(surface, us[i], vs[j]) ? 1 : 0;
         }
-    }
+    });
     const auto place = [&](std::size_t k) {
         return Vec2d{us[k / vs.size()], vs[k % vs.size()]};
     };
@@ -171,20 +191,36 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
         for (const GridSide& side : chain) {
             const std::size_t node = side.first;
             const std::size_t other = end_node(side, vs.size());
-            sides.push_back({place(free[node] ? node : other), place(free[node] ? other : node)});
+            const bool is_free = free[node] != 0;
+            sides.push_back({place(is_free ? node : other), place(is_free ? other : node)});
         }
-        Points dense{edge_tip(surface, sides.front())};
-        for (std::size_t k = 1; k < sides.size(); ++k) {
-            const Vec3d next = edge_tip(surface, sides[k]);
-            const Points piece = edge_points(surface, sides[k - 1], sides[k], dense.back(), next);
-            dense.insert(dense.end(), piece.begin() + 1, piece.end());
-            model.forget_many_cells();
-        }
+        Points dense = edge_along(surface, sides);
         if (length_of(dense) > kShortestTraced) {
             out.push_back(std::move(dense));
         }
     }
     return out;
+}
+
+// Tips along the edge that the segments cross, in their order.
+Points OffsetCurveTrimmer::edge_along(int surface, const std::vector<EdgeSide>& sides) const
+{
+    const PartModel& model = path_fitter_.model();
+    Points tips(sides.size());
+    in_parts(model, sides.size(), kSidesOfAPart,
+             [&](std::size_t k) { tips[k] = edge_tip(surface, sides[k]); });
+    // Between two of them. Dropped tips are left to this thread: drops share one drop cutter.
+    std::vector<std::optional<Points>> between(sides.size());
+    in_parts(model, sides.size() - 1, kSidesOfAPart, [&](std::size_t k) {
+        between[k] = edge_points(surface, sides[k], sides[k + 1], tips[k], tips[k + 1]);
+    });
+    Points dense{tips.front()};
+    for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+        const Points piece =
+            between[k] ? *between[k] : path_fitter_.sample_dropped(tips[k], tips[k + 1]);
+        dense.insert(dense.end(), piece.begin() + 1, piece.end());
+    }
+    return dense;
 }
 
 // The last clear tip towards the blocked point.
@@ -207,17 +243,14 @@ Vec3d OffsetCurveTrimmer::edge_tip(int surface, const EdgeSide& side) const
     return tip(surface, at.x, at.y);
 }
 
-// Between two segments the edge is searched on interpolated segments. Dropped tips would rest on
-// top of an overhang's edge; they are used only where the interpolated segment starts blocked.
-Points OffsetCurveTrimmer::edge_points(
+// Between two segments the edge is searched on interpolated segments; none where the one in the
+// middle starts blocked. Dropped tips would rest on top of an overhang's edge: they are for those.
+std::optional<Points> OffsetCurveTrimmer::edge_points(
     int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const
 {
-    const auto middle_is_free = [&] {
-        const Vec2d at = (from.free + to.free) * 0.5;
-        return is_clear_at(surface, at.x, at.y);
-    };
-    if (!middle_is_free()) {
-        return path_fitter_.sample_dropped(a, b);
+    const Vec2d at = (from.free + to.free) * 0.5;
+    if (!is_clear_at(surface, at.x, at.y)) {
+        return std::nullopt;
     }
     return path_fitter_.sample(
         [&](double t) {

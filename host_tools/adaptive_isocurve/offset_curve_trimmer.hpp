@@ -1,6 +1,7 @@
 // Curves of the domain, mapped to the offset of the surface and trimmed there by the whole model.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host_tools/adaptive_isocurve/domain_curve.hpp"
@@ -58,8 +59,9 @@ private:
         Vec2d blocked;
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
+    finishing::Points edge_along(int surface, const std::vector<EdgeSide>& sides) const;
     // Tips along the edge from one segment, with tip `a`, to the next, with tip `b`.
-    finishing::Points edge_points(
+    std::optional<finishing::Points> edge_points(
         int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const;
     TracedPiece along(const DomainCurve& curve, double from, double to) const;
 

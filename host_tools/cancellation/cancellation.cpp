@@ -48,7 +48,7 @@ void put_number(std::array<char, Size>& to, std::size_t& at, long long number)
 // For handlers: no allocation, no lock.
 void write_line(std::string_view why, rlim_t megabytes)
 {
-    std::array<char, kLongestWork + Part::kLongest + 200> line{};
+    std::array<char, kLongestWork + std::tuple_size_v<Part::Text> + 200> line{};
     std::size_t at = 0;
     put(line, at, "\ncusp: ");
     put(line, at, why);
@@ -158,6 +158,10 @@ Part::Part(std::string_view before, int number, std::string_view after) : outer_
     put_number(part, at, number);
     put(part, at, after);
 }
+
+Part::Part(const Text& text) : outer_{part} { part = text; }
+
+const Part::Text& Part::current() { return part; }
 
 Part::~Part() { part = outer_; }
 

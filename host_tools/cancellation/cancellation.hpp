@@ -38,12 +38,15 @@ class Part {
 public:
     // As in {"face ", 12, " of part.step"}.
     Part(std::string_view before, int number, std::string_view after);
+    // The name that another thread has for the work that this one takes a share of.
+    using Text = std::array<char, 160>;  // ends with 0
+    explicit Part(const Text& text);
     ~Part();
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
 
-    static constexpr std::size_t kLongest = 160;
-    using Text = std::array<char, kLongest>;  // ends with 0
+    // Of this thread; empty where it has none.
+    static const Text& current();
 
 private:
     Text outer_;

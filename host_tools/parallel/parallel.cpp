@@ -8,6 +8,8 @@
 #include <mutex>
 #include <utility>
 
+#include "host_tools/cancellation/cancellation.hpp"
+
 #include "oneapi/tbb/global_control.h"
 #include "oneapi/tbb/parallel_for.h"
 #include "oneapi/tbb/task_group.h"
@@ -49,12 +51,14 @@ struct Loop {
     const Body& body;
     FirstFault fault;
     std::atomic<std::size_t> done;
+    cancellation::Part::Text part;  // of the thread that began the loop
 };
 
 void call(Loop& loop, std::size_t number)
 {
     static_cast<void>(loop.done.load(std::memory_order_acquire));
     try {
+        const cancellation::Part part{loop.part};
         loop.body(number);
     } catch (...) {
         loop.fault.take(number, std::current_exception());
@@ -81,7 +85,7 @@ void set_threads(int threads)
 
 void for_each(std::size_t count, const std::function<void(std::size_t)>& body)
 {
-    Loop loop{body, {}, {}};
+    Loop loop{body, {}, {}, cancellation::Part::current()};
     loop.done.store(0, std::memory_order_release);
     tbb::parallel_for(std::size_t{0}, count, LoopCall{&loop});
     static_cast<void>(loop.done.load(std::memory_order_acquire));
