@@ -1,11 +1,8 @@
 // Missing passes: where the scallop is too high, a pass is traced along the surface's parameters.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include "host_tools/finishing/scallop_check.hpp"
-#include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::finishing {
 
@@ -92,24 +89,6 @@ Points ScallopCheck::trace(int surface, Place place, bool along_u) const
         }
     }
     return out;
-}
-
-// Of the traces along u and along v, which two copies make at once.
-Points ScallopCheck::longer_trace(int surface, Place place)
-{
-    std::array<Points, 2> traces;
-    {
-        const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
-        parallel::for_each(traces.size(), [&](std::size_t k) {
-            const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
-            copies_[k]->near_share_ = near_share_;
-            traces[k] = copies_[k]->trace(surface, place, k == 0);
-        });
-    }
-    path_fitter_.model().forget_queries();
-    auto& [along_u, along_v] = traces;
-    const bool second = along_u.empty() || length_of(along_v) > length_of(along_u);
-    return std::move(second ? along_v : along_u);
 }
 
 // The middle of the cell, then its corners.
@@ -203,7 +182,12 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
                 continue;
             }
             changed.push_back(cell);
-            for (const Points& run : places_.runs_of(longer_trace(cell.surface, *place))) {
+            Points one = trace(cell.surface, *place, true);
+            Points other = trace(cell.surface, *place, false);
+            if (one.empty() || length_of(other) > length_of(one)) {
+                std::swap(one, other);
+            }
+            for (const Points& run : places_.runs_of(one)) {
                 cut(run);
             }
         }

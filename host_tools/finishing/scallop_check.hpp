@@ -186,7 +186,6 @@ private:
                            Vec2d to,
                            const std::function<void(const Points&)>& cut);
     Points trace(int surface, Place place, bool along_u) const;
-    Points longer_trace(int surface, Place place);
 
     const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;
