@@ -177,6 +177,16 @@ PieceStream::Net PieceStream::part_of_span(double from, double to) const noexcep
 
 namespace {
 
+// |dP/du| at the nodes, mm.
+float greatest_speed(const ArcLengthTable& table) noexcept
+{
+    float least = table.nodes[0].du;
+    for (unsigned i = 1; i < table.size; ++i) {
+        least = std::min(least, table.nodes[i].du);
+    }
+    return 1.0F / least;
+}
+
 // The straight line to the end, as a curve of the same order.
 void straighten(path::BezierPiece& piece, Vec3d end) noexcept
 {
@@ -215,10 +225,11 @@ bool PieceStream::try_piece(double from, double to, Piece& piece) noexcept
     const Vec3d end = to_millimetres(piece.end - position_);
     piece.bezier.points[order_ - 1] = to_float(end);
     ArcLengthTable table;
-    if (make_arc_length_table(piece.bezier, table)) {
+    const bool made = make_arc_length_table(piece.bezier, table);
+    if (made && greatest_speed(table) <= kMaxSpeed) {
         return true;
     }
-    if (polygon > kMaxChordLength) {
+    if (made || polygon > kMaxChordLength) {
         return false;
     }
     straighten(piece.bezier, end);

@@ -36,6 +36,9 @@ struct Piece {
 // No piece is longer than this, mm, so that float resolves half a nanometre along it.
 inline constexpr double kMaxPieceLength = 8.0;
 
+// |dP/du| of a piece, mm: the parameter is rounded to some 1e-7, so a place to about a nanometre.
+inline constexpr float kMaxSpeed = 16.0F;
+
 // A piece shorter than this, mm, is replaced by its chord where the curve has a cusp or dP/du
 // vanishes, so the path is off by at most half of it.
 inline constexpr double kMaxChordLength = 0.001;
