@@ -121,10 +121,10 @@ TEST_GROUP(MeshBoundProperty){};
 // Nowhere that a ball reaches is more left than the plan claims.
 TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({"adaptive_isocurve", false}, 8); }
 
-TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({"adaptive_isocurve", true}, 4); }
+TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({"adaptive_isocurve", true}, 2); }
 
-TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 4); }
+TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 2); }
 
-TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({"parallel_planes", true}, 4); }
+TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({"parallel_planes", true}, 2); }
 
 }  // namespace cusp::test
