@@ -44,7 +44,6 @@ using nurbs::Surface;
 using nurbs::SurfacePoint;
 using part_model::OffsetRequest;
 using part_model::OffsetSurface;
-using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::stepover;
 
@@ -123,7 +122,7 @@ public:
         if (checked) {
             planned.stats.counts.emplace_back("cells_share", cells_share_);
         }
-        report_left_beside_edges(planned.stats);
+        report_left_beside_edges(planned.stats, beside_edges_, scallop_);
         const double apart = selection_.spacing_bound();
         if (apart > 0) {
             planned.stats.counts.emplace_back("iso_distance_bound_mm", apart);
@@ -150,18 +149,6 @@ private:
     void report(double share) const
     {
         job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
-    }
-
-    void report_left_beside_edges(OperationStats& stats) const
-    {
-        if (beside_edges_ > scallop_) {
-            stats.counts.emplace_back("left_beside_edges_mm", beside_edges_);
-            stats.warnings.push_back(fmt::format(
-                "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
-                "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
-                "ball would gouge from the side",
-                beside_edges_));
-        }
     }
 
     void add_pass(const Points& dense,

@@ -1,12 +1,15 @@
-// The pass of a plane is the tool dropped along a line.
+// The pass of a plane is the tool dropped along a line. Where the planes leave too much there are
+// passes between them.
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "host_tools/adaptive_isocurve/proved_scallop.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/finishing/contact_tracker.hpp"
+#include "host_tools/finishing/mesh_scallop_check.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/stepover.hpp"
@@ -17,6 +20,7 @@ namespace cusp::adaptive_isocurve {
 
 using finishing::CcParameterList;
 using finishing::ContactTracker;
+using finishing::MeshScallopCheck;
 using finishing::Points;
 using finishing::ScallopCheck;
 using job::Job;
@@ -33,13 +37,15 @@ constexpr double kPlaneSamples = 1 / 3.0;  // of the reach of the tool
 constexpr int kPlaneEndHalvings = 20;
 constexpr double kShortestPlaneRun = 1e-3;  // mm
 // Share of the stepover on level ground: points that require less (75 degrees steep, or nearly as
-// hollow as the ball) are ignored.
+// hollow as the ball) do not count; they get passes of their own.
 constexpr double kLeastPlaneShare = 0.25;
 constexpr double kMeshShare = 0.9;           // of the stepover on a flat facet: meshes bend
 constexpr double kPlaneScallopShare = 0.99;  // the rest is for bends along the path
 constexpr double kMostPlanes = 20000;
-constexpr std::size_t kMostUncovered = 4000;  // cells; with more nothing is proved
-constexpr double kPlanesDone = 0.9;           // of the progress
+// Shares of the progress.
+constexpr double kPlanesDone = 0.5;
+constexpr double kPlanesChecked = 0.7;
+constexpr double kPlanesCompleted = 0.95;
 
 // The projection of a unit vector across the planes onto the tangent plane: its length is the
 // cosine of the slope.
@@ -120,42 +126,81 @@ public:
 private:
     PlannedOperation finished(double step)
     {
-        const bool proved = leaves_no_more();
-        PlannedOperation planned =
-            work_.finish(step, proved ? *operation_.scallop : operation_.tool.radius);
-        if (steep_) {
-            planned.stats.warnings.push_back(
-                "areas steeper than 75 degrees across the planes, or nearly as concave as the "
-                "ball, "
-                "keep more than the scallop: they need planes less than a quarter as far apart");
+        if (operation_.step_over) {
+            prove(step);
+        } else if (operation_.mesh.empty()) {
+            complete_surfaces();
+        } else {
+            complete_mesh();
         }
-        if (!proved) {
-            planned.stats.warnings.push_back(
-                "no scallop is proved for parallel_planes here (walls, edges, steep areas, meshes, "
-                "or step_over): adaptive_isocurve proves one there, too");
-        }
+        cut_.clear();
+        job_.report_progress(kPlanesCompleted);
+        PlannedOperation planned = work_.finish(step, unseen_ ? operation_.tool.radius : bound_);
+        report_uncovered_points(planned.stats, uncovered_, unseen_);
+        report_left_beside_edges(planned.stats, beside_edges_, bound_);
         return planned;
     }
 
-    // Whether ScallopCheck proves the scallop: the stepover is from sampled points only.
-    bool leaves_no_more()
+    // The bound that planes `step` apart keep.
+    void prove(double step)
     {
-        if (!operation_.scallop || operation_.step_over || work_.surfaces().empty() || steep_) {
-            return false;
+        if (operation_.mesh.empty()) {
+            const ProvedScallop proved =
+                proved_scallop(work_.surfaces(), work_.path_fitter(), work_.path_off(), cut_,
+                               {0, step, operation_.tool.radius, work_.outward()});
+            bound_ = proved.bound;
+            beside_edges_ = proved.beside_edges;
+        } else {
+            bound_ = proved_mesh_scallop(operation_.mesh, work_.path_fitter(), work_.path_off(),
+                                         cut_, {0, step, operation_.tool.radius, work_.outward()});
         }
+    }
+
+    // Adds the passes that the planes lack.
+    void complete_surfaces()
+    {
         ScallopCheck cells{work_.surfaces(), work_.path_fitter(), *operation_.scallop,
-                           work_.path_off(), kMostUncovered};
+                           work_.path_off()};
+        const auto cut = [&](const Points& pass) {
+            cells.add(work_.add_pass(pass));
+        };
         for (const Points& pass : cut_) {
             cells.add(pass);
         }
-        for (std::size_t k = 0; k < work_.surfaces().size() && !cells.overflowed(); ++k) {
-            cells.check(static_cast<int>(k));
+        cells.check_all([&](double share) { report(kPlanesDone, kPlanesChecked, share); });
+        cells.add_missing_passes(
+            cut, [&](double share) { report(kPlanesChecked, kPlanesCompleted, share); });
+        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+            cells.add_rim_passes(static_cast<int>(k), cut);
         }
-        if (cells.overflowed()) {
-            return false;
+        take(cells);
+        beside_edges_ = cells.left_beside_edges();
+    }
+
+    void complete_mesh()
+    {
+        MeshScallopCheck cells{operation_.mesh, work_.path_fitter(), *operation_.scallop,
+                               work_.path_off()};
+        for (const Points& pass : cut_) {
+            cells.add(pass);
         }
-        const ScallopCheck::Unproved unproved = cells.unproved();
-        return unproved.parts.empty() && unproved.blocked_left <= *operation_.scallop;
+        cells.check();
+        job_.report_progress(kPlanesChecked);
+        cells.add_missing_passes([&](const Points& pass) { cells.add(work_.add_pass(pass)); });
+        take(cells);
+    }
+
+    template <typename Check>
+    void take(const Check& cells)
+    {
+        bound_ = std::max(*operation_.scallop, cells.most_left());
+        uncovered_ = cells.uncovered();
+        unseen_ = cells.overflowed();
+    }
+
+    void report(double from, double to, double share) const
+    {
+        job_.report_progress(from + (to - from) * share);
     }
 
     double step_for_scallop()
@@ -164,7 +209,6 @@ private:
         const double on_level = stepover(operation_.tool.radius, scallop_height, 0);
         double least = on_level;
         const auto ask = [&](double step) {
-            steep_ = steep_ || step < kLeastPlaneShare * on_level;
             least = step < kLeastPlaneShare * on_level ? least : std::min(least, step);
         };
         for (const auto& facet : operation_.mesh) {
@@ -257,7 +301,10 @@ private:
     double reach_{};  // mm: how far beyond the box the tool can touch the model
     double least_facing_{};
     std::vector<Points> cut_;
-    bool steep_{};  // somewhere too steep or hollow for the step
+    double bound_{};         // mm: of the scallop
+    double beside_edges_{};  // mm
+    std::size_t uncovered_{};
+    bool unseen_{};
 };
 
 void check_planes(const Job& job, const Operation& operation)

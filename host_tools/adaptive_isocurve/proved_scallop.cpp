@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/finishing/mesh_scallop_check.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 
 namespace cusp::adaptive_isocurve {
 
 using finishing::GougeFreePathFitter;
+using finishing::MeshScallopCheck;
 using finishing::Points;
 using finishing::ScallopCheck;
 using nurbs::Surface;
@@ -77,6 +79,34 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
         bound = kProvedMore * std::max(bound, unproved.left);
     }
     return {guess.radius, beside_edges};
+}
+
+double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
+                           const GougeFreePathFitter& path_fitter,
+                           double path_off,
+                           const std::vector<Points>& cut,
+                           const ScallopGuess& guess)
+{
+    double bound = first_bound(guess);
+    double more = kMoreExpected;
+    while (bound < guess.radius) {
+        MeshScallopCheck cells{mesh, path_fitter, bound, path_off};
+        for (const Points& pass : cut) {
+            cells.add(pass);
+        }
+        cells.check();
+        if (cells.overflowed()) {
+            bound *= more;
+            more *= more;
+            continue;
+        }
+        cells.measure_left();
+        if (cells.uncovered() == 0) {
+            return bound;
+        }
+        bound = kProvedMore * std::max(bound, cells.most_left());
+    }
+    return guess.radius;
 }
 
 }  // namespace cusp::adaptive_isocurve

@@ -1,6 +1,9 @@
 // The scallop proved for passes at a given distance, where the job requests no scallop.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "host_tools/finishing/gouge_free_path.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -29,5 +32,12 @@ ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
                              double path_off,
                              const std::vector<finishing::Points>& cut,
                              const ScallopGuess& guess);
+
+// The same for a mesh, by `MeshScallopCheck`; where the tool cannot touch, nothing is added.
+double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
+                           const finishing::GougeFreePathFitter& path_fitter,
+                           double path_off,
+                           const std::vector<finishing::Points>& cut,
+                           const ScallopGuess& guess);
 
 }  // namespace cusp::adaptive_isocurve

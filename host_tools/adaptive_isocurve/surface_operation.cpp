@@ -308,6 +308,18 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     return planned;
 }
 
+void report_left_beside_edges(OperationStats& stats, double beside_edges, double scallop_bound)
+{
+    if (beside_edges > scallop_bound) {
+        stats.counts.emplace_back("left_beside_edges_mm", beside_edges);
+        stats.warnings.push_back(fmt::format(
+            "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
+            "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
+            "ball would gouge from the side",
+            beside_edges));
+    }
+}
+
 void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool unseen)
 {
     if (uncovered > 0) {

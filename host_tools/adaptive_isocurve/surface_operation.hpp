@@ -81,6 +81,14 @@ private:
     int upright_{};  // number of vertical surfaces
 };
 
+// Adds the count and a warning of what passes leave beside edges that they keep off.
+//
+// beside_edges  mm: ScallopCheck::left_beside_edges(); no more than the scallop's bound: nothing is
+//               added
+void report_left_beside_edges(toolpath::OperationStats& stats,
+                              double beside_edges,
+                              double scallop_bound);
+
 // Adds warnings of points that may keep more than the scallop.
 //
 // uncovered  number of uncovered cells

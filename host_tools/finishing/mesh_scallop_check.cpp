@@ -394,6 +394,11 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
             check_cell(cell, kFacetHalvings / 6);
         }
     }
+    measure_left();
+}
+
+void MeshScallopCheck::measure_left()
+{
     std::vector<double> left(uncovered_.size());
     share_out(uncovered_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
         left[k] = copy.left_over(uncovered_[k]);

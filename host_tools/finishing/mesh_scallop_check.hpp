@@ -51,13 +51,17 @@ public:
     // Adds passes over uncovered cells. Each is given to `cut`, which must add() the path it cuts.
     void add_missing_passes(const std::function<void(const Points&)>& cut);
 
+    // Measures the stock left in the uncovered cells and forgets those where no pass is missing, as
+    // the end of add_missing_passes() does.
+    void measure_left();
+
     // mm2 of facets with more than the scallop left because the tool cannot touch them: feet of
     // walls, concave edges, valleys narrower than the tool.
     double blocked_area() const { return blocked_area_; }
 
     // Whether the check ended early because of too many uncovered cells.
     bool overflowed() const { return overflowed_; }
-    // Cells still uncovered after add_missing_passes().
+    // Cells that measure_left() kept.
     std::size_t uncovered() const { return uncovered_.size(); }
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }

@@ -78,6 +78,31 @@ Surface hollow()
     return s;
 }
 
+// Level along y, and rises 80 degrees along x.
+constexpr double kSteepRise = 5.67;
+Surface steep() { return plane({0, 0, -kSteepRise}, {0, 6, -kSteepRise}, {1, 0, 0}, {1, 6, 0}); }
+
+// A job along y: the planes are a step apart where the ground is steepest.
+Job steep_job(bool as_mesh)
+{
+    Job job = job_for({steep()}, "parallel_planes");
+    Operation& operation = job.operations.front();
+    operation.direction = 'v';
+    operation.scallop = 0.05;
+    if (as_mesh) {
+        const std::vector<Vec3d> at = operation.floor.front().points;
+        operation.mesh = {{at[0], at[2], at[3]}, {at[0], at[3], at[1]}};
+        operation.floor.clear();
+    }
+    return job;
+}
+
+// mm, square to the slope.
+double most_over_steep(const PlannedOperation& planned)
+{
+    return most_over(*cut_by(planned.path), steep()) / std::sqrt(1 + kSteepRise * kSteepRise);
+}
+
 }  // namespace
 
 TEST_GROUP(ParallelPlanes){};
@@ -91,6 +116,30 @@ TEST(ParallelPlanes, KeepTheScallopInAHollow)
     DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
     CHECK(most_over(*cut_by(planned.path), hollow()) <= 0.05 / std::cos(std::acos(-1.0) / 6));
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
+}
+
+// Planes for 75 degrees leave too much at 80.
+TEST(ParallelPlanes, GetThePassesThatTheyLackOnSteepGround)
+{
+    for (const bool as_mesh : {false, true}) {
+        const PlannedOperation planned = planes_over(steep_job(as_mesh));
+        DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-9);
+        CHECK(most_over_steep(planned) <= 0.05 + 1e-6);
+        LONGS_EQUAL(0, planned.stats.warnings.size());
+    }
+}
+
+TEST(ParallelPlanes, KeepAProvedBoundWhereTheDistanceIsGiven)
+{
+    for (const bool as_mesh : {false, true}) {
+        Job job = steep_job(as_mesh);
+        job.operations.front().step_over = 0.3;
+        const PlannedOperation planned = planes_over(job);
+        const double left = most_over_steep(planned);
+        CHECK(left > 0.05);
+        CHECK(planned.stats.scallop_bound_mm >= left - 1e-6);
+        CHECK(planned.stats.scallop_bound_mm < 2 * left);
+    }
 }
 
 TEST(ParallelPlanes, ReachTheRimsOfASlope)
