@@ -12,10 +12,10 @@ inline int property_cases(int usual)
     return text != nullptr ? std::atoi(text) : usual;
 }
 
-// CUSP_PROPERTY_SEED, or `usual`, the first seed for CI.
+// CUSP_PROPERTY_FIRST, or `usual`, the first seed for CI.
 inline unsigned property_seed(unsigned usual)
 {
-    const char* const text = std::getenv("CUSP_PROPERTY_SEED");
+    const char* const text = std::getenv("CUSP_PROPERTY_FIRST");
     return text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : usual;
 }
 
