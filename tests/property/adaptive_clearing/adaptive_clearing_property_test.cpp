@@ -2,8 +2,9 @@
 // that contour clearing cuts is cut, every path keeps its clearance from walls, and links at rapid
 // meet no stock.
 //
-// Not judged: stock within two cells of what the tool reaches, runs that the plan lists as over the
-// bound, and a thousandth of the way, where the raster may find more than kRasterDegrees too much.
+// Not judged: stock within two cells of what the tool reaches, or that it misses by no more than the
+// tolerance of the path; runs that the plan lists as over the bound, and a thousandth of the way,
+// where the raster may find more than kRasterDegrees too much.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -96,6 +97,16 @@ bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
     });
 }
 
+// Whether the tool misses the place by no more than the tolerance of the path.
+bool is_nearly_cut(const AdaptivePath& path, Vec2d place, double radius)
+{
+    return std::any_of(path.runs.begin(), path.runs.end(), [&](const AdaptiveRun& run) {
+        return std::any_of(run.path.begin(), run.path.end(), [&](const Edge& edge) {
+            return distance_to(edge, place) <= radius + kTolerance;
+        });
+    });
+}
+
 // air    part of the region without stock
 // finer  times the raster and the steps
 Found judge(const Region2d& region,
@@ -151,7 +162,7 @@ Found judge(const Region2d& region,
     if (!centres.contours.empty()) {
         const RegionOffset reached{grown(centres, radius)};
         cutter.visit_stock([&](Vec2d p) {
-            if (reached.clearance(p) > 2.0 * pitch) {
+            if (reached.clearance(p) > 2.0 * pitch && !is_nearly_cut(path, p, radius)) {
                 found.uncut += cutter.cell_area();
                 found.uncut_at = p;
             }
