@@ -223,7 +223,7 @@ TEST(ParallelPlanes, OverASpeckAreFew)
 {
     // Beyond its rims they are a step apart, not as far as over it.
     Job job = job_for({}, "parallel_planes");
-    job.operations.front().mesh = {{{0, 0, 0}, {1e-5, 0, 0}, {0, 1e-5, 0}}};
+    job.operations.front().mesh.push_back({Vec3d{0, 0, 0}, Vec3d{1e-5, 0, 0}, Vec3d{0, 1e-5, 0}});
     try {
         CHECK(planes_over(job).stats.passes < 20);
     } catch (const InputError&) {
