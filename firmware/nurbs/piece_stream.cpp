@@ -178,7 +178,7 @@ PieceStream::Net PieceStream::part_of_span(double from, double to) const noexcep
 namespace {
 
 // |dP/du| at the nodes, mm.
-float greatest_speed(const ArcLengthTable& table) noexcept
+float greatest_parametric_speed(const ArcLengthTable& table) noexcept
 {
     float least = table.nodes[0].du;
     for (unsigned i = 1; i < table.size; ++i) {
@@ -226,7 +226,7 @@ bool PieceStream::try_piece(double from, double to, Piece& piece) noexcept
     piece.bezier.points[order_ - 1] = to_float(end);
     ArcLengthTable table;
     const bool made = make_arc_length_table(piece.bezier, table);
-    if (made && greatest_speed(table) <= kMaxSpeed) {
+    if (made && greatest_parametric_speed(table) <= kMaxParametricSpeed) {
         return true;
     }
     if (made || polygon > kMaxChordLength) {

@@ -37,7 +37,7 @@ struct Piece {
 inline constexpr double kMaxPieceLength = 8.0;
 
 // |dP/du| of a piece, mm: the parameter is rounded to some 1e-7, so a place to about a nanometre.
-inline constexpr float kMaxSpeed = 16.0F;
+inline constexpr float kMaxParametricSpeed = 16.0F;
 
 // A piece shorter than this, mm, is replaced by its chord where the curve has a cusp or dP/du
 // vanishes, so the path is off by at most half of it.

@@ -60,7 +60,8 @@ private:
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
     finishing::Points edge_along(int surface, const std::vector<EdgeSide>& sides) const;
-    // Tips along the edge from one segment, with tip `a`, to the next, with tip `b`.
+    // Tips along the edge from one segment, with tip `a`, to the next, with tip `b`; none where the
+    // segment halfway between them starts blocked.
     std::optional<finishing::Points> edge_points(
         int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const;
     TracedPiece along(const DomainCurve& curve, double from, double to) const;
