@@ -47,7 +47,7 @@ if [ "$user" != root ]; then
     echo "$user ALL=(ALL) NOPASSWD:ALL" >"$root/etc/sudoers.d/$user"
 fi
 rm -rf "$root$home/cusp"
-git -c safe.directory='*' clone -q "$top" "$root$home/cusp"
+git -c safe.directory='*' clone -q --no-hardlinks "$top" "$root$home/cusp"
 for file in $copies; do
     cp "$file" "$root$home/"
 done
