@@ -53,7 +53,7 @@ public:
     };
     // The lowest position of the tip over (x, y); none where no surface lies under the tool. It is
     // at most `accuracy` above the true one on smooth surfaces, or `max_error` (mm) where that is
-    // more.
+    // more. At edges a ball rests no higher than one whose radius is ten times that larger.
     std::optional<ClPoint> drop(Vec2d at, double max_error = 0.0) const;
 
     // The z of drop() as a lower bound of the tip: -kUnbounded, no bound, where no surface lies under

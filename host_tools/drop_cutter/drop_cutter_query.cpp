@@ -160,8 +160,9 @@ double DropCutter::State::bound(const Piece& piece,
             return -kUnbounded;
         }
         least = std::min(least, edge->height);
-        // The slope of the tool's side multiplies an error in plan.
-        const double steep = std::max(1.0, side_slope(distance(edge->place, at)));
+        // The slopes of the tool's side and of the plane multiply an error in plan.
+        const double steep =
+            std::max(1.0, side_slope(distance(edge->place, at)) + std::sqrt(dot(g, g)));
         tight = tight && (!piece.cut || is_whole(piece, query.thin / steep));
     }
     return least;

@@ -75,7 +75,9 @@ struct DropCutter::State {
     };
     // Where a piece ends, if its box extends beyond it.
     struct Outline {
-        std::array<Side, 5> sides;  // the fifth is the line along the edge that cuts the piece
+        // The fifth is the line along the edge that cuts the piece. A sliver has only four, along
+        // its edge and across.
+        std::array<Side, 5> sides;
         std::size_t count{4};
         double bow{0.0};  // mm, in plan: how far the piece's edge lies inside the sides at most
         const Side* begin() const { return sides.data(); }
@@ -179,6 +181,8 @@ struct DropCutter::State {
     void trim(Piece& piece);
     void find_remnant(const Piece& piece);
     static std::optional<Side> side_along(const Remnant& left, double& bow);
+    static Side side_of(const Remnant& left, Vec2d across);
+    static double end_at_edge(const Remnant& left, Outline& outline);
     void measure_remnant(Piece& piece);
 
     // The drop (drop_cutter_query.cpp).

@@ -20,6 +20,17 @@ constexpr double kRounding = 1e-9;        // mm
 
 }  // namespace
 
+// The extent of the remnant, with its error.
+DropCutter::State::Side DropCutter::State::side_of(const Remnant& left, Vec2d across)
+{
+    Side side = Side::none(across);
+    for (const Vec3d& p : left.points) {
+        widen(side, in_plan(p));
+    }
+    const double by = left.error;
+    return {across, side.inner - by, side.outer + by, side.low - by, side.high + by, 0.0, 0.0};
+}
+
 DropCutter::State::Domain DropCutter::State::domain_of(const Piece& piece) const
 {
     const Patch& patch = patch_of(piece);
@@ -146,6 +157,30 @@ std::optional<DropCutter::State::Side> DropCutter::State::side_along(const Remna
     return best;
 }
 
+// Adds the side along the edge, or ends the outline at both edges of a sliver. Returns how far the
+// edge lies inside, mm.
+double DropCutter::State::end_at_edge(const Remnant& left, Outline& outline)
+{
+    double bow = 0.0;
+    const std::optional<Side> along = side_along(left, bow);
+    if (!along) {
+        return bow;
+    }
+    const Vec2d across = along->across;
+    const Vec2d forth = left_normal(across);
+    const double width = along->outer - along->inner;
+    // The sides of the piece's parallelogram, at an angle to a sliver, would leave too much of the
+    // plane.
+    if (bow > width - kRounding && width < along->high - along->low) {
+        outline.count = 4;
+        outline.sides = {side_of(left, across), side_of(left, across * -1.0), side_of(left, forth),
+                         side_of(left, forth * -1.0)};
+    } else {
+        outline.sides[outline.count++] = side_of(left, across);
+    }
+    return bow;
+}
+
 void DropCutter::State::measure_remnant(Piece& piece)
 {
     const bool measured = piece.outline != 0;
@@ -184,16 +219,7 @@ void DropCutter::State::measure_remnant(Piece& piece)
         side.low = std::max(side.low, within.low - left.error);
         side.high = std::min(side.high, within.high + left.error);
     }
-    double bow = 0.0;
-    if (const std::optional<Side> along = side_along(left, bow)) {
-        outline.sides[outline.count++] = {along->across,
-                                          along->inner - left.error,
-                                          along->outer + left.error,
-                                          along->low - left.error,
-                                          along->high + left.error,
-                                          0.0,
-                                          0.0};
-    }
+    const double bow = end_at_edge(left, outline);
     outline.bow = std::max(outline.bow, bow + 2.0 * left.error);
     end_sides(outline);
     piece.outlined = true;
