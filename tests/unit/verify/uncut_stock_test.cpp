@@ -1,6 +1,7 @@
 // The points of a grid that have stock before any cut.
 #include "host_tools/verify/uncut_stock.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
@@ -35,7 +36,8 @@ TEST_GROUP(UncutStock)
 
 TEST(UncutStock, fills_the_grid_without_an_outline)
 {
-    for (const double height : UncutStock{job}.on(grid).heights()) {
+    const MachinedStock stock = UncutStock{job}.on(grid);
+    for (const double height : stock.heights()) {
         DOUBLES_EQUAL(3, height, 0);
     }
 }
