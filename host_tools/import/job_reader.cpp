@@ -76,7 +76,9 @@ private:
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
-    void place_files(JobTable& top, const std::vector<const toml::table*>& operations);
+    void place_files(JobTable& top,
+                     const std::vector<const toml::table*>& operations,
+                     const std::string& outline);
     void use_tools(const toml::table& table, std::size_t index);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
@@ -337,14 +339,22 @@ std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operat
 }
 
 // Once: parts that were read before the job was lie where it puts them.
-void JobReader::place_files(JobTable& top, const std::vector<const toml::table*>& operations)
+//
+// outline  the drawing of the stock; may be empty
+void JobReader::place_files(JobTable& top,
+                            const std::vector<const toml::table*>& operations,
+                            const std::string& outline)
 {
     const auto placings = read_placings(top.tables("placing"), file_, folder_, unit_);
     if (parts_.is_placed()) {
         return;
     }
+    PlacedFiles files = files_of_operations(operations, folder_);
+    if (!outline.empty()) {
+        files.drawings.push_back(outline);
+    }
     try {
-        place_parts(placings, files_of_operations(operations, folder_), unit_, parts_);
+        place_parts(placings, files, unit_, parts_);
     } catch (const PlacingError& error) {
         top.refuse("placing", error.what());
     }
@@ -416,15 +426,17 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     }
     job_.group_by_tool = top.flag("group_by_tool").value_or(true);
     const auto operations = top.tables("operation");
-    place_files(top, operations);
+    place_files(top, operations, stock.outline());
     top.check_all_read();
     if (operations.empty()) {
         top.refuse("operation", "is missing: at least one [[operation]]");
     }
     tables.check_used(operations);
+    stock.read_outline(parts_, job_);
     if (setups > 0) {
         job_.setup = tables.all()[setup];
         parts_.turn_all(tables.turn_of(*job_.setup, job_, stock.has_top()));
+        stock.read_outline(parts_, job_);
     }
     for (std::size_t i = 0; i < operations.size(); ++i) {
         if (tables.place_of(*operations[i], i + 1) == setup) {

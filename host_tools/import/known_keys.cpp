@@ -135,8 +135,8 @@ std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindl
 
 std::vector<std::string> stock_keys()
 {
-    return {"top",    "clearance",  "bottom",        "x",       "y",
-            "margin", "margin_top", "margin_bottom", "program", "least_floor"};
+    return {"top",        "clearance",     "bottom",  "x",           "y",      "margin",
+            "margin_top", "margin_bottom", "program", "least_floor", "outline"};
 }
 
 std::vector<std::string> placing_keys()

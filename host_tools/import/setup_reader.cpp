@@ -130,7 +130,7 @@ Similarity SetupTables::turn_of(const Setup& setup, const job::Job& job, bool ha
     if (!job.stock_x || !job.stock_y || !job.stock_bottom || !has_top) {
         throw InputError(
             fmt::format("{}: a set-up with a flip needs the stock's box, about whose middle "
-                        "it is turned over: x, y, top and bottom in [stock]",
+                        "it is turned over: x and y or an outline, top and bottom in [stock]",
                         file_));
     }
     const Vec3d signs = job::turn_signs(Flip::kNone, setup.flip);

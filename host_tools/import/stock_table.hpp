@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_tools/import/job_table.hpp"
+#include "host_tools/import/part_files.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::import {
@@ -36,10 +37,16 @@ public:
                double millimetres,
                job::Job& job);
 
+    // Takes the loops of `outline` as the files lie by now.
+    void read_outline(PartFiles& parts, job::Job& job) const;
+
     // Takes what follows from the parts: their top, margins round them.
     //
     // job  with all its operations
     void settle(job::Job& job) const;
+
+    // The drawing of `outline`, with its layer; empty: the table has none.
+    const std::string& outline() const { return outline_; }
 
     // Whether the table has the top.
     bool has_top() const { return top_.has_value(); }
@@ -48,9 +55,11 @@ private:
     void read_margin();
     void settle_sides(job::Job& job) const;
     void settle_heights(job::Job& job) const;
+    void check_pockets(const job::Job& job) const;
 
     JobTable keys_;
     double unit_;  // mm
+    std::string outline_;
     std::optional<double> top_;
     std::optional<std::array<double, 2>> margin_;  // mm, in x and in y
     std::optional<double> margin_top_;

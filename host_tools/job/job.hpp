@@ -162,6 +162,9 @@ struct Job {
     double least_floor{kLeastFloor};  // mm, that is to be left between the cuts of two sides
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
+    // All there is of the stock in plan: its outline, then its holes. stock_x and stock_y are its box
+    // then. None: that box, or the parts'.
+    std::vector<Loop> stock_outline;
     // Programs that have been cut before: the stock is what they leave.
     std::vector<std::string> stock_programs;
     // Likewise, in set-ups whose stock lay otherwise. Where there are any, the stock has a box.

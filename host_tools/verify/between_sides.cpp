@@ -11,6 +11,7 @@
 #include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/stock_grid.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 #include "fmt/format.h"
 
@@ -162,7 +163,7 @@ std::optional<FloorBetweenSides> floor_between_sides(const Job& job,
     }
     const double spacing = position_spacing(job);
     const HeightGrid grid = stock_grid(job, part_box({}), std::nullopt);
-    MachinedStock stock{grid, job.stock_top};
+    MachinedStock stock = UncutStock{job}.on(grid);
     cut_earlier_programs(job, spacing, stock);
     for (const ToolPositions& run : program_positions(job, program_file, spacing)) {
         stock.cut(run, spacing, [](double) {});

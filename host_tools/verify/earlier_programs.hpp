@@ -49,8 +49,8 @@ std::vector<ToolPositions> earlier_positions(const job::Job& job, double spacing
 // Cuts the stock with earlier_programs(). Returns the volume removed, mm^3.
 double cut_earlier_programs(const job::Job& job, double spacing, MachinedStock& stock);
 
-// Heights of the stock for a comparison with the part: kNoValue where it had a hole before, in which
-// nothing can be wrong any more.
+// Heights of the stock for a comparison with the part: kNoValue where there was none, or a hole before,
+// in which nothing can be wrong any more.
 std::vector<double> heights_to_judge(const job::Job& job, const MachinedStock& stock);
 
 }  // namespace cusp::verify

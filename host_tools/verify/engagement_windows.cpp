@@ -8,6 +8,7 @@
 
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/machined_stock.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
 
@@ -45,7 +46,7 @@ public:
                       const HeightGrid& grid,
                       const std::vector<ToolPositions>& runs,
                       std::vector<EngagementRun>& found)
-        : job_{job}, grid_{grid}, runs_{runs}, found_{found}
+        : job_{job}, uncut_{job}, grid_{grid}, runs_{runs}, found_{found}
     {
         for (const ToolPositions& run : runs) {
             least_ = std::min(least_, run.tool.radius);
@@ -186,7 +187,7 @@ private:
         const HeightGrid fine{
             window.low.x + window.pitch / 2,     window.low.y + window.pitch / 2,     window.pitch,
             count(window.high.x - window.low.x), count(window.high.y - window.low.y), true};
-        MachinedStock stock{fine, job_.stock_top};
+        MachinedStock stock = uncut_.on(fine);
         for (const ToolPositions& run : earlier) {
             stock.cut(near_run(run, window).positions, spacing, [](double) {});
         }
@@ -213,6 +214,7 @@ private:
     }
 
     const Job& job_;
+    UncutStock uncut_;
     const HeightGrid& grid_;
     const std::vector<ToolPositions>& runs_;
     std::vector<EngagementRun>& found_;

@@ -39,9 +39,14 @@ public:
                    EngagementTrace* trace = nullptr,
                    ContactTrace* contact = nullptr);
 
+    // From now on there is no stock over the point of the grid: its height is kNoStock.
+    void clear(std::size_t point) { heights_[point] = kNoStock; }
+
+    static constexpr double kNoStock = -kUnbounded;
+
     const std::vector<double>& heights() const { return heights_; }
     double top() const { return top_; }
-    double removed_volume() const;  // mm^3
+    double removed_volume() const;  // mm^3, without what was cleared
 
 private:
     CutFigures cut_band(const ToolPositions& positions,

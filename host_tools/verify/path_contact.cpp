@@ -8,6 +8,7 @@
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/path_positions.hpp"
 #include "host_tools/verify/stock_grid.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
 
@@ -88,7 +89,7 @@ std::vector<PathContact> path_contacts(const Job& job,
     const double spacing = position_spacing(job);
     const HeightGrid grid = stock_grid(job, floors_box(job), std::nullopt);
     const StockExtent around = stock_around(job, grid);
-    MachinedStock stock{grid, job.stock_top};
+    MachinedStock stock = UncutStock{job}.on(grid);
     cut_earlier_programs(job, spacing, stock);
     for (std::size_t k = 0; k < count; ++k) {
         const ToolPositions positions = positions_on(*paths[k], spacing);

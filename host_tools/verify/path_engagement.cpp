@@ -4,6 +4,7 @@
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/path_positions.hpp"
 #include "host_tools/verify/stock_grid.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
 
@@ -16,7 +17,7 @@ std::vector<PathEngagement> path_engagement(const Job& job,
 {
     const double spacing = position_spacing(job);
     const HeightGrid grid = stock_grid(job, floors_box(job), std::nullopt);
-    MachinedStock stock{grid, job.stock_top};
+    MachinedStock stock = UncutStock{job}.on(grid);
     cut_earlier_programs(job, spacing, stock);
     std::vector<PathEngagement> out;
     double removed = stock.removed_volume();

@@ -38,7 +38,8 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
         box.y_high = std::max(box.y_high, (*job.stock_y)[1]);
     }
     // Beside the stock there is air, also where the drawing of a pocket continues.
-    if (std::any_of(job.operations.begin(), job.operations.end(),
+    if (!job.stock_outline.empty() ||
+        std::any_of(job.operations.begin(), job.operations.end(),
                     [&](const job::Operation& o) { return is_open_pocket(job, o); })) {
         const job::StockSides sides = stock_sides(job);
         box.x_low = std::max(box.x_low, sides.x_low);

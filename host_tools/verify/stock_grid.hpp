@@ -10,7 +10,7 @@
 namespace cusp::verify {
 
 // Over the parts, what 2.5-D operations cut, and the stock's extent; over the stock alone in a job
-// with an open pocket.
+// with an open pocket, or where it has an outline.
 //
 // parts  the box of all floors
 // pitch  mm; without it 0.173, at most a sixteenth of the least radius of a tool. It is more where

@@ -14,6 +14,7 @@
 #include "host_tools/verify/level_judgement.hpp"
 #include "host_tools/verify/pocket_boundaries.hpp"
 #include "host_tools/verify/stock_grid.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 #include "fmt/format.h"
 
@@ -454,7 +455,7 @@ Verification verify(const Job& job,
         positions_of(job, result.program, program_file, spacing, figures);
     result.grid = stock_grid(job, part_box(scene.surfaces, scene.mesh), settings.pitch);
 
-    MachinedStock stock{result.grid, job.stock_top};
+    MachinedStock stock = UncutStock{job}.on(result.grid);
     const std::vector<Tool> tools = finishing_tools(job, runs);
     const double removed_before = cut_earlier_programs(job, spacing, stock);
     cut_stock(job, runs, spacing, settings.engagement, progress, stock, result);

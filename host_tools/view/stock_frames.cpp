@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_tools/verify/earlier_programs.hpp"
+#include "host_tools/verify/uncut_stock.hpp"
 
 namespace cusp::view {
 
@@ -15,6 +16,7 @@ using verify::earlier_positions;
 using verify::HeightGrid;
 using verify::MachinedStock;
 using verify::ToolPositions;
+using verify::UncutStock;
 
 namespace {
 
@@ -124,8 +126,9 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
     }
     const std::size_t each = std::max<std::size_t>(1, (positions + kFrames - 1) / kFrames);
 
-    MachinedStock stock{grid, high};
-    std::vector<std::uint16_t> last = steps_of(stock.heights(), low, high);
+    MachinedStock stock = UncutStock{job}.on(grid);
+    // the page begins with stock everywhere
+    std::vector<std::uint16_t> last = steps_of(std::vector<double>(grid.size(), high), low, high);
     std::vector<double> ticks;
     Bytes planes;
     const auto keep_frame = [&](std::uint64_t tick) {
@@ -139,7 +142,7 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
         ticks.push_back(static_cast<double>(tick));
     };
     cut_earlier_programs(job, grid.pitch, stock);
-    if (stock.removed_volume() > 0) {
+    if (stock.removed_volume() > 0 || !job.stock_outline.empty()) {
         keep_frame(0);
     }
     std::size_t left = each;

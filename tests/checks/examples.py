@@ -12,7 +12,7 @@ KEYS = ("floor", "intersect", "boundary", "islands", "after")
 
 
 def files_of(job):
-    for table, keys in [(job.get("stock", {}), ("program",)), *((table, KEYS) for table in job.get("operation", []))]:
+    for table, keys in [(job.get("stock", {}), ("program", "outline")), *((table, KEYS) for table in job.get("operation", []))]:
         for key in keys:
             named = table.get(key, [])
             yield from [named] if isinstance(named, str) else named

@@ -19,6 +19,7 @@
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
+#include "tests/unit/offset/polygons.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -48,7 +49,7 @@ struct Found {
     Vec2d uncut_at{};
     double nearest{1e9};  // mm: the least clearance from the walls
     Vec2d nearest_at{};
-    double rapid{};  // mm in stock of the free legs of links
+    double rapid{};  // mm in stock of the free legs of links; a step for each way down in stock
 };
 
 // mm of the link's free legs in stock. A link that ends elsewhere than at `to` is in stock as a
@@ -129,6 +130,8 @@ Found judge(const Region2d& region,
             tool = run.helix->centre;
         } else {
             found.rapid += rapid_in_stock(cutter, run.link, tool, run.path.front().start, step);
+            found.rapid +=
+                run.link.empty() && cutter.meets_stock(run.path.front().start) ? step : 0;
             cutter.cut(run.path.front().start);
         }
         for (std::size_t k = 0; k < run.path.size(); ++k) {
@@ -287,7 +290,111 @@ job::Operation pocket_of(const Region2d& region, const AdaptiveSettings& setting
     return operation;
 }
 
+nurbs::Curve curve_of(const Edge& edge)
+{
+    const Vec3d start{edge.start.x, edge.start.y, 0.0};
+    const Vec3d end{edge.end.x, edge.end.y, 0.0};
+    if (edge.turn == 0) {
+        return {1, {0.0, 0.0, 1.0, 1.0}, {start, end}, {1.0, 1.0}};
+    }
+    const double c = std::cos(sweep(edge) / 2.0);
+    const Vec2d middle = point_on(edge, 0.5) - edge.centre;
+    const Vec2d corner = edge.centre + middle * (1.0 / c);
+    return {
+        2, {0.0, 0.0, 0.0, 1.0, 1.0, 1.0}, {start, {corner.x, corner.y, 0.0}, end}, {1.0, c, 1.0}};
+}
+
+job::Loop loop_of(const Contour& contour)
+{
+    job::Loop loop;
+    std::transform(contour.begin(), contour.end(), std::back_inserter(loop), curve_of);
+    return loop;
+}
+
+// Whether the whole path keeps the tool's radius from what of the stock is none of the pocket:
+// places on walls that lie in the stock, and on the stock's edge beside the pocket.
+bool leaves_the_rest(const Region2d& pocket,
+                     const Region2d& stock,
+                     const AdaptiveSettings& settings,
+                     const AdaptivePath& path)
+{
+    constexpr int kEach = 20;
+    const RegionOffset of_pocket{pocket};
+    const RegionOffset of_stock{stock};
+    std::vector<Vec2d> places;
+    const auto add = [&](const Region2d& region, const auto& stays) {
+        for (const Contour& contour : region.contours) {
+            const std::vector<Vec2d> on = samples(contour, kEach);
+            std::copy_if(on.begin(), on.end(), std::back_inserter(places), stays);
+        }
+    };
+    constexpr double kClear = 0.05;  // mm: at crossings the two are one
+    add(pocket, [&](Vec2d p) { return of_stock.clearance(p) > kClear; });
+    add(stock, [&](Vec2d p) { return of_pocket.clearance(p) < -kClear; });
+    for (const AdaptiveRun& run : path.runs) {
+        for (const Edge& edge : run.path) {
+            for (const Vec2d p : places) {
+                if (distance_to(edge, p) < settings.tool_radius) {
+                    std::printf("the tool cuts %.3f,%.3f by %.4f mm\n", p.x, p.y,
+                                settings.tool_radius - distance_to(edge, p));
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
 TEST_GROUP(RandomAdaptiveClearing){};
+
+// The stock is a star of lines and arcs, with a hole in every other case, about a place in the
+// pocket or beside it.
+TEST(RandomAdaptiveClearing, ComesInFromTheEdgeOfAnyStock)
+{
+    const unsigned first = test::property_seed(26);
+    const int cases = property_cases(4);
+    int wrong = 0;
+    int open_cases = 0;
+    std::printf("%d random pockets in stock of any outline, seeds from %u\n", cases, first);
+    for (int i = 0; i < cases; ++i) {
+        const unsigned number = first + static_cast<unsigned>(i);
+        Random random{number};
+        const Region2d region = random_region(random);
+        AdaptiveSettings settings = random_settings(random, number);
+        const Vec2d middle{uniform(random, -50.0, 50.0), uniform(random, -50.0, 50.0)};
+        Region2d stock;
+        do {
+            stock.contours = {random_star(random, middle, uniform(random, 30.0, 70.0),
+                                          static_cast<int>(uniform(random, 3.0, 10.0)), 0.0)};
+            if (number % 2 == 0) {
+                stock.contours.push_back(
+                    reversed(random_star(random, middle, uniform(random, 4.0, 14.0), 5, 0.0)));
+            }
+        } while (find_fault(stock));
+        job::Job job;
+        for (const Contour& contour : stock.contours) {
+            job.stock_outline.push_back(
+                loop_of(&contour == &stock.contours.front() ? contour : reversed(contour)));
+        }
+        const auto open = contour_pocket::open_sides(job, pocket_of(region, settings), region,
+                                                     settings.wall_clearance);
+        if (!open) {
+            continue;
+        }
+        ++open_cases;
+        settings.open.push_back(open->starts);
+        Region2d beside{{polygon({{-500, -500}, {500, -500}, {500, 500}, {-500, 500}})}};
+        for (const Contour& contour : stock.contours) {
+            beside.contours.push_back(reversed(contour));
+        }
+        const bool good =
+            holds(open->region, settings, number, beside) &&
+            leaves_the_rest(region, stock, settings, clear_adaptively(open->region, settings));
+        wrong += good ? 0 : 1;
+    }
+    LONGS_EQUAL(0, wrong);
+    CHECK(open_cases > 0);
+}
 
 // The stock ends somewhere in the pocket, on two or three sides: the tool comes in from there.
 TEST(RandomAdaptiveClearing, ComesInFromOpenSides)

@@ -64,6 +64,22 @@ public:
         }
     }
 
+    // Whether the tool there, smaller by a cell, is in stock.
+    bool meets_stock(Vec2d at) const
+    {
+        const double radius = radius_ - pitch_;
+        const int n = static_cast<int>(radius / pitch_) + 1;
+        for (int j = -n; j <= n; ++j) {
+            for (int i = -n; i <= n; ++i) {
+                const Vec2d d{i * pitch_, j * pitch_};
+                if (dot(d, d) <= radius * radius && is_stock(at + d)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
     void cut(Vec2d at) { remove_disc(at, radius_); }
 
     double ahead() const { return 2.0 * pitch_; }

@@ -158,6 +158,84 @@ TEST(OpenSides, ThePocketIsEnteredFromTheSideAndItsWallsAreClearedPastTheEdge)
     CHECK(farthest > 80.0);
 }
 
+Loop through(const std::vector<Vec2d>& corners)
+{
+    Loop out;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        out.push_back(side(corners[i], corners[(i + 1) % corners.size()]));
+    }
+    return out;
+}
+
+// A quarter of a circle about (0, 0), by a rational parabola, four times.
+Loop circle(double radius)
+{
+    const double w = std::sqrt(0.5);
+    Loop out;
+    Vec2d from{radius, 0.0};
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        const Vec2d to{-from.y, from.x};
+        const Vec2d corner = from + to;
+        out.push_back({2,
+                       {0.0, 0.0, 0.0, 1.0, 1.0, 1.0},
+                       {{from.x, from.y, 0.0}, {corner.x, corner.y, 0.0}, {to.x, to.y, 0.0}},
+                       {1.0, w, 1.0}});
+        from = to;
+    }
+    return out;
+}
+
+std::optional<OpenSides> sides_in(const std::vector<Loop>& stock, const Loop& outline)
+{
+    Job job = plate();
+    job.stock_outline = stock;
+    const Operation operation = pocket(outline);
+    return open_sides(job, operation, make_region(operation, 0.001), kClearance);
+}
+
+TEST(OpenSides, AreThoseOfTheStocksOutline)
+{
+    CHECK(!sides_in({circle(40)}, loop(-15, -10, 15, 10)));  // in it
+    CHECK(!sides_in({circle(40)}, loop(45, -10, 60, 10)));   // beside it
+    const auto open = sides_in({circle(40)}, loop(0, -12, 60, 12));
+    CHECK(open.has_value());
+    CHECK(contains(open->air, {40.1, 5}));
+    CHECK(!contains(open->air, {39.6, 5}));
+    CHECK(contains(open->region, {36, 18}));   // beside the bar, past the wall's end
+    CHECK(!contains(open->region, {30, 18}));  // the wall
+    CHECK(!contains(open->region, {-41, 0}));
+    for (const offset::Edge& edge : edges_of(open->starts)) {
+        CHECK(norm(edge.start) >= 40 + kRadius + 0.002);
+    }
+    const auto ring = sides_in({circle(40), circle(12)}, loop(-20, -8, 20, 8));
+    CHECK(ring && contains(ring->starts, {5, 0}));
+    CHECK(!contains(ring->starts, {10, 0}));
+}
+
+// A wall of 4 mm between the pocket's ground and another notch.
+TEST(OpenSides, AcrossAThinWallIsOtherGround)
+{
+    const auto open = sides_in({through({{-40, -40},
+                                         {40, -40},
+                                         {40, 40},
+                                         {26, 40},
+                                         {26, 0},
+                                         {12, 0},
+                                         {12, 40},
+                                         {8, 40},
+                                         {8, 10},
+                                         {-8, 10},
+                                         {-8, 40},
+                                         {-40, 40}})},
+                               loop(-12, -20, 8, 15));
+    CHECK(open.has_value());
+    CHECK(contains(open->region, {0, 18}));
+    CHECK(contains(open->starts, {0, 16}));
+    CHECK(!contains(open->region, {15.5, 12}));
+    CHECK(!contains(open->starts, {15.5, 12}));
+    LONGS_EQUAL(1, open->starts.contours.size());
+}
+
 TEST(OpenSides, APocketBesideTheStockIsWarnedOf)
 {
     const std::vector<PlannedOperation> planned =
