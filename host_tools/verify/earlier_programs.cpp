@@ -252,8 +252,8 @@ double cut_earlier_programs(const Job& job, double spacing, MachinedStock& stock
 std::vector<double> heights_to_judge(const Job& job, const MachinedStock& stock)
 {
     std::vector<double> heights = stock.heights();
-    const double open = job.turned_programs.empty() ? MachinedStock::kNoStock / 2
-                                                    : open_level(job) + kOpenBelow / 2;
+    const double open =
+        job.turned_programs.empty() ? -kUnbounded / 2 : open_level(job) + kOpenBelow / 2;
     std::replace_if(
         heights.begin(), heights.end(), [open](double z) { return z < open; }, kNoValue);
     return heights;

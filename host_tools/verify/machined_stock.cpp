@@ -372,7 +372,7 @@ double MachinedStock::removed_volume() const
 {
     double depths = 0;
     for (const double height : heights_) {
-        depths += height > kNoStock ? top_ - height : 0.0;
+        depths += height > -kUnbounded ? top_ - height : 0.0;
     }
     return depths * grid_.pitch * grid_.pitch;
 }

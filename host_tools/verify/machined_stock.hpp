@@ -39,10 +39,9 @@ public:
                    EngagementTrace* trace = nullptr,
                    ContactTrace* contact = nullptr);
 
-    // From now on there is no stock over the point of the grid: its height is kNoStock.
-    void clear(std::size_t point) { heights_[point] = kNoStock; }
-
-    static constexpr double kNoStock = -kUnbounded;
+    // From now on there is no stock over the point of the grid: its height is
+    // -kUnbounded.
+    void clear(std::size_t point) { heights_[point] = -kUnbounded; }
 
     const std::vector<double>& heights() const { return heights_; }
     double top() const { return top_; }
