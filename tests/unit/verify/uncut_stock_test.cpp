@@ -50,7 +50,7 @@ TEST(UncutStock, lies_in_its_outline_and_not_in_its_holes)
         for (std::size_t j = 0; j < grid.ny; ++j) {
             const double away = std::max(std::abs(grid.x(i, j)), std::abs(grid.y(i, j)));
             const double height = stock.heights()[grid.index(i, j)];
-            DOUBLES_EQUAL(away < 8 && away > 2 ? 3 : MachinedStock::kNoStock, height, 0);
+            DOUBLES_EQUAL(away < 8 && away > 2 ? 3 : -kUnbounded, height, 0);
         }
     }
     DOUBLES_EQUAL(0, stock.removed_volume(), 0);
