@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr int kFaces = 2000;
-constexpr int kDrops = 40;  // on each
+constexpr int kDropsOnEach = 40;
 
 Vec3d random_place(Draw& draw, double wide, double high)
 {
@@ -69,7 +69,7 @@ TEST(SliverFaces, ABallRestsOnThemAsOnTriangles)
         const DropCutter cutter{
             faces_of(face), {1, ToolShape::kBall, radius, radius}, kDropAccuracy};
         const BallOnTriangles brute_force{face};
-        for (int k = 0; k < kDrops; ++k) {
+        for (int k = 0; k < kDropsOnEach; ++k) {
             const double x = draw.uniform(-3.0, 3.0);
             const double y = draw.uniform(-3.0, 3.0);
             const double least = brute_force.drop(x, y, radius);
