@@ -124,8 +124,8 @@ TEST(StockHeightMap, TrialsLeaveNoTrace)
         for (int i = 0; i < 60; ++i) {
             const Vec3d to = any(random) < 0.5 ? at + (place() - at) * 0.05 : place();
             stock.begin_trial();
-            deepest_trial = std::max(deepest_trial, stock.cut_with_shrunk_tool(at, to));
-            deepest_trial = std::max(deepest_trial, stock.cut(to, place()));
+            deepest_trial = std::max(deepest_trial, stock.cut_with_shrunk_tool(place(), at));
+            deepest_trial = std::max(deepest_trial, stock.cut(at, to));
             stock.end_trial();
             CHECK_EQUAL(untried.cut(at, to), stock.cut(at, to));
             const Vec3d probe = place();
