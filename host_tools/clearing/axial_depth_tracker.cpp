@@ -1,4 +1,4 @@
-// Cuts a stock height map move by move; moves ahead are cut in a copy of it.
+// Cuts a stock height map move by move; cuts of moves ahead are taken back.
 #include "host_tools/clearing/axial_depth_tracker.hpp"
 
 #include <algorithm>
@@ -77,14 +77,15 @@ std::optional<double> AxialDepthTracker::allowed_height_over(Vec3d start,
     }
     const double limit = share * *max_depth_;
     std::optional<double> height;
-    ahead_ = stock_;
+    stock_.begin_trial();
     walk(start, moves, [&](Vec3d from, Vec3d to) {
-        const double depth = ahead_->cut_with_shrunk_tool(from, to) + kBetween;
+        const double depth = stock_.cut_with_shrunk_tool(from, to) + kBetween;
         if (depth > limit) {
             const double here = to.z + depth - kAimed * limit;
             height = std::max(height.value_or(here), here);
         }
     });
+    stock_.end_trial();
     return height;
 }
 

@@ -55,7 +55,6 @@ private:
     void walk(Vec3d start, const std::vector<toolpath::ToolMove>& moves, Visit visit) const;
 
     StockHeightMap stock_;
-    std::optional<StockHeightMap> ahead_;  // the stock after allowed_height_over()
     std::optional<double> max_depth_;
     double apart_{};  // mm between points of moves ahead
     std::size_t tracked_moves_{0};

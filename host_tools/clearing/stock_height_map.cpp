@@ -107,7 +107,12 @@ void StockHeightMap::cut_column(std::size_t column,
             deepest = std::max(deepest, over - sliver_ - probe_profile_.at(squared));
         }
         const double left = taken.at(squared);
-        heights[j] = left < over ? static_cast<float>(tip.z + left) : heights[j];
+        if (left < over) {
+            if (on_trial_) {
+                lowered_.push_back({column * rows_ + j, heights[j]});
+            }
+            heights[j] = static_cast<float>(tip.z + left);
+        }
     }
 }
 
@@ -173,6 +178,23 @@ void StockHeightMap::cut_at(const Position& position, double& deepest)
         cut_column(i, rows, position, deepest);
     }
     last_ = position;
+}
+
+void StockHeightMap::begin_trial()
+{
+    on_trial_ = true;
+    last_before_trial_ = last_;
+}
+
+// A point that was lowered several times gets its first height last.
+void StockHeightMap::end_trial()
+{
+    for (auto lowered = lowered_.rbegin(); lowered != lowered_.rend(); ++lowered) {
+        heights_[lowered->place] = lowered->before;
+    }
+    lowered_.clear();
+    last_ = last_before_trial_;
+    on_trial_ = false;
 }
 
 double StockHeightMap::sweep(Vec3d from, Vec3d to, bool inside)

@@ -36,6 +36,10 @@ public:
     // for the next move that meets it.
     double cut_with_shrunk_tool(Vec3d from, Vec3d to) { return sweep(from, to, true); }
 
+    // Cuts between the two are trials: end_trial() takes them back. One trial at a time, by one tool.
+    void begin_trial();
+    void end_trial();
+
 private:
     // The tool's lower side: a flat of radius `flat`, a corner around it.
     struct Profile {
@@ -57,6 +61,10 @@ private:
         Vec3d tip;
         bool shrunk;  // of cut_with_shrunk_tool()
     };
+    struct Lowered {
+        std::size_t place;  // in heights_
+        float before;
+    };
 
     double spacing_{};
     double sliver_{};  // mm: slivers between two positions of a move are ignored
@@ -72,6 +80,9 @@ private:
     double top_;
     std::vector<float> heights_;
     std::optional<Position> last_;  // the points under it are already cut
+    bool on_trial_{};
+    std::vector<Lowered> lowered_;  // in the trial, in order
+    std::optional<Position> last_before_trial_;
 
     Axis column_axis() const { return {origin_.x, pitch_, columns_}; }
     Axis row_axis() const { return {origin_.y, pitch_, rows_}; }

@@ -21,6 +21,7 @@
 #include "host_tools/contour_pocket/rough_layers.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -72,7 +73,7 @@ constexpr double kDoubtful = 0.5;
 constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
 
-constexpr double kLevelsDone = 0.6;  // of the progress
+constexpr double kLevelsDone = 0.6;  // of the progress, where nothing is roughed
 
 constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius
 
@@ -97,7 +98,9 @@ public:
           floor_{operation.floor, operation.tool, tolerances.accuracy},
           loop_scallop_{floor_, operation.floor, tolerances_},
           moves_{job.stock_top + job.clearance},
-          depth_{depth}
+          depth_{depth},
+          begun_{is_roughed(operation) ? kRoughingDone : 0.0},
+          levels_done_{is_roughed(operation) ? 0.0 : kLevelsDone}
     {
         if (!tolerances.one_sided) {
             floor_.check_edge_gouges(operation.floor_tolerance);
@@ -106,12 +109,21 @@ public:
 
     const DropCutter& floor() const { return floor_; }
 
+    // Finds the passes, which do not depend on roughing. Errors: those of plan_contour_pocket().
+    void find_passes()
+    {
+        cleared_ = passes();
+        pencils_ = find_pencil_passes(cleared_);
+    }
+
+    // After find_passes().
+    //
     // rough  the operations cut before; null for whole stock
     PlannedOperation plan(const RoughResult* rough)
     {
-        begun_ = rough != nullptr ? kRoughingDone : 0.0;
-        ClearedRegion cleared = passes();
-        std::vector<ClearingPass> pencils = find_pencil_passes(cleared);
+        ClearedRegion& cleared = cleared_;
+        std::vector<ClearingPass>& pencils = pencils_;
+        report(levels_done_);
         loops_ = static_cast<int>(cleared.passes.size());
         pencil_passes_ = static_cast<int>(pencils.size());
         if (rough == nullptr && cleared.saved > 0.0) {
@@ -141,7 +153,7 @@ public:
         }
         settings.retracts = cleared.leaves + static_cast<int>(operation_.islands.size());
         settings.progress = [&](double share) {
-            report(kLevelsDone + (1.0 - kLevelsDone) * share);
+            report(levels_done_ + (1.0 - levels_done_) * share);
         };
         cutter.cut(cleared, settings);
         cutter.end();
@@ -167,7 +179,9 @@ private:
         const bool whole = is_one_whole_surface(operation_);
         LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
         settings.stepover_from = [&, whole_area = area(region_)](const Region2d& ring) {
-            report(kLevelsDone * (1.0 - area(ring) / whole_area));
+            if (levels_done_ > 0.0) {
+                report(levels_done_ * (1.0 - area(ring) / whole_area));
+            }
             return std::min(
                 widest, interval.stepover_from(
                             ring, corners && whole ? loop_scallop_.proven_stepover(ring) : 0.0));
@@ -389,7 +403,12 @@ private:
     LoopScallop loop_scallop_;
     ClPathWriter moves_;
     AxialDepthTracker* depth_;
-    double begun_{0.0};  // of the progress
+    // Of the progress: what is done before the finish, and before its passes are written. Beside
+    // roughing, which reports its own, passes are found without a report.
+    double begun_;
+    double levels_done_;
+    ClearedRegion cleared_;
+    std::vector<ClearingPass> pencils_;
     int loops_{0};
     int pencil_passes_{0};
 };
@@ -408,7 +427,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     std::optional<AxialDepthTracker> depth;
     // Entries beside cliffs of the floor and beside stock left by roughing depend on the stock
     // height.
-    if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
+    if (is_roughed(operation) || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
@@ -419,8 +438,10 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     FinishPlanner finish{job, operation, region, shared.finish, cut_depth};
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
-    const std::optional<RoughResult> rough =
-        plan_rough_layers(job, operation, region, shared.rough, cut_depth);
+    std::optional<RoughResult> rough;
+    parallel::both(
+        [&] { rough = plan_rough_layers(job, operation, region, shared.rough, cut_depth); },
+        [&] { finish.find_passes(); });
     if (rough && !rough->operation.path.moves.empty()) {
         result.push_back(rough->operation);
     }

@@ -157,6 +157,11 @@ void cut_layers(const Job& job,
 
 }  // namespace
 
+bool is_roughed(const Operation& operation)
+{
+    return operation.max_depth.has_value() || !operation.layers.empty();
+}
+
 double layer_depth(const Operation& operation)
 {
     if (operation.max_depth) {
@@ -192,7 +197,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const ToleranceSplit& tolerances,
                                              AxialDepthTracker* cut_depth)
 {
-    if (!operation.max_depth && operation.layers.empty()) {
+    if (!is_roughed(operation)) {
         return std::nullopt;
     }
     const auto begin = std::chrono::steady_clock::now();

@@ -16,6 +16,9 @@ struct RoughResult {
     double left{};  // mm: largest height above a level floor: allowance and scallops
 };
 
+// Whether the operation names layers, or a depth of cut for them.
+bool is_roughed(const job::Operation& operation);
+
 // Depth of cut of a layer, mm: max_depth, or the tallest of operation.layers.
 double layer_depth(const job::Operation& operation);
 

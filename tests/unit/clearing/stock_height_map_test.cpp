@@ -104,5 +104,38 @@ TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
     CHECK(cut > 300);
 }
 
+// The later cuts and heights are those of a map that was never tried on.
+TEST(StockHeightMap, TrialsLeaveNoTrace)
+{
+    constexpr unsigned kSeed = 20261126;
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> any{0.0, 1.0};
+    const auto place = [&] {
+        return Vec3d{kSide * any(random), kSide * any(random), -3.0 * any(random)};
+    };
+    Tool tool;
+    tool.radius = 2.0;
+    for (const double corner : {0.0, 0.5, 2.0}) {
+        tool.corner_radius = corner;
+        StockHeightMap stock{{0.0, 0.0, kSide, kSide}, tool, kTop};
+        StockHeightMap untried = stock;
+        Vec3d at = place();
+        double deepest_trial = 0.0;
+        for (int i = 0; i < 60; ++i) {
+            const Vec3d to = any(random) < 0.5 ? at + (place() - at) * 0.05 : place();
+            stock.begin_trial();
+            deepest_trial = std::max(deepest_trial, stock.cut_with_shrunk_tool(place(), at));
+            deepest_trial = std::max(deepest_trial, stock.cut(at, to));
+            stock.end_trial();
+            CHECK_EQUAL(untried.cut(at, to), stock.cut(at, to));
+            const Vec3d probe = place();
+            CHECK_EQUAL(untried.contact_height({probe.x, probe.y}),
+                        stock.contact_height({probe.x, probe.y}));
+            at = to;
+        }
+        CHECK(deepest_trial > 1.0);
+    }
+}
+
 }  // namespace
 }  // namespace cusp::test
