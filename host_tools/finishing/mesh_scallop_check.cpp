@@ -273,17 +273,14 @@ void MeshScallopCheck::check()
 std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
 {
     const bool steep = at.normal.z < kUprightNormal;
-    const bool covered =
-        steep ? is_cut_down(at, kPlaceShare) : is_covered(at.point, at.normal, kPlaceShare);
+    const bool covered = steep ? places_.is_wall_cut(at.point, at.normal, kPlaceShare)
+                               : is_covered(at.point, at.normal, kPlaceShare);
     if (covered || is_hidden(at)) {
         return std::nullopt;
     }
     const Vec3d tip = places_.touching_tip(at.point, at.normal);
     if (path_fitter_.is_clear(tip)) {
         return tip;
-    }
-    if (steep) {
-        return where_blocked ? lower_tip_beside(at) : std::nullopt;
     }
     return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
 }
@@ -420,9 +417,7 @@ double MeshScallopCheck::left_over(const Cell& cell) const
     if (!place) {
         return -1;
     }
-    return place->normal.z < kUprightNormal
-               ? left_beside(*place)
-               : places_.uncut_at(place->point, place->normal, 0).reachable;
+    return places_.uncut_at(place->point, place->normal, 0).reachable;
 }
 
 }  // namespace cusp::finishing

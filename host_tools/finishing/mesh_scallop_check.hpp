@@ -101,9 +101,6 @@ private:
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;
     bool is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const;
-    bool is_cut_down(const Place& at, double share) const;
-    std::optional<Vec3d> lower_tip_beside(const Place& at) const;
-    double left_beside(const Place& at) const;
     Points trace_level(const Place& from) const;
     std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;

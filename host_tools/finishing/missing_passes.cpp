@@ -14,7 +14,8 @@ namespace {
 constexpr double kNearCell = 0.03;  // in stepovers: smallest cell that nearly keeps the scallop
 constexpr double kLeastNear = 0.7;  // of the scallop: neighbours of less are not searched
 constexpr int kRounds = 5;
-constexpr int kMoreHalvings = 10;  // a round
+constexpr std::size_t kShortTrace = 2;  // tips: a trace that leaves a sliver at once
+constexpr int kMoreHalvings = 10;       // a round
 
 }  // namespace
 
@@ -41,8 +42,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
 
 std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
 {
-    // On vertical walls heights are meaningless.
-    if (at.normal.z < kUprightNormal || is_hidden(at)) {
+    if (places_.is_upright(at.point.point, at.normal) || is_hidden(at)) {
         return std::nullopt;
     }
     const ScallopAtPoint::LowerTip better =
@@ -55,17 +55,21 @@ std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
     return std::nullopt;
 }
 
-Points ScallopCheck::trace(int surface, Place place, bool along_u) const
+// The missing tips along a straight line in the domain, both ways.
+//
+// way  in (u, v)
+Points ScallopCheck::trace(int surface, Place place, Vec2d way) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
-    const double begin = along_u ? s.u_begin() : s.v_begin();
-    const double end = along_u ? s.u_end() : s.v_end();
+    const Vec2d low{s.u_begin(), s.v_begin()};
+    const Vec2d high{s.u_end(), s.v_end()};
+    const double longest =
+        1.0 / 8 / std::max(std::abs(way.x) / (high.x - low.x), std::abs(way.y) / (high.y - low.y));
     Points out;
     for (const double sign : {-1.0, 1.0}) {
-        double at_u = place.u;
-        double at_v = place.v;
+        Vec2d at{place.u, place.v};
         for (int k = 0; k < kMostTraced; ++k) {
-            const std::optional<Vec3d> tip = missing_tip(surface, at_u, at_v, true);
+            const std::optional<Vec3d> tip = missing_tip(surface, at.x, at.y, true);
             if (k == 0 && sign > 0) {
                 // the first direction has added the start
             } else if (tip) {
@@ -73,13 +77,13 @@ Points ScallopCheck::trace(int surface, Place place, bool along_u) const
             } else {
                 break;
             }
-            const SurfacePoint p = path_fitter_.model().evaluate(surface, at_u, at_v);
-            const double speed = norm(along_u ? p.du : p.dv);
-            double& at = along_u ? at_u : at_v;
+            const SurfacePoint p = path_fitter_.model().evaluate(surface, at.x, at.y);
+            const double speed = norm(p.du * way.x + p.dv * way.y);
             const double step =
-                std::min(kTraceStep * places_.step() / std::max(1e-9, speed), (end - begin) / 8);
-            const double next = std::clamp(at + sign * step, begin, end);
-            if (next == at) {
+                std::min(kTraceStep * places_.step() / std::max(1e-9, speed), longest);
+            const Vec2d next{std::clamp(at.x + sign * step * way.x, low.x, high.x),
+                             std::clamp(at.y + sign * step * way.y, low.y, high.y)};
+            if (next.x == at.x && next.y == at.y) {
                 break;
             }
             at = next;
@@ -91,11 +95,43 @@ Points ScallopCheck::trace(int surface, Place place, bool along_u) const
     return out;
 }
 
-// The middle of the cell, then its corners.
+// The middle of the cell, then its corners. Where all are trimmed away, a place beside the trims
+// takes the middle's: a sliver between them may hold no corner of any cell.
 std::array<ScallopCheck::Place, 5> ScallopCheck::places_of(const Cell& cell) const
 {
-    return {Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)}, Place{cell.u0, cell.v0},
-            Place{cell.u1, cell.v0}, Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
+    std::array<Place, 5> out{Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)},
+                             Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
+                             Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
+    if (std::none_of(out.begin(), out.end(), [&](const Place& place) {
+            return inside_trims(cell.surface, place.u, place.v);
+        })) {
+        if (const auto beside = path_fitter_.model().beside_trims(cell.surface, {cell.u0, cell.v0},
+                                                                  {cell.u1, cell.v1})) {
+            out.front() = {beside->place.x, beside->place.y};
+        }
+    }
+    return out;
+}
+
+// The longest pass through the place along u, along v or along the trims beside it.
+Points ScallopCheck::longest_trace(const Cell& cell, const Place& place) const
+{
+    Points longest = trace(cell.surface, place, {1, 0});
+    const auto try_along = [&](Vec2d way) {
+        Points other = trace(cell.surface, place, way);
+        if (longest.empty() || length_of(other) > length_of(longest)) {
+            longest = std::move(other);
+        }
+    };
+    try_along({0, 1});
+    if (longest.size() > kShortTrace) {
+        return longest;
+    }
+    if (const auto beside = path_fitter_.model().beside_trims(cell.surface, {cell.u0, cell.v0},
+                                                              {cell.u1, cell.v1})) {
+        try_along(beside->along);
+    }
+    return longest;
 }
 
 // Whether the visible corner of a cell with a hidden middle lies in an opening narrower than cells:
@@ -182,12 +218,7 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
                 continue;
             }
             changed.push_back(cell);
-            Points one = trace(cell.surface, *place, true);
-            Points other = trace(cell.surface, *place, false);
-            if (one.empty() || length_of(other) > length_of(one)) {
-                std::swap(one, other);
-            }
-            for (const Points& run : places_.runs_of(one)) {
+            for (const Points& run : places_.runs_of(longest_trace(cell, *place))) {
                 cut(run);
             }
         }
@@ -212,7 +243,7 @@ void ScallopCheck::measure_beside_edges(const std::vector<Cell>& cells)
     for (const Cell& cell : cells) {
         for (const Place& place : places_of(cell)) {
             const Corner at = corner(cell.surface, place.u, place.v);
-            if (at.normal.z >= kUprightNormal && !is_hidden(at)) {
+            if (!places_.is_upright(at.point.point, at.normal) && !is_hidden(at)) {
                 scallop_over_reachable(at, std::max(scallop_, left_beside_edges_));
             }
         }

@@ -21,6 +21,8 @@ constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of 
 constexpr double kTraceApart = 0.3;  // in stepovers: tips that one line may join
 constexpr double kFarApart = 0.5;    // radii: tips that one pass may join
 constexpr double kShortest = 1e-3;   // mm
+constexpr double kLevelWall = 1e-9;  // z of a normal: a wall has no height
+constexpr int kLeftHalvings = 20;
 
 }  // namespace
 
@@ -83,6 +85,41 @@ bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
 }
 
+bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share) const
+{
+    const double allowed = share * scallop_;
+    if ((swept_->lowest(point.x, point.y).height - point.z) * normal.z <= allowed) {
+        return true;
+    }
+    const Vec3d top = raised(point, normal, allowed, false);
+    swept_->near_or_below(centre_under(top, normal, allowed, radius_), near_);
+    return std::any_of(near_.begin(), near_.end(),
+                       [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
+}
+
+bool ScallopAtPoint::is_upright(Vec3d point, Vec3d normal) const
+{
+    return normal.z < kUprightNormal &&
+           (normal.z < kLevelWall ||
+            (path_fitter_.model().box_high().z - point.z) * normal.z <= kPlaceShare * scallop_);
+}
+
+// mm: the stock over a point from `height` up to `now`, along the normal; at most the radius.
+double ScallopAtPoint::left_from(Vec3d point, Vec3d normal, double height, double now) const
+{
+    const double from = std::max(point.z, height);
+    if (normal.z >= kUprightNormal) {
+        return std::min(radius_, std::max(0.0, (now - from) * normal.z));
+    }
+    double low = 0;
+    double high = radius_;
+    for (int k = 0; k < kLeftHalvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (is_wall_cut({point.x, point.y, from}, normal, middle / scallop_) ? high : low) = middle;
+    }
+    return high;
+}
+
 // Fast test whether some ball removes more than a share of the scallop, within the resolution of
 // searches.
 LowerPositionProof::Verdict ScallopAtPoint::quick_verdict(Vec3d point,
@@ -107,36 +144,41 @@ ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
                                                   const SweptVolume::Lowest& now) const
 {
     const double resolution = scallop_ * share;
-    const double cosine = normal.z;
-    const std::optional<ReachableHeight::Position> best =
-        reach_.lowest_over(point, now.height - resolution / cosine);
-    if (!best || (now.height - best->height) * cosine <= resolution) {
+    const double exact_below = now.height - resolution / normal.z;
+    const auto removed_by = [&](const std::optional<ReachableHeight::Position>& position) {
+        if (!position || position->height >= exact_below) {
+            return 0.0;
+        }
+        return normal.z < kUprightNormal ? left_from(point, normal, position->height, now.height)
+                                         : (now.height - position->height) * normal.z;
+    };
+    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, exact_below);
+    const double most = removed_by(best);
+    if (most <= resolution) {
         return {};
     }
     if (path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
-        return {best->tip, (now.height - best->height) * cosine, false};
+        return {best->tip, most, false};
     }
     const std::optional<ReachableHeight::Position> kept =
-        reach_.lowest_clear_of_edges(point, *best, now.height - resolution / cosine);
-    if (!kept || (now.height - kept->height) * cosine <= resolution) {
+        reach_.lowest_clear_of_edges(point, *best, exact_below);
+    const double less = removed_by(kept);
+    if (less <= resolution) {
         return {std::nullopt, 0, true};
     }
-    return {kept->tip, (now.height - kept->height) * cosine, false};
+    return {kept->tip, less, false};
 }
 
 ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, double share) const
 {
+    if (normal.z < kUprightNormal &&
+        (is_upright(point, normal) || is_wall_cut(point, normal, share))) {
+        return {};
+    }
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
     return quick_verdict(point, normal, share, now) == LowerPositionProof::Verdict::kNone
                ? LowerTip{}
                : searched(point, normal, share, now);
-}
-
-std::optional<ReachableHeight::Position> ScallopAtPoint::lowest_below(Vec3d point,
-                                                                      double height) const
-{
-    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, height);
-    return best && best->height < height ? best : std::nullopt;
 }
 
 bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
@@ -158,16 +200,18 @@ bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
 
 ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double resolution) const
 {
+    if (is_upright(point, normal)) {
+        return {};
+    }
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
-    if (!std::isfinite(now.height)) {
+    if (normal.z >= kUprightNormal && !std::isfinite(now.height)) {
         return {radius_, 0};
     }
     if ((now.height - point.z) * normal.z <= resolution) {
         return {};
     }
     const auto over = [&](double height) {
-        const double from = std::max(point.z, height);
-        return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
+        return left_from(point, normal, height, now.height);
     };
     const double exact_below = now.height - resolution / normal.z;
     const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, exact_below);

@@ -24,7 +24,8 @@ Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius);
 
 // Least z of a normal for which the scallop is measured vertically.
 constexpr double kSteepNormal = 0.2;
-// Least z of a normal for which heights are meaningful.
+// Least z of a normal for which heights alone measure the stock. On steeper walls stock may be high
+// but thin.
 constexpr double kUprightNormal = 0.05;
 // Share of the scallop allowed at points that represent a smallest cell.
 constexpr double kPlaceShare = 0.98;
@@ -72,23 +73,29 @@ public:
     // normal  unit vector, upward
     bool is_covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
 
+    // As is_covered(), for walls steeper than kUprightNormal: the cut of the shank counts, and stock
+    // that is high but thin.
+    bool is_wall_cut(Vec3d point, Vec3d normal, double share) const;
+
+    // Whether nothing thicker than the scallop fits between a wall and a vertical line from the point
+    // up to the top of the model.
+    bool is_upright(Vec3d point, Vec3d normal) const;
+
     struct LowerTip {
         std::optional<Vec3d> tip;  // none where no tip removes more than the share
         double left{};             // mm: what it removes
         bool moved_clear{};        // there is one, but it would gouge an edge from the side
     };
     // The lowest position of the tool over the point, if it removes more than a share of the
-    // scallop.
-    // Precondition: normal.z >= kUprightNormal
+    // scallop. None where is_upright().
     LowerTip lower_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
-    // The lowest position of the tool over the point, if it leaves less than `height` (mm, z).
-    std::optional<ReachableHeight::Position> lowest_below(Vec3d point, double height) const;
-
     // Fast rejection: true only where lower_tip() has none.
+    // Precondition: normal.z >= kUprightNormal
     bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
 
     // Whether no tip removes more than `kSettledShare`, tips that would gouge an edge included.
+    // Precondition: normal.z >= kUprightNormal
     bool settled(Vec3d point, Vec3d normal) const;
 
     struct Uncut {
@@ -105,6 +112,7 @@ public:
     std::vector<Points> runs_of(const Points& tips) const;
 
 private:
+    double left_from(Vec3d point, Vec3d normal, double height, double now) const;
     LowerPositionProof::Verdict quick_verdict(Vec3d point,
                                               Vec3d normal,
                                               double share,

@@ -427,7 +427,9 @@ ScallopCheck::Unproved ScallopCheck::unproved()
     std::vector<Cell> blocked;
     for (const Cell& cell : uncovered_) {
         const std::array<Corner, 4> at = corners_of(cell);
-        if (std::all_of(at.begin(), at.end(), [&](const Corner& c) { return is_hidden(c); })) {
+        const Place place = places_of(cell).front();
+        if (std::all_of(at.begin(), at.end(), [&](const Corner& c) { return is_hidden(c); }) &&
+            is_hidden(corner(cell.surface, place.u, place.v))) {
             continue;
         }
         if (blocked_somewhere(at)) {
@@ -455,7 +457,7 @@ double ScallopCheck::most_left_in(const std::vector<Cell>& cells)
             const Corner at = corner(cell.surface, place.u, place.v);
             const Vec3d p = at.point.point;
             const double over = (places_.swept().lowest(p.x, p.y).height - p.z) * at.normal.z;
-            if (over > scallop_ && at.normal.z >= kUprightNormal && !is_hidden(at)) {
+            if (over > scallop_ && !is_hidden(at)) {
                 all.push_back({at, over});
             }
         }

@@ -185,7 +185,8 @@ private:
                            Vec2d from,
                            Vec2d to,
                            const std::function<void(const Points&)>& cut);
-    Points trace(int surface, Place place, bool along_u) const;
+    Points trace(int surface, Place place, Vec2d way) const;
+    Points longest_trace(const Cell& cell, const Place& place) const;
 
     const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kLevelFacet = 1e-9;    // z of a normal: a facet has no height
 constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
-constexpr int kLeftHalvings = 20;
 
 Vec3d level_along(Vec3d normal)
 {
@@ -38,23 +37,6 @@ bool MeshScallopCheck::is_hidden(const Place& at) const
     }
     const auto top = path_fitter_.model().height_at(at.point.x, at.point.y);
     return top && top->point.z > at.point.z + std::max(kHidden, kHiddenBeside / at.normal.z);
-}
-
-// Whether the stock over a point of a steep facet is cut down to a share of the scallop, the
-// shank's cut included.
-bool MeshScallopCheck::is_cut_down(const Place& at, double share) const
-{
-    const double allowed = share * scallop_;
-    const double over = places_.swept().lowest(at.point.x, at.point.y).height - at.point.z;
-    if (over * at.normal.z <= allowed) {
-        return true;
-    }
-    const Vec3d top = raised(at.point, at.normal, allowed, false);
-    places_.swept().near_or_below(centre_under(top, at.normal, allowed, path_fitter_.tool().radius),
-                                  near_);
-    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
-        return places_.swept().removes(move, top, path_off_);
-    });
 }
 
 // A cell is proved by one move. Where the stock is high but thin, its corners represent it.
@@ -87,7 +69,7 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
     bool clear = true;
     bool covered = true;
     for (const Place& place : places) {
-        if (!is_cut_down(place, kPlaceShare) && !is_hidden(place)) {
+        if (!places_.is_wall_cut(place.point, place.normal, kPlaceShare) && !is_hidden(place)) {
             covered = false;
             clear = clear && path_fitter_.is_clear(places_.touching_tip(place.point, place.normal));
         }
@@ -96,33 +78,6 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
         return Verdict::kCovered;
     }
     return clear ? Verdict::kUncovered : Verdict::kBlocked;
-}
-
-// The lowest tip over a point that the tool cannot touch, if stock is left over what it reaches.
-std::optional<Vec3d> MeshScallopCheck::lower_tip_beside(const Place& at) const
-{
-    const double now = places_.swept().lowest(at.point.x, at.point.y).height;
-    const auto best = places_.lowest_below(at.point, now - scallop_ / at.normal.z);
-    if (!best) {
-        return std::nullopt;
-    }
-    const Vec3d reached{at.point.x, at.point.y, std::max(at.point.z, best->height)};
-    return is_cut_down({reached, at.normal}, 1) ? std::nullopt : std::optional{best->tip};
-}
-
-// mm: the stock left over a point of a steep facet above what the tool can reach.
-double MeshScallopCheck::left_beside(const Place& at) const
-{
-    const auto best = places_.lowest_below(at.point, kInfinite);
-    const double height = best ? std::max(at.point.z, best->height) : at.point.z;
-    const Place reached{{at.point.x, at.point.y, height}, at.normal};
-    double low = 0;
-    double high = path_fitter_.tool().radius;
-    for (int k = 0; k < kLeftHalvings; ++k) {
-        const double middle = 0.5 * (low + high);
-        (is_cut_down(reached, middle / scallop_) ? high : low) = middle;
-    }
-    return high;
 }
 
 std::optional<MeshScallopCheck::Place> MeshScallopCheck::place_on(Vec3d at) const

@@ -13,7 +13,8 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kNeedle = 0.01;  // mm, radius
+constexpr double kNeedle = 0.01;          // mm, radius
+constexpr double kSteepestNeedle = 1e-3;  // z of a normal: its needle starts 10 mm higher
 
 }  // namespace
 
@@ -30,9 +31,15 @@ double VisibilityFromAbove::hiding_height(double z) const
     return z + kHidden + 2 * tops_.pitch();
 }
 
-bool VisibilityFromAbove::under_others(Vec3d place) const
+bool VisibilityFromAbove::may_be_under_others(Vec3d place) const
 {
     return tops_.least_around(place.x, place.y) > hiding_height(place.z);
+}
+
+bool VisibilityFromAbove::under_others(Vec3d place) const
+{
+    // The map alone takes the bottom of a steep groove for covered.
+    return may_be_under_others(place) && tops_.finds_over(place, kHidden);
 }
 
 bool VisibilityFromAbove::under_itself(Vec3d place, int surface) const
@@ -42,16 +49,15 @@ bool VisibilityFromAbove::under_itself(Vec3d place, int surface) const
 
 bool VisibilityFromAbove::is_hidden(Vec3d place, Vec3d normal) const
 {
-    const Vec2d at{place.x, place.y};
-    if (!under_others(place)) {
-        return tops_.finds_over(place, kHidden);
-    }
-    if (!(tops_.highest_silhouette(at, at) > hiding_height(place.z))) {
+    if (tops_.finds_over(place, kHidden)) {
         return true;
+    }
+    if (!may_be_under_others(place)) {
+        return false;
     }
     // A needle touches any surface over the point with its shank.
     const Tool needle{0, ToolShape::kBall, kNeedle, kNeedle};
-    const double rise = kHidden + kNeedle * (1 / std::max(normal.z, kUprightNormal) - 1);
+    const double rise = kHidden + kNeedle * (1 / std::max(normal.z, kSteepestNeedle) - 1);
     return !path_fitter_.model().is_distance_at_least(needle, place + Vec3d{0, 0, rise}, 0.0);
 }
 

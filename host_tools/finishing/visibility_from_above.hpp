@@ -10,8 +10,8 @@
 
 namespace cusp::finishing {
 
-// Most points are decided by a map of heights. Near silhouettes, where gaps may be narrower than
-// the map's squares, the model itself decides.
+// A map of heights decides most points. Where it only seems to cover a point, in steep grooves and in
+// gaps narrower than its squares, the model itself decides.
 class VisibilityFromAbove {
 public:
     // pitch  mm, of the map
@@ -25,8 +25,8 @@ public:
     // normal  of the model there, a unit vector, upward
     bool is_hidden(Vec3d place, Vec3d normal) const;
 
-    // Whether some surface lies over the point by more than two squares of the map. Gaps narrower
-    // than three squares count as closed.
+    // Whether some surface lies over the point, and by more than two squares of the map over all points
+    // around. Gaps narrower than three squares count as closed.
     bool under_others(Vec3d place) const;
 
     // Whether the surface of the point is found to lie over it as well.
@@ -37,6 +37,7 @@ public:
     bool silhouette_above(const std::array<Vec3d, 4>& corners) const;
 
 private:
+    bool may_be_under_others(Vec3d place) const;
     double hiding_height(double z) const;
 
     const GougeFreePathFitter& path_fitter_;

@@ -221,6 +221,11 @@ bool PartModel::outside_trims(int surface, Vec2d low, Vec2d high) const
            region.part(low.x, high.x, low.y, high.y) == TrimRegion::Part::kOutside;
 }
 
+std::optional<TrimRegion::Beside> PartModel::beside_trims(int surface, Vec2d low, Vec2d high) const
+{
+    return state_->regions[static_cast<std::size_t>(surface)].beside(low, high);
+}
+
 double PartModel::edge_error() const { return state_->edges.empty() ? 0 : state_->edge_error; }
 
 SurfacePoint PartModel::evaluate(int surface, double u, double v) const

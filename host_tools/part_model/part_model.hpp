@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/part_model/trim_region.hpp"
 #include "host_tools/toolpath/tool.hpp"
 
 namespace cusp::part_model {
@@ -217,6 +218,9 @@ public:
 
     // Whether a whole rectangle of the domain is trimmed away.
     bool outside_trims(int surface, Vec2d low, Vec2d high) const;
+
+    // A place inside the trims, in a rectangle of the domain that an edge cuts; none found in others.
+    std::optional<TrimRegion::Beside> beside_trims(int surface, Vec2d low, Vec2d high) const;
 
     // mm: how much too low distances near trimmed edges may be.
     double edge_error() const;

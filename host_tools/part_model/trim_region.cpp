@@ -17,6 +17,7 @@ constexpr int kDeepestHalving = 14;
 constexpr std::size_t kSidesInRow = 4;
 constexpr std::size_t kMostRows = 2000;
 constexpr double kLengthRounding = 1e-12;  // of a length
+constexpr double kBesideEdge = 1e-3;       // of a piece of edge
 
 // Whether p lies to the right of the segment, by more than rounding.
 bool right_of(Vec2d from, Vec2d to, Vec2d p)
@@ -300,6 +301,42 @@ std::array<bool, 2> TrimRegion::inside_at(const std::array<double, 2>& u, double
         }
     });
     return in;
+}
+
+// The mean of what is left lies in a sliver; else a place just to the left of an edge may.
+std::optional<TrimRegion::Beside> TrimRegion::beside(Vec2d low, Vec2d high) const
+{
+    Remnant left;
+    if (remnant(low.x, high.x, low.y, high.y, left) != Part::kCut) {
+        return std::nullopt;
+    }
+    Vec2d longest{};
+    Vec2d sum{};
+    for (std::size_t k = 0; k + 1 < left.edge.size(); k += 2) {
+        const Vec2d way = left.edge[k + 1] - left.edge[k];
+        longest = norm(way) > norm(longest) ? way : longest;
+        sum = sum + left.edge[k] + left.edge[k + 1];
+    }
+    for (const Vec2d& corner : left.corners) {
+        sum = sum + corner;
+    }
+    const auto within = [&](Vec2d at) {
+        return Vec2d{std::clamp(at.x, low.x, high.x), std::clamp(at.y, low.y, high.y)};
+    };
+    const Vec2d mean =
+        within(sum * (1.0 / static_cast<double>(left.edge.size() + left.corners.size())));
+    if (inside(mean.x, mean.y)) {
+        return Beside{mean, longest};
+    }
+    for (std::size_t k = 0; k + 1 < left.edge.size(); k += 2) {
+        const Vec2d way = left.edge[k + 1] - left.edge[k];
+        const Vec2d place =
+            within((left.edge[k] + left.edge[k + 1]) * 0.5 + Vec2d{-way.y, way.x} * kBesideEdge);
+        if (inside(place.x, place.y)) {
+            return Beside{place, way};
+        }
+    }
+    return std::nullopt;
 }
 
 TrimRegion::Part TrimRegion::remnant(

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -34,6 +35,15 @@ public:
     //
     // out  set to the remnant where the result is kCut, else emptied; keeps its memory
     Part remnant(double u_begin, double u_end, double v_begin, double v_end, Remnant& out) const;
+
+    // A place inside the trims and the direction of an edge near it.
+    struct Beside {
+        Vec2d place;
+        Vec2d along;
+    };
+    // A place in a rectangle that an edge cuts; in the middle of a sliver where the rectangle holds
+    // nothing else. None found where no edge cuts it.
+    std::optional<Beside> beside(Vec2d low, Vec2d high) const;
 
     // The edges in space. Not kept: a part has hundreds of thousands of them.
     //

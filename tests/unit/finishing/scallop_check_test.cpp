@@ -1,7 +1,10 @@
 // Cells of surfaces that are not yet cut.
 #include "host_tools/finishing/scallop_check.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
@@ -25,6 +28,63 @@ Surface plate()
     s.points = {{0, 0, 0}, {kSide, 0, 0}, {0, kSide, 0}, {kSide, kSide, 0}};
     s.weights.assign(4, 1.0);
     return s;
+}
+
+// A groove along y between two walls whose normals have the z given, with a flat bottom.
+std::vector<Surface> groove(double normal_z, double high, double bottom)
+{
+    const double out = 0.5 * bottom;
+    const double wide = out + high * normal_z / std::sqrt(1 - normal_z * normal_z);
+    const double side = std::sqrt(1 - normal_z * normal_z);
+    std::vector<Surface> faces{
+        test::plane_face({{wide, 0, high}, {wide, kSide, high}, {out, kSide, 0}, {out, 0, 0}},
+                         {-side, 0, normal_z}),
+        test::plane_face({{-out, 0, 0}, {-out, kSide, 0}, {-wide, kSide, high}, {-wide, 0, high}},
+                         {side, 0, normal_z})};
+    if (bottom > 0) {
+        // The domain, in mm, is turned, so that no side of a cell follows the strip.
+        const Vec3d u{0.6, 0.8, 0};
+        const Vec3d v{-0.8, 0.6, 0};
+        const double far = 2 * kSide;
+        Surface strip = test::plane_face(
+            {u * -far - v * far, u * far - v * far, u * far + v * far, v * far - u * far},
+            {0, 0, 1});
+        const Vec3d origin = u * -far - v * far;
+        std::vector<Vec2d> corners;
+        for (const Vec3d& p :
+             {Vec3d{-out, 0, 0}, Vec3d{out, 0, 0}, Vec3d{out, kSide, 0}, Vec3d{-out, kSide, 0}}) {
+            corners.push_back({dot(p - origin, u), dot(p - origin, v)});
+        }
+        strip.trims = {test::loop_of(corners)};
+        faces.push_back(strip);
+    }
+    return faces;
+}
+
+// The lowest tip of the passes that are missing over a part of the last face, beside the middle of the
+// groove, after one along it at a height.
+double lowest_missing(
+    const std::vector<Surface>& faces, double tip_z, double scallop, Vec2d low, Vec2d high)
+{
+    const Tool ball{1, ToolShape::kBall, 1.0, 1.0};
+    const PartModel model{faces};
+    const GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(1e-3, false)};
+    ScallopCheck check{faces, path_fitter, scallop, 0, 50000};
+    check.add({{0, 0, tip_z}, {0, kSide, tip_z}});
+    check.check(static_cast<int>(faces.size()) - 1, low, high);
+    double lowest = tip_z;
+    check.add_missing_passes(
+        [&](const Points& pass) {
+            for (const Vec3d& tip : pass) {
+                // Beside the ends of the groove the ball falls off the part.
+                if (std::abs(tip.y - 0.5 * kSide) < 0.25 * kSide) {
+                    lowest = std::min(lowest, tip.z);
+                }
+            }
+            check.add(pass);
+        },
+        [](double) {});
+    return lowest;
 }
 
 }  // namespace
@@ -53,4 +113,27 @@ TEST(ScallopCheck, ChecksAnUncutPlateInLargeCells)
     CHECK_FALSE(coverage.overflowed());
     const double step = std::sqrt(8 * ball.radius * kScallop);
     CHECK(length < 2.3 * kSide * kSide / step);
+}
+
+// The ball rests on both walls of a groove too narrow for it. A pass 0.5 mm higher leaves more than
+// the scallop over the bottom, a strip between trims that holds no corner of a cell.
+TEST(ScallopCheck, CutsDownToASliverBetweenTrims)
+{
+    constexpr double kNormalZ = 0.1;
+    constexpr double kBottom = 0.03;
+    // The tip of a ball on both walls.
+    const double rest = (1 - 0.5 * kBottom * std::sqrt(1 - kNormalZ * kNormalZ)) / kNormalZ - 1;
+    const double lowest =
+        lowest_missing(groove(kNormalZ, 12, kBottom), rest + 0.5, 0.06, {28.7, 27.5}, {28.9, 27.7});
+    CHECK(lowest > rest - 0.1 && lowest < rest + 0.1);
+}
+
+// On walls steeper than 87 degrees that the ball can not touch, stock may be high but thick, too.
+TEST(ScallopCheck, CutsDownBetweenSteepWalls)
+{
+    constexpr double kNormalZ = 0.04;
+    constexpr double kRest = 1 / kNormalZ - 1;
+    const double lowest =
+        lowest_missing(groove(kNormalZ, 30, 0), kRest + 3, 0.05, {5.9, 0}, {6.1, 0.5});
+    CHECK(lowest > kRest - 0.1 && lowest < kRest + 0.1);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/loops.hpp"
 #include "tests/support/plates.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
@@ -158,6 +159,32 @@ TEST(TrimRegion, LeavesARemnantThatHoldsWhatIsInside)
         }
     }
     CHECK(count[0] > 50 && count[1] > 50 && count[2] > 50);
+}
+
+// Slivers of any width are met by every rectangle that they cross, and by no other.
+TEST(TrimRegion, FindsAPlaceBesideTrims)
+{
+    Surface surface = turned_plate({0.0, 0.0}, {1.0, 0.0}, kSide, kSide, 0.0);
+    for (double wide = 0.1; wide > 1e-7; wide *= 0.1) {
+        surface.trims = {{loop_of({{0.1, 0.1}, {0.1 + wide, 0.1}, {0.9 + wide, 0.9}, {0.9, 0.9}})}};
+        const TrimRegion region{surface, kTrimEdgeError};
+        int count = 0;
+        for (int i = 0; i < 100; ++i) {
+            const Vec2d low{0.1 * (i / 10) + 0.01, 0.1 * (i % 10) + 0.02};
+            const Vec2d high = low + Vec2d{0.1, 0.1};
+            const auto beside = region.beside(low, high);
+            // One that an edge touches at a corner holds no place.
+            CHECK(!beside || region.part(low.x, high.x, low.y, high.y) == TrimRegion::Part::kCut);
+            if (beside) {
+                ++count;
+                CHECK(region.inside(beside->place.x, beside->place.y));
+                CHECK(beside->place.x >= low.x && beside->place.x <= high.x);
+                CHECK(beside->place.y >= low.y && beside->place.y <= high.y);
+                CHECK(norm(beside->along) > 0);
+            }
+        }
+        CHECK(count >= 16);
+    }
 }
 
 // A band whose long sides are waves so flat that hundreds of polyline sides share a few rows.
