@@ -353,6 +353,9 @@ void ScallopCheck::check_cell(const Cell& cell, const std::array<Corner, 4>& at,
         path_fitter_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
         return;
     }
+    if (queries_ != nullptr && depth > kDeepestCheck - kOwnParts) {
+        queries_->next();
+    }
     const Verdict verdict = judge(cell, at);
     if (verdict == Verdict::kCovered) {
         return;

@@ -11,6 +11,7 @@
 
 #include "host_tools/finishing/scallop_at_point.hpp"
 #include "host_tools/finishing/visibility_from_above.hpp"
+#include "host_tools/part_model/part_model.hpp"
 
 namespace cusp::finishing {
 
@@ -92,6 +93,7 @@ public:
 
 private:
     static constexpr int kDeepestCheck = 40;  // halvings of a cell
+    static constexpr int kOwnParts = 12;      // the first of these end a part of the shared queries
     struct Place {
         double u;
         double v;
@@ -199,6 +201,8 @@ private:
     bool has_checked_{};
     std::shared_ptr<SharedVisibility> visibility_{std::make_shared<SharedVisibility>()};
     std::vector<std::unique_ptr<ScallopCheck>> copies_;
+    // Of a copy that works.
+    const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
     std::vector<Cell> uncovered_;
     double most_left_{};
     double left_beside_edges_{};

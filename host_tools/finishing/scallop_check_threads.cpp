@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::size_t kCopies = 4;       // each with a drop cutter of its own where one is needed
 constexpr std::size_t kCellsAtOnce = 4;  // of a copy, before cells of the model are forgotten
-constexpr std::size_t kFindingsAtOnce = 16;
-constexpr double kSharedCell = 24;  // in stepovers: larger cells are divided before
+constexpr std::size_t kFindingsAtOnce = 256;
+constexpr std::size_t kCellsBetween = 16;  // ends of parts of a run
+constexpr double kSharedCell = 24;         // in stepovers: larger cells are divided before
 constexpr int kSharedHalvings = 12;
 
 // Runs of `at_once` numbers below a count, dealt out to the copies in turn. A copy takes its runs in
@@ -101,9 +102,15 @@ void ScallopCheck::share_out(std::size_t count,
         parallel::for_each(kCopies, [&](std::size_t) {
             while (const auto run = runs.take()) {
                 const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
+                ScallopCheck& copy = *copies_[run->copy];
+                copy.queries_ = &queries;
                 for (std::size_t k = run->begin; k < run->end; ++k) {
-                    work(*copies_[run->copy], k);
+                    if (k > run->begin && (k - run->begin) % kCellsBetween == 0) {
+                        queries.next();
+                    }
+                    work(copy, k);
                 }
+                copy.queries_ = nullptr;
                 runs.give_back(*run);
             }
         });

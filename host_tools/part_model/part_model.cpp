@@ -296,7 +296,18 @@ PartModel::SharedQueries::~SharedQueries()
     model_.forget_many_cells();
 }
 
-PartModel::SharedQueries::Part::Part(const PartModel& model) : model_{model}
+PartModel::SharedQueries::Part::Part(const PartModel& model) : model_{model} { begin(); }
+
+PartModel::SharedQueries::Part::~Part() { model_.state_->parts.unlock_shared(); }
+
+// A thread that waits to release cells gets its turn only where all others unlock.
+void PartModel::SharedQueries::Part::next() const
+{
+    model_.state_->parts.unlock_shared();
+    begin();
+}
+
+void PartModel::SharedQueries::Part::begin() const
 {
     State& state = *model_.state_;
     state.parts.lock_shared();
@@ -312,8 +323,6 @@ PartModel::SharedQueries::Part::Part(const PartModel& model) : model_{model}
     }
     model_.forget_queries();
 }
-
-PartModel::SharedQueries::Part::~Part() { model_.state_->parts.unlock_shared(); }
 
 double PartModel::distance_within(const Tool& tool, Vec3d tip, const DistanceOptions& options) const
 {

@@ -202,7 +202,12 @@ public:
             Part(const Part&) = delete;
             Part& operator=(const Part&) = delete;
 
+            // As if this part ended and the next began: between queries of a part that may be long, at
+            // places that do not depend on the threads.
+            void next() const;
+
         private:
+            void begin() const;
             const PartModel& model_;
         };
 
