@@ -132,9 +132,8 @@ private:
     // A copy for another thread: without cells, with the passes of this one.
     struct ForThread {};
     ScallopCheck(const ScallopCheck& other, ForThread tag);
-    // Calls work(copy, k) for each k below count, on several threads.
-    void share_out(std::size_t count,
-                   std::size_t at_once,
+    // Calls work(copy, k) for the number k of each cell, on several threads, neighbours with one copy.
+    void share_out(const std::vector<Cell>& cells,
                    const std::function<void(ScallopCheck&, std::size_t)>& work,
                    const std::function<void(double)>& progress);
     std::vector<CellFinding> findings_of(const std::vector<Cell>& cells, bool measure);
@@ -200,7 +199,6 @@ private:
     std::vector<Points> waiting_;  // passes added before the first check
     bool has_checked_{};
     std::shared_ptr<SharedVisibility> visibility_{std::make_shared<SharedVisibility>()};
-    std::vector<std::unique_ptr<ScallopCheck>> copies_;
     // Of a copy that works.
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
     std::vector<Cell> uncovered_;

@@ -1,9 +1,10 @@
-// Cells are shared out to copies of the check, the same cells to the same copy for any number of threads.
+// Cells are shared out to copies of the check, the same cells to a copy for any number of threads.
 #include <algorithm>
 #include <mutex>
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
+#include "host_tools/finishing/shares_of_neighbours.hpp"
 #include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::finishing {
@@ -12,66 +13,10 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr std::size_t kCopies = 4;       // each with a drop cutter of its own where one is needed
-constexpr std::size_t kCellsAtOnce = 4;  // of a copy, before cells of the model are forgotten
-constexpr std::size_t kFindingsAtOnce = 256;
-constexpr std::size_t kCellsBetween = 16;  // ends of parts of a run
+constexpr std::size_t kCellShares = 8;     // each with a drop cutter of its own where one is needed
+constexpr std::size_t kCellsBetween = 16;  // ends of parts of a share
 constexpr double kSharedCell = 24;         // in stepovers: larger cells are divided before
 constexpr int kSharedHalvings = 12;
-
-// Runs of `at_once` numbers below a count, dealt out to the copies in turn. A copy takes its runs in
-// order, so what it finds does not depend on the threads; the copies do not wait for each other.
-class DealtRuns {
-public:
-    DealtRuns(std::size_t count, std::size_t at_once, const std::function<void(double)>& progress)
-        : count_{count}, at_once_{at_once}, progress_{progress}
-    {
-        for (std::size_t copy = 0; copy < kCopies; ++copy) {
-            next_[copy] = copy * at_once;
-        }
-    }
-
-    struct Run {
-        std::size_t copy;
-        std::size_t begin;
-        std::size_t end;
-    };
-    // The next run of the copy that is farthest behind, of those that are free; none at the end.
-    std::optional<Run> take()
-    {
-        const std::lock_guard lock{guard_};
-        std::size_t copy = kCopies;
-        for (std::size_t k = 0; k < kCopies; ++k) {
-            const bool waits = !busy_[k] && next_[k] < count_;
-            if (waits && (copy == kCopies || next_[k] < next_[copy])) {
-                copy = k;
-            }
-        }
-        if (copy == kCopies) {
-            return std::nullopt;
-        }
-        busy_[copy] = true;
-        return Run{copy, next_[copy], std::min(count_, next_[copy] + at_once_)};
-    }
-
-    void give_back(const Run& run)
-    {
-        const std::lock_guard lock{guard_};
-        busy_[run.copy] = false;
-        next_[run.copy] += kCopies * at_once_;
-        done_ += run.end - run.begin;
-        progress_(static_cast<double>(done_) / static_cast<double>(count_));
-    }
-
-private:
-    std::size_t count_;
-    std::size_t at_once_;
-    const std::function<void(double)>& progress_;
-    std::mutex guard_;
-    std::array<std::size_t, kCopies> next_{};
-    std::array<bool, kCopies> busy_{};
-    std::size_t done_{0};
-};
 
 }  // namespace
 
@@ -88,31 +33,39 @@ ScallopCheck::ScallopCheck(const ScallopCheck& other, ForThread /*tag*/)
 {
 }
 
-void ScallopCheck::share_out(std::size_t count,
-                             std::size_t at_once,
+void ScallopCheck::share_out(const std::vector<Cell>& cells,
                              const std::function<void(ScallopCheck&, std::size_t)>& work,
                              const std::function<void(double)>& progress)
 {
-    while (copies_.size() < kCopies) {
-        copies_.push_back(std::unique_ptr<ScallopCheck>{new ScallopCheck{*this, ForThread{}}});
+    std::vector<Vec2d> middles;
+    middles.reserve(cells.size());
+    for (const Cell& cell : cells) {
+        const Vec3d at =
+            path_fitter_.model()
+                .evaluate(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1))
+                .point;
+        middles.push_back({at.x, at.y});
     }
+    const auto shares = shares_of_neighbours(middles, kCellShares);
+    std::mutex guard;
+    std::size_t done = 0;
     {
-        DealtRuns runs{count, at_once, progress};
         const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
-        parallel::for_each(kCopies, [&](std::size_t) {
-            while (const auto run = runs.take()) {
-                const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
-                ScallopCheck& copy = *copies_[run->copy];
-                copy.queries_ = &queries;
-                for (std::size_t k = run->begin; k < run->end; ++k) {
-                    if (k > run->begin && (k - run->begin) % kCellsBetween == 0) {
-                        queries.next();
-                    }
-                    work(copy, k);
+        parallel::for_each(shares.size(), [&](std::size_t share) {
+            ScallopCheck copy{*this, ForThread{}};
+            const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
+            copy.queries_ = &queries;
+            std::size_t between = 0;
+            for (const std::size_t k : shares[share]) {
+                if (between++ == kCellsBetween) {
+                    queries.next();
+                    between = 1;
                 }
-                copy.queries_ = nullptr;
-                runs.give_back(*run);
+                work(copy, k);
             }
+            const std::lock_guard lock{guard};
+            done += shares[share].size();
+            progress(static_cast<double>(done) / static_cast<double>(cells.size()));
         });
     }
     path_fitter_.model().forget_queries();
@@ -141,24 +94,26 @@ void ScallopCheck::check_all(const std::function<void(double)>& progress)
             divide(cell, kSharedHalvings, cells);
         }
     }
-    std::vector<std::vector<Cell>> found(cells.size());
+    struct Found {
+        std::vector<Cell> uncovered;
+        bool overflowed;
+    };
+    std::vector<Found> found(cells.size());
     share_out(
-        cells.size(), kCellsAtOnce,
+        cells,
         [&](ScallopCheck& copy, std::size_t k) {
             const cancellation::Part part{"face ", cells[k].surface + 1, " of the floor"};
             copy.check_cell(cells[k], copy.corners_of(cells[k]), kDeepestCheck);
-            found[k] = std::move(copy.uncovered_);
+            found[k] = {std::move(copy.uncovered_), copy.overflowed_};
             copy.uncovered_.clear();
         },
         progress);
-    for (const std::vector<Cell>& some : found) {
-        overflowed_ = overflowed_ || uncovered_.size() + some.size() > max_uncovered_;
+    for (const Found& some : found) {
+        overflowed_ = overflowed_ || some.overflowed ||
+                      uncovered_.size() + some.uncovered.size() > max_uncovered_;
         if (!overflowed_) {
-            uncovered_.insert(uncovered_.end(), some.begin(), some.end());
+            uncovered_.insert(uncovered_.end(), some.uncovered.begin(), some.uncovered.end());
         }
-    }
-    for (const std::unique_ptr<ScallopCheck>& copy : copies_) {
-        overflowed_ = overflowed_ || copy->overflowed_;
     }
 }
 
@@ -168,7 +123,7 @@ std::vector<ScallopCheck::CellFinding> ScallopCheck::findings_of(const std::vect
 {
     std::vector<CellFinding> out(cells.size());
     share_out(
-        cells.size(), kFindingsAtOnce,
+        cells,
         [&](ScallopCheck& copy, std::size_t k) {
             const cancellation::Part part{"face ", cells[k].surface + 1, " of the floor"};
             CellFinding& finding = out[k];
