@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/import/cad_shape.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
@@ -28,6 +29,7 @@
 #include "opencascade/Geom2d_TrimmedCurve.hxx"
 #include "opencascade/GeomConvert.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/ShapeUpgrade_ShapeDivideAngle.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
@@ -333,7 +335,10 @@ Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::str
     return surface;
 }
 
-void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
+void add_whole_face(const SolidFace& found,
+                    bool all_faces,
+                    const std::string& place,
+                    CadModel& model)
 {
     // the wires of a forward-oriented face have its interior on their left in (u, v)
     const TopoDS_Shape converted =
@@ -357,6 +362,62 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
             throw;
         }
         ++model.unread;
+    }
+}
+
+// The pieces of a face, cut at every `turn` (radians); none where that fails or is not the same face.
+std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)
+{
+    constexpr double kSameArea = 1e-4;
+    std::vector<TopoDS_Face> out;
+    try {
+        ShapeUpgrade_ShapeDivideAngle divide{turn, face};
+        if (!divide.Perform()) {
+            return {};
+        }
+        for (TopExp_Explorer at{divide.Result(), TopAbs_FACE}; at.More(); at.Next()) {
+            out.push_back(TopoDS::Face(at.Current()));
+        }
+        const double area = area_of(face);
+        const bool same = std::abs(area_of(divide.Result()) - area) <= kSameArea * std::abs(area);
+        return same ? out : std::vector<TopoDS_Face>{};
+    } catch (const Standard_Failure&) {
+        return {};
+    }
+}
+
+// As add_whole_face(), for the pieces of a face. Returns false where one cannot be read.
+bool add_pieces(
+    const SolidFace& found, double turn, bool all_faces, const std::string& place, CadModel& model)
+{
+    CadModel pieces;
+    try {
+        for (const TopoDS_Face& piece : pieces_of(found.face, turn)) {
+            add_whole_face({piece, found.solid}, all_faces, place, pieces);
+        }
+    } catch (const InputError&) {
+        return false;
+    }
+    model.faces.insert(model.faces.end(), pieces.faces.begin(), pieces.faces.end());
+    model.outwards.insert(model.outwards.end(), pieces.outwards.begin(), pieces.outwards.end());
+    model.unread += pieces.unread;
+    return !pieces.faces.empty() || pieces.unread > 0;
+}
+
+// Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain. The
+// pieces of such a face have no seam inside; cuts may meet a wire where they fail, so there are two
+// choices.
+void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
+{
+    constexpr double kQuarter = 0.5 * kPi;
+    constexpr double kOther = 0.35 * kPi;
+    try {
+        add_whole_face(found, all_faces, place, model);
+    } catch (const InputError&) {
+        if (!add_pieces(found, kQuarter, all_faces, place, model) &&
+            !add_pieces(found, kOther, all_faces, place, model)) {
+            throw;
+        }
     }
 }
 
