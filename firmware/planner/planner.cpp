@@ -19,6 +19,8 @@ constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
 // Near a single junction the speed hardly changes; in dense runs it must.
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
+// Free intervals that a stretch may take.
+constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
 // A stretch that is passed in less time, s, gains nothing by limits of its own.
 constexpr float kShortestStretch = kServoTick;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
@@ -110,6 +112,7 @@ void Planner::reset(Position at) noexcept
     end_.reset();
     end_length_ = 0;
     close_requested_ = false;
+    starved_ = false;
     next_stretch_ = 0;
     stretches_ = 0;
     tail_ = at;
@@ -129,8 +132,10 @@ void Planner::push(const path::Move& move) noexcept
     tail_ = move.end;
     if (LineSmoother::accepts(move) && smoother_.continues(move)) {
         smoother_.add(move);
+        starved_ = starved_ && !smoother_.full();
     } else {
         waiting_ = move;
+        starved_ = false;
     }
     work();
 }
@@ -138,12 +143,14 @@ void Planner::push(const path::Move& move) noexcept
 void Planner::close() noexcept
 {
     close_requested_ = true;
+    starved_ = false;
     work();
 }
 
 void Planner::flush_if_short() noexcept
 {
     flushing_ = path_is_short();
+    starved_ = starved_ && !flushing_;
     work();
     flushing_ = false;
 }
@@ -224,23 +231,50 @@ bool Planner::next_move() noexcept
 
 void Planner::work() noexcept
 {
-    constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
+    if (!waits()) {
+        go_on();
+    }
+}
+
+// Whether there is nothing to do: no room, or no move. It is asked at every poll.
+bool Planner::waits() const noexcept
+{
+    if (close_requested_ || queue_.published() == queue_.interval_begin()) {
+        return false;
+    }
+    if (queue_.free_intervals() <= kIntervalsOfAStretch) {
+        return true;
+    }
+    return next_stretch_ == stretches_ &&
+           (queue_.free_blocks() == 0 || queue_.free_curves() == 0 || (starved_ && maker_.done()));
+}
+
+void Planner::go_on() noexcept
+{
+    std::optional<StretchAhead> ahead;
     bool changed = false;
     while (queue_.free_intervals() > kIntervalsOfAStretch) {
         if (next_stretch_ != stretches_) {
-            add_stretch();
+            if (!ahead) {
+                ahead.emplace(stretch_ahead(queue_.block(queue_.block_end() - 1)));
+            }
+            add_stretch(*ahead);
             changed = true;
             continue;
         }
-        if (queue_.free_blocks() == 0 || queue_.free_curves() == 0 ||
-            (maker_.done() && !next_move())) {
+        if (queue_.free_blocks() == 0 || queue_.free_curves() == 0) {
             break;
         }
-        if (!maker_.done()) {
-            Block block;
-            if (maker_.make(move_, queue_, block)) {
-                add_block(block);
-            }
+        if (maker_.done() && !next_move()) {
+            starved_ = true;
+            break;
+        }
+        Block& block = queue_.new_block();
+        if (!maker_.done() && maker_.make(move_, queue_, block)) {
+            next_stretch_ = 0;
+            stretches_ = static_cast<std::uint8_t>(stretch_count(block));
+            ahead.emplace(stretch_ahead(block));
+            add_block(block, *ahead);
         }
     }
     const bool cut = maker_.done() && next_stretch_ == stretches_;
@@ -257,19 +291,31 @@ void Planner::work() noexcept
     }
 }
 
-void Planner::add_block(const Block& block) noexcept
+// Of a block that has stretches left, the next of which is next_stretch_.
+Planner::StretchAhead Planner::stretch_ahead(const Block& block) const noexcept
+{
+    StretchAhead ahead{{block, next_stretch_}, {}, {}};
+    read_stretch(ahead);
+    return ahead;
+}
+
+void Planner::read_stretch(StretchAhead& ahead) const noexcept
+{
+    ahead.stretch = ahead.reader.next();
+    ahead.allowance = allowance_of(ahead.reader.block(), ahead.stretch);
+}
+
+// The block lies where the queue has the next.
+void Planner::add_block(const Block& block, const StretchAhead& ahead) noexcept
 {
     // Only rounding makes a jump where one line or arc was cut into blocks.
     const bool goes_on = within_move_ && block.shape != BlockShape::kCurve;
     if (end_ && !goes_on) {
-        const Stretch first = stretch(block, 0);
-        join(start_geometry(block), block, first, allowance_of(block, first));
+        join(start_geometry(block), block, ahead.stretch, ahead.allowance);
     }
     within_move_ = true;
     const BlockShape before = queue_.block(queue_.block_end() - 1).shape;
-    queue_.append_block(block);
-    next_stretch_ = 0;
-    stretches_ = static_cast<std::uint8_t>(stretch_count(block));
+    queue_.append_block();
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
@@ -418,24 +464,23 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
 }
 
 // Adds the next stretch of the last block, and those behind it that allow nearly the same.
-void Planner::add_stretch() noexcept
+void Planner::add_stretch(StretchAhead& ahead) noexcept
 {
-    const Block& block = queue_.block(queue_.block_end() - 1);
+    const Block& block = ahead.reader.block();
     const std::uint32_t begin = next_stretch_ == 0 ? 0 : stretch_end_;
-    Stretch whole = stretch(block, next_stretch_);
-    const Allowance of_first = allowance_of(block, whole);
+    Stretch whole = ahead.stretch;
+    const Allowance of_first = ahead.allowance;
     Allowance allowed = of_first;
     while (++next_stretch_ != stretches_) {
-        const Stretch part = stretch(block, next_stretch_);
-        const Allowance of_part = allowance_of(block, part);
+        read_stretch(ahead);
         const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
         const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
-        if (!is_short && !are_alike(of_first, of_part)) {
+        if (!is_short && !are_alike(of_first, ahead.allowance)) {
             break;
         }
-        whole.end = part.end;
-        whole.derivatives = larger(whole.derivatives, part.derivatives);
-        allowed = stricter(allowed, of_part);
+        whole.end = ahead.stretch.end;
+        whole.derivatives = larger(whole.derivatives, ahead.stretch.derivatives);
+        allowed = stricter(allowed, ahead.allowance);
     }
     stretch_end_ = whole.end;
     if (whole.end == begin) {
