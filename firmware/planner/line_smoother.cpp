@@ -68,6 +68,15 @@ struct Leave {
     Vec3f get() const noexcept { return {x, y, z}; }
 };
 
+// nm: of the axis that travels farthest.
+std::int32_t travel(const Vec3<std::int32_t>& from, const Vec3<std::int32_t>& to) noexcept
+{
+    const std::int32_t x = std::abs(to.x - from.x);
+    const std::int32_t y = std::abs(to.y - from.y);
+    const std::int32_t z = std::abs(to.z - from.z);
+    return std::max(std::max(x, y), z);
+}
+
 Vec3f unit(Vec3f a) noexcept
 {
     const float length = norm(a);
@@ -132,19 +141,14 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
     return scaled(vertices_[to].at - vertices_[from].at);
 }
 
-// nm: of the axis that travels farthest, from a vertex to the next.
-std::int32_t LineSmoother::travel(std::size_t line) const noexcept
-{
-    const Vec3<std::int32_t> d = vertices_[line + 1].at - vertices_[line].at;
-    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-}
-
 // How many lines before a vertex, and after it, a knot takes.
 std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
 {
     std::size_t lines = 0;
+    const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < std::min(index, kBeyond) && sum < kKnotTravel; ++lines) {
-        sum += travel(index - lines - 1);
+        --vertex;
+        sum += travel(vertex[0].at, vertex[1].at);
     }
     return lines;
 }
@@ -153,8 +157,10 @@ std::size_t LineSmoother::knot_lines_after(std::size_t index) const noexcept
 {
     const std::size_t most = std::min(vertices_.size() - 1 - index, kBeyond);
     std::size_t lines = 0;
+    const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
-        sum += travel(index + lines);
+        sum += travel(vertex[0].at, vertex[1].at);
+        ++vertex;
     }
     return lines;
 }
