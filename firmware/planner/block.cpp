@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/assert.hpp"
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/base/math.hpp"
 
 namespace cusp::planner {
@@ -118,10 +119,19 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
 }
 
 // Bound of |f| between two places from both and the middle, with a part of their second difference.
-Vec3f largest_of(const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b, float part) noexcept
+LaneVec largest_of(LaneVec at_a, LaneVec at_m, LaneVec at_b, float part) noexcept
 {
-    const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);
+    const LaneVec bend = magnitude(at_a - at_m * 2.0F + at_b);
     return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * part;
+}
+
+// Of |f|, where `change` bounds its second derivative: between places h apart a function exceeds
+// their larger by at most h^2/8 of that.
+LaneVec largest_of_slow(
+    LaneVec at_a, LaneVec at_m, LaneVec at_b, LaneVec change, float length) noexcept
+{
+    return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) +
+           change * (0.03125F * length * length);
 }
 
 // By arc length, with signs.
@@ -140,14 +150,13 @@ PathDerivatives curve_derivatives(const PathDerivatives& a,
     // A parabola through three places exceeds the greatest of them by at most an eighth of their
     // second difference. Twice that bounds other functions:
     // tests/unit/planner/stretch_test.cpp.
-    PathDerivatives bounds{};
-    bounds.second = largest_of(a.second, m.second, b.second, 0.25F);
-    bounds.third = largest_of(a.third, m.third, b.third, 0.25F);
-    // Between places h apart a function exceeds their larger by at most h^2/8 of its second
-    // derivative.
-    bounds.first = larger(larger(magnitude(a.first), magnitude(m.first)), magnitude(b.first)) +
-                   bounds.third * (0.03125F * length * length);
-    return bounds;
+    const LaneVec second =
+        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.25F);
+    const LaneVec third =
+        largest_of(to_lanes(a.third), to_lanes(m.third), to_lanes(b.third), 0.25F);
+    const LaneVec first =
+        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
+    return {to_vec(first), to_vec(second), to_vec(third)};
 }
 
 // Where the stretch `index` of a curve begins.
@@ -189,18 +198,22 @@ PathOffset quintic_position(const Block& block, std::uint32_t offset) noexcept
 // The first three derivatives by arc length.
 PathDerivatives quintic_state(const Block& block, float x) noexcept
 {
-    const auto& q = block.quintic.bulge;
+    const auto& bulge = block.quintic.bulge;
+    const LaneVec b1 = to_lanes(bulge[1]);
+    const LaneVec b2 = to_lanes(bulge[2]);
+    const LaneVec b3 = to_lanes(bulge[3]);
     const float inverse = 1.0F / length_mm(block);
     // Q and its derivatives, then those of x (1 - x) Q.
-    const Vec3f q0 = q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
-    const Vec3f q1 = q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x;
-    const Vec3f q2 = q[2] * 2.0F + q[3] * (6.0F * x);
+    const LaneVec q0 = to_lanes(bulge[0]) + (b1 + (b2 + b3 * x) * x) * x;
+    const LaneVec q1 = b1 + (b2 * 2.0F + b3 * (3.0F * x)) * x;
+    const LaneVec q2 = b2 * 2.0F + b3 * (6.0F * x);
     const float bump = x * (1.0F - x);
     const float slope = 1.0F - 2.0F * x;
     const float square = inverse * inverse;
-    return {(displacement_mm(block) + q0 * slope + q1 * bump) * inverse,
-            (q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square,
-            (q1 * -6.0F + q2 * (3.0F * slope) + q[3] * (6.0F * bump)) * (square * inverse)};
+    const LaneVec chord = to_lanes(displacement_mm(block));
+    return {to_vec((chord + q0 * slope + q1 * bump) * inverse),
+            to_vec((q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square),
+            to_vec((q1 * -6.0F + q2 * (3.0F * slope) + b3 * (6.0F * bump)) * (square * inverse))};
 }
 
 // Bounds over a stretch, `length` mm long, from both ends and the middle.
@@ -211,13 +224,16 @@ PathDerivatives quintic_derivatives(const PathDerivatives& a,
                                     const PathDerivatives& b,
                                     float length) noexcept
 {
-    PathDerivatives bounds{};
-    bounds.third = largest_of(a.third, m.third, b.third, 0.125F);
-    bounds.second = largest_of(a.second, m.second, b.second, 0.125F) +
-                    magnitude(a.third - m.third * 2.0F + b.third) * (0.0321F * length);
-    bounds.first = larger(larger(magnitude(a.first), magnitude(m.first)), magnitude(b.first)) +
-                   bounds.third * (0.03125F * length * length);
-    return bounds;
+    const LaneVec third_a = to_lanes(a.third);
+    const LaneVec third_m = to_lanes(m.third);
+    const LaneVec third_b = to_lanes(b.third);
+    const LaneVec third = largest_of(third_a, third_m, third_b, 0.125F);
+    const LaneVec second =
+        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.125F) +
+        magnitude(third_a - third_m * 2.0F + third_b) * (0.0321F * length);
+    const LaneVec first =
+        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
+    return {to_vec(first), to_vec(second), to_vec(third)};
 }
 
 EndGeometry quintic_geometry(const Block& block, float x) noexcept

@@ -115,20 +115,31 @@ Allowance allowance(const PathDerivatives& derivatives,
 {
     const auto& [first, second, third] = derivatives;
     float cap = max_speed * max_speed;
-    float cube = kUnlimited;
-    const auto cap_axis = [&](float p1, float p2, float p3, float v, float a, float j) {
+    float least_cube = kUnlimited;
+    const auto cube_of = [&](float p3, float j) {
+        return jerk_share * j / std::max(p3, kTiny);
+    };
+    const auto cap_axis = [&](float p1, float p2, float cube, float v, float a) {
         const float ratio = v / std::max(p1, kTiny);
         cap = std::min(cap, ratio < 1e12F ? ratio * ratio : kUnlimited);
         cap = std::min(cap, kCentripetalShare * a / std::max(p2, kTiny));
-        cube = std::min(cube, jerk_share * j / std::max(p3, kTiny));
+        least_cube = std::min(least_cube, cube);
     };
     const auto& [velocity, acceleration, jerk] = limits;
-    cap_axis(first.x, second.x, third.x, velocity.x, acceleration.x, jerk.x);
-    cap_axis(first.y, second.y, third.y, velocity.y, acceleration.y, jerk.y);
-    cap_axis(first.z, second.z, third.z, velocity.z, acceleration.z, jerk.z);
-    if (cube < 1e15F) {
-        // It never falls where its argument rises: the least root is that of the least.
-        const float jerk_speed = cube_root(cube);
+    const Vec3f cubes{cube_of(third.x, jerk.x), cube_of(third.y, jerk.y), cube_of(third.z, jerk.z)};
+    cap_axis(first.x, second.x, cubes.x, velocity.x, acceleration.x);
+    cap_axis(first.y, second.y, cubes.y, velocity.y, acceleration.y);
+    cap_axis(first.z, second.z, cubes.z, velocity.z, acceleration.z);
+    if (least_cube < 1e15F) {
+        // Rounding aside the root rises: the least is that of a cube next to the least. Of all
+        // floats no root is below that of one smaller by more than this part.
+        constexpr float kNext = 1e-4F;
+        float jerk_speed = cube_root(least_cube);
+        for (const float cube : {cubes.x, cubes.y, cubes.z}) {
+            if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
+                jerk_speed = std::min(jerk_speed, cube_root(cube));
+            }
+        }
         cap = std::min(cap, jerk_speed * jerk_speed);
     }
     cap = std::min(cap, max_centripetal / std::max(norm(second), kTiny));
