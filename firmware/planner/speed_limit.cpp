@@ -25,6 +25,20 @@ float cube_root(float q) noexcept
     return v;
 }
 
+// The least of the cube roots. Rounding aside a root rises with its cube: of all floats below 1e15
+// none has a root below that of one smaller by more than 7e-8 of it.
+float least_root(Vec3f cubes, float least_cube) noexcept
+{
+    constexpr float kNext = 1e-4F;
+    float least = cube_root(least_cube);
+    for (const float cube : {cubes.x, cubes.y, cubes.z}) {
+        if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
+            least = std::min(least, cube_root(cube));
+        }
+    }
+    return least;
+}
+
 // At part of the squared speed's cap.
 float value(const Line& line, float part) noexcept
 {
@@ -131,15 +145,7 @@ Allowance allowance(const PathDerivatives& derivatives,
     cap_axis(first.y, second.y, cubes.y, velocity.y, acceleration.y);
     cap_axis(first.z, second.z, cubes.z, velocity.z, acceleration.z);
     if (least_cube < 1e15F) {
-        // Rounding aside the root rises: the least is that of a cube next to the least. Of all
-        // floats no root is below that of one smaller by more than this part.
-        constexpr float kNext = 1e-4F;
-        float jerk_speed = cube_root(least_cube);
-        for (const float cube : {cubes.x, cubes.y, cubes.z}) {
-            if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
-                jerk_speed = std::min(jerk_speed, cube_root(cube));
-            }
-        }
+        const float jerk_speed = least_root(cubes, least_cube);
         cap = std::min(cap, jerk_speed * jerk_speed);
     }
     cap = std::min(cap, max_centripetal / std::max(norm(second), kTiny));
