@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/assert.hpp"
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/base/math.hpp"
 
 namespace cusp::planner {
@@ -75,23 +76,25 @@ EndGeometry arc_geometry(const ArcBlock& arc, float angle) noexcept
             (frame.normal * radius + frame.tangent * (2.0F * arc.spread)) * (rate * rate)};
 }
 
-// Largest |a cos h + b sin h| over h in [from, to], to - from <= pi/2.
-float largest_turned(float a, float b, float from, float to) noexcept
+// Largest |a cos h + b sin h| over h between two angles at most pi/2 apart.
+float largest_turned(float a, float b, SinCos<float> from, SinCos<float> to) noexcept
 {
-    const auto [sine0, cosine0] = sin_cos(from);
-    const auto [sine1, cosine1] = sin_cos(to);
     const float ends =
-        std::max(std::fabs(a * cosine0 + b * sine0), std::fabs(a * cosine1 + b * sine1));
-    const float slope0 = b * cosine0 - a * sine0;
-    const float slope1 = b * cosine1 - a * sine1;
+        std::max(std::fabs(a * from.cos + b * from.sin), std::fabs(a * to.cos + b * to.sin));
+    const float slope0 = b * from.cos - a * from.sin;
+    const float slope1 = b * to.cos - a * to.sin;
     const bool peak_inside = (slope0 > 0) != (slope1 > 0);
     return peak_inside ? std::sqrt(a * a + b * b) : ends;
 }
 
-PathDerivatives arc_derivatives(const ArcBlock& arc, float from, float to) noexcept
+// Between two angles, the second of which is `to_angle`.
+PathDerivatives arc_derivatives(const ArcBlock& arc,
+                                SinCos<float> from,
+                                SinCos<float> to,
+                                float to_angle) noexcept
 {
     const float rate = radians_per_mm(arc);
-    const float widest = arc.radius + std::max(0.0F, arc.spread * to);
+    const float widest = arc.radius + std::max(0.0F, arc.spread * to_angle);
     const float spread = std::fabs(arc.spread);
     PathDerivatives bound{};
     for (unsigned i = 0; i < 3; ++i) {
@@ -116,33 +119,44 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
 }
 
 // Bound of |f| between two places from both and the middle, with a part of their second difference.
-Vec3f largest_of(const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b, float part) noexcept
+LaneVec largest_of(LaneVec at_a, LaneVec at_m, LaneVec at_b, float part) noexcept
 {
-    const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);
+    const LaneVec bend = magnitude(at_a - at_m * 2.0F + at_b);
     return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * part;
 }
 
-// Bounds over [from, to] of the parameter, `length` mm long, from both ends and the middle.
-PathDerivatives curve_derivatives(const CurveBlock& curve,
-                                  float from,
-                                  float to,
+// Of |f|, where `change` bounds its second derivative: between places h apart a function exceeds
+// their larger by at most h^2/8 of that.
+LaneVec largest_of_slow(
+    LaneVec at_a, LaneVec at_m, LaneVec at_b, LaneVec change, float length) noexcept
+{
+    return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) +
+           change * (0.03125F * length * length);
+}
+
+// By arc length, with signs.
+PathDerivatives curve_state(const CurveBlock& curve, float u) noexcept
+{
+    const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
+    return {state.tangent, state.curvature, state.change};
+}
+
+// Bounds over a stretch, `length` mm long, from both ends and the middle.
+PathDerivatives curve_derivatives(const PathDerivatives& a,
+                                  const PathDerivatives& m,
+                                  const PathDerivatives& b,
                                   float length) noexcept
 {
-    const nurbs::CurveState a = nurbs::state_at(curve.piece, from);
-    const nurbs::CurveState m = nurbs::state_at(curve.piece, 0.5F * (from + to));
-    const nurbs::CurveState b = nurbs::state_at(curve.piece, to);
     // A parabola through three places exceeds the greatest of them by at most an eighth of their
     // second difference. Twice that bounds other functions:
     // tests/unit/planner/stretch_test.cpp.
-    PathDerivatives bounds{};
-    bounds.second = largest_of(a.curvature, m.curvature, b.curvature, 0.25F);
-    bounds.third = largest_of(a.change, m.change, b.change, 0.25F);
-    // Between places h apart a function exceeds their larger by at most h^2/8 of its second
-    // derivative.
-    bounds.first =
-        larger(larger(magnitude(a.tangent), magnitude(m.tangent)), magnitude(b.tangent)) +
-        bounds.third * (0.03125F * length * length);
-    return bounds;
+    const LaneVec second =
+        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.25F);
+    const LaneVec third =
+        largest_of(to_lanes(a.third), to_lanes(m.third), to_lanes(b.third), 0.25F);
+    const LaneVec first =
+        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
+    return {to_vec(first), to_vec(second), to_vec(third)};
 }
 
 // Where the stretch `index` of a curve begins.
@@ -151,7 +165,7 @@ struct CurvePlace {
     float u;
 };
 
-CurvePlace place_at(const CurveBlock& curve, unsigned index) noexcept
+CurvePlace curve_place(const CurveBlock& curve, unsigned index) noexcept
 {
     unsigned interval = index / kStretchesPerTableInterval;
     const nurbs::ArcLengthNode& node = curve.table.nodes[interval];
@@ -182,48 +196,49 @@ PathOffset quintic_position(const Block& block, std::uint32_t offset) noexcept
 }
 
 // The first three derivatives by arc length.
-struct QuinticState {
-    Vec3f first;
-    Vec3f second;
-    Vec3f third;
-};
-
-QuinticState quintic_state(const Block& block, float x) noexcept
+PathDerivatives quintic_state(const Block& block, float x) noexcept
 {
-    const auto& q = block.quintic.bulge;
+    const auto& bulge = block.quintic.bulge;
+    const LaneVec b1 = to_lanes(bulge[1]);
+    const LaneVec b2 = to_lanes(bulge[2]);
+    const LaneVec b3 = to_lanes(bulge[3]);
     const float inverse = 1.0F / length_mm(block);
     // Q and its derivatives, then those of x (1 - x) Q.
-    const Vec3f q0 = q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
-    const Vec3f q1 = q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x;
-    const Vec3f q2 = q[2] * 2.0F + q[3] * (6.0F * x);
+    const LaneVec q0 = to_lanes(bulge[0]) + (b1 + (b2 + b3 * x) * x) * x;
+    const LaneVec q1 = b1 + (b2 * 2.0F + b3 * (3.0F * x)) * x;
+    const LaneVec q2 = b2 * 2.0F + b3 * (6.0F * x);
     const float bump = x * (1.0F - x);
     const float slope = 1.0F - 2.0F * x;
     const float square = inverse * inverse;
-    return {(displacement_mm(block) + q0 * slope + q1 * bump) * inverse,
-            (q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square,
-            (q1 * -6.0F + q2 * (3.0F * slope) + q[3] * (6.0F * bump)) * (square * inverse)};
+    const LaneVec chord = to_lanes(displacement_mm(block));
+    return {to_vec((chord + q0 * slope + q1 * bump) * inverse),
+            to_vec((q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square),
+            to_vec((q1 * -6.0F + q2 * (3.0F * slope) + b3 * (6.0F * bump)) * (square * inverse))};
 }
 
+// Bounds over a stretch, `length` mm long, from both ends and the middle.
 // The third derivative is a parabola. The second is a cubic: it leaves the parabola through three
 // places by at most 1/(9 sqrt(3)) of its third derivative times the cube of half the length.
-PathDerivatives quintic_derivatives(const Block& block, float from, float to) noexcept
+PathDerivatives quintic_derivatives(const PathDerivatives& a,
+                                    const PathDerivatives& m,
+                                    const PathDerivatives& b,
+                                    float length) noexcept
 {
-    const QuinticState a = quintic_state(block, from);
-    const QuinticState m = quintic_state(block, 0.5F * (from + to));
-    const QuinticState b = quintic_state(block, to);
-    PathDerivatives bounds{};
-    bounds.third = largest_of(a.third, m.third, b.third, 0.125F);
-    const float length = length_mm(block) * (to - from);
-    bounds.second = largest_of(a.second, m.second, b.second, 0.125F) +
-                    magnitude(a.third - m.third * 2.0F + b.third) * (0.0321F * length);
-    bounds.first = larger(larger(magnitude(a.first), magnitude(m.first)), magnitude(b.first)) +
-                   bounds.third * (0.03125F * length * length);
-    return bounds;
+    const LaneVec third_a = to_lanes(a.third);
+    const LaneVec third_m = to_lanes(m.third);
+    const LaneVec third_b = to_lanes(b.third);
+    const LaneVec third = largest_of(third_a, third_m, third_b, 0.125F);
+    const LaneVec second =
+        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.125F) +
+        magnitude(third_a - third_m * 2.0F + third_b) * (0.0321F * length);
+    const LaneVec first =
+        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
+    return {to_vec(first), to_vec(second), to_vec(third)};
 }
 
 EndGeometry quintic_geometry(const Block& block, float x) noexcept
 {
-    const QuinticState state = quintic_state(block, x);
+    const PathDerivatives state = quintic_state(block, x);
     return {state.first, state.second};
 }
 
@@ -314,30 +329,64 @@ unsigned stretch_count(const Block& block) noexcept
     return 1U + static_cast<unsigned>(quadrants * static_cast<float>(kStretchesPerQuadrant));
 }
 
-Stretch stretch(const Block& block, unsigned index) noexcept
+StretchReader::StretchReader(const Block& block, unsigned index) noexcept
+    : block_{block}, next_{index}, count_{stretch_count(block)}, begin_{place_at(index)}
 {
-    const unsigned count = stretch_count(block);
-    const auto units_at = [&block](float part) {
-        return static_cast<std::uint32_t>(static_cast<float>(block.length) * part);
-    };
-    const bool last = index + 1 == count;
-    if (block.shape == BlockShape::kCurve) {
-        const CurveBlock& curve = *block.curve;
-        const CurvePlace from = place_at(curve, index);
-        const CurvePlace to = place_at(curve, index + 1);
-        const std::uint32_t end = last ? block.length : units_at(to.s / curve.table.length());
-        return {end, curve_derivatives(curve, from.u, to.u, to.s - from.s)};
+}
+
+StretchReader::Place StretchReader::place_at(unsigned index) const noexcept
+{
+    Place place{};
+    if (block_.shape == BlockShape::kLine) {
+        return place;
     }
-    const float from = static_cast<float>(index) / static_cast<float>(count);
-    const float to = static_cast<float>(index + 1) / static_cast<float>(count);
-    const std::uint32_t end = last ? block.length : units_at(to);
-    if (block.shape == BlockShape::kLine) {
-        return {end, line_derivatives(block)};
+    if (block_.shape == BlockShape::kCurve) {
+        const CurvePlace on_curve = curve_place(*block_.curve, index);
+        place.s = on_curve.s;
+        place.u = on_curve.u;
+        place.state = curve_state(*block_.curve, place.u);
+        return place;
     }
-    if (block.shape == BlockShape::kQuintic) {
-        return {end, quintic_derivatives(block, from, to)};
+    place.part = static_cast<float>(index) / static_cast<float>(count_);
+    if (block_.shape == BlockShape::kQuintic) {
+        place.state = quintic_state(block_, place.part);
+    } else {
+        place.turn = sin_cos(place.part * sweep(block_));
     }
-    return {end, arc_derivatives(block.arc, from * sweep(block), to * sweep(block))};
+    return place;
+}
+
+PathDerivatives StretchReader::bounds_to(const Place& to) const noexcept
+{
+    switch (block_.shape) {
+        case BlockShape::kArc:
+            return arc_derivatives(block_.arc, begin_.turn, to.turn, to.part * sweep(block_));
+        case BlockShape::kCurve:
+            return curve_derivatives(begin_.state,
+                                     curve_state(*block_.curve, 0.5F * (begin_.u + to.u)), to.state,
+                                     to.s - begin_.s);
+        case BlockShape::kQuintic:
+            return quintic_derivatives(begin_.state,
+                                       quintic_state(block_, 0.5F * (begin_.part + to.part)),
+                                       to.state, length_mm(block_) * (to.part - begin_.part));
+        case BlockShape::kLine:
+            break;
+    }
+    return line_derivatives(block_);
+}
+
+Stretch StretchReader::next() noexcept
+{
+    ++next_;
+    const Place to = place_at(next_);
+    Stretch stretch{block_.length, bounds_to(to)};
+    if (next_ != count_) {
+        const float part =
+            block_.shape == BlockShape::kCurve ? to.s / block_.curve->table.length() : to.part;
+        stretch.end = static_cast<std::uint32_t>(static_cast<float>(block_.length) * part);
+    }
+    begin_ = to;
+    return stretch;
 }
 
 }  // namespace cusp::planner

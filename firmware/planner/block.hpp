@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/base/math.hpp"
 #include "firmware/base/path_units.hpp"
 #include "firmware/base/vec.hpp"
 #include "firmware/nurbs/arc_length_table.hpp"
@@ -121,7 +122,40 @@ struct Stretch {
     PathDerivatives derivatives;
 };
 
+// The stretches of a block in order. What one ends with begins the next, and is reckoned once.
+class StretchReader {
+public:
+    // From the stretch `index` on. The block must outlive the reader.
+    // Precondition: index < stretch_count(block).
+    StretchReader(const Block& block, unsigned index) noexcept;
+
+    // Precondition: fewer than stretch_count(block) are read.
+    Stretch next() noexcept;
+
+    const Block& block() const noexcept { return block_; }
+
+private:
+    // Between two stretches.
+    struct Place {
+        float part;             // of the block's stretches
+        float s;                // mm from the start of a curve
+        float u;                // parameter of a curve
+        PathDerivatives state;  // by arc length, with signs: not of arcs
+        SinCos<float> turn;     // of the angle on an arc
+    };
+    Place place_at(unsigned index) const noexcept;
+    PathDerivatives bounds_to(const Place& to) const noexcept;
+
+    const Block& block_;
+    unsigned next_;
+    unsigned count_;
+    Place begin_;
+};
+
 // Precondition: index < stretch_count(block).
-Stretch stretch(const Block& block, unsigned index) noexcept;
+inline Stretch stretch(const Block& block, unsigned index) noexcept
+{
+    return StretchReader{block, index}.next();
+}
 
 }  // namespace cusp::planner

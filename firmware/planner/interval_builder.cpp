@@ -130,6 +130,22 @@ void IntervalBuilder::add_junction(const JunctionShare& junction, float distance
     carry(junction.speed * reach_.junction - distance, allowance);
 }
 
+// Of an interval only the last `reached` mm: it is split.
+void IntervalBuilder::restrict_end(std::uint32_t at,
+                                   float reached,
+                                   const Allowance& allowance) noexcept
+{
+    Interval& interval = queue_.interval(at);
+    Interval front = interval;
+    const std::uint32_t back = std::max(path_units(reached), std::uint32_t{1});
+    front.length = interval.length - back;
+    front.least_time = 0;
+    interval.length = back;
+    queue_.insert_interval(at, front);
+    refresh_time(queue_.interval(at));
+    restrict(queue_.interval(at + 1), allowance);
+}
+
 void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept
 {
     float left = distance;
@@ -137,24 +153,14 @@ void IntervalBuilder::spread_back(float distance, const Allowance& allowance) no
     while (left > 0 && at != queue_.published()) {
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
-        const bool lowers = binds(allowance, interval.allowance);
-        const float shortest = shortest_piece(greatest_speed(interval.allowance, interval.rapid));
-        const float reached = std::max(left, shortest);
-        const bool split =
-            lowers && length - reached > shortest && queue_.free_intervals() > kMostPerAppend;
-        if (split) {
-            // Only the end of this interval is in reach.
-            Interval front = interval;
-            const std::uint32_t back = std::max(path_units(reached), std::uint32_t{1});
-            front.length = interval.length - back;
-            front.least_time = 0;
-            interval.length = back;
-            queue_.insert_interval(at - 1, front);
-            refresh_time(queue_.interval(at - 1));
-            restrict(queue_.interval(at), allowance);
-            return;
-        }
-        if (lowers) {
+        if (binds(allowance, interval.allowance)) {
+            const float shortest =
+                shortest_piece(greatest_speed(interval.allowance, interval.rapid));
+            const float reached = std::max(left, shortest);
+            if (length - reached > shortest && queue_.free_intervals() > kMostPerAppend) {
+                restrict_end(at - 1, reached, allowance);
+                return;
+            }
             restrict(interval, allowance);
         }
         left -= length;

@@ -50,6 +50,7 @@ private:
     };
     static constexpr std::uint32_t kCarries = 8;
 
+    void restrict_end(std::uint32_t at, float reached, const Allowance& allowance) noexcept;
     void spread_back(float distance, const Allowance& allowance) noexcept;
     void carry(float distance, const Allowance& allowance) noexcept;
     void merge_closest_carries() noexcept;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/assert.hpp"
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
@@ -47,26 +48,37 @@ Vec3d to_double(Vec3f a) noexcept
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
+constexpr float kMillimetre = 1e-6F;  // of a nanometre
+
 // mm, of nanometres.
 Vec3f scaled(Vec3<std::int32_t> nm) noexcept
 {
-    constexpr float kScale = 1e-6F;
     return Vec3f{static_cast<float>(nm.x), static_cast<float>(nm.y), static_cast<float>(nm.z)} *
-           kScale;
+           kMillimetre;
+}
+
+// Direction and curvature, of the first two derivatives by a parameter.
+void set_end(Vec3f slope, Vec3f bend, PathEnd& end) noexcept
+{
+    const float speed = norm(slope);
+    end.tangent = slope / std::max(speed, 1e-6F);
+    end.curvature = (bend - end.tangent * dot(bend, end.tangent)) / std::max(speed * speed, 1e-12F);
 }
 
 // What a fit leaves of a vertex, mm. An array of these is not cleared first.
-struct Leave {
-    float x, y, z;
-
-    void set(Vec3f a) noexcept
-    {
-        x = a.x;
-        y = a.y;
-        z = a.z;
-    }
-    Vec3f get() const noexcept { return {x, y, z}; }
+union Leave {
+    Leave() noexcept {}
+    LaneVec value;
 };
+
+// nm: of the axis that travels farthest.
+std::int32_t travel(const Vec3<std::int32_t>& from, const Vec3<std::int32_t>& to) noexcept
+{
+    const std::int32_t x = std::abs(to.x - from.x);
+    const std::int32_t y = std::abs(to.y - from.y);
+    const std::int32_t z = std::abs(to.z - from.z);
+    return std::max(std::max(x, y), z);
+}
 
 Vec3f unit(Vec3f a) noexcept
 {
@@ -132,19 +144,14 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
     return scaled(vertices_[to].at - vertices_[from].at);
 }
 
-// nm: of the axis that travels farthest, from a vertex to the next.
-std::int32_t LineSmoother::travel(std::size_t line) const noexcept
-{
-    const Vec3<std::int32_t> d = vertices_[line + 1].at - vertices_[line].at;
-    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-}
-
 // How many lines before a vertex, and after it, a knot takes.
 std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
 {
     std::size_t lines = 0;
+    const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < std::min(index, kBeyond) && sum < kKnotTravel; ++lines) {
-        sum += travel(index - lines - 1);
+        --vertex;
+        sum += travel(vertex[0].at, vertex[1].at);
     }
     return lines;
 }
@@ -153,8 +160,10 @@ std::size_t LineSmoother::knot_lines_after(std::size_t index) const noexcept
 {
     const std::size_t most = std::min(vertices_.size() - 1 - index, kBeyond);
     std::size_t lines = 0;
+    const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
-        sum += travel(index + lines);
+        sum += travel(vertex[0].at, vertex[1].at);
+        ++vertex;
     }
     return lines;
 }
@@ -177,87 +186,82 @@ float LineSmoother::fit_knot(std::size_t index,
     const std::size_t here = index - from;
     const Vertex* const vertices = vertices_.begin() + from;
     for (std::size_t i = 0; i < count; ++i) {
-        left[i].set(scaled(vertices[i].at - vertices[here].at));
+        left[i].value = scaled_difference(vertices[i].at, vertices[here].at, kMillimetre);
     }
     x[here] = 0;
     for (std::size_t i = here; i-- > 0;) {
-        x[i] = x[i + 1] - norm(left[i + 1].get() - left[i].get());
+        x[i] = x[i + 1] - norm(left[i + 1].value - left[i].value);
     }
     for (std::size_t i = here + 1; i < count; ++i) {
-        x[i] = x[i - 1] + norm(left[i].get() - left[i - 1].get());
+        x[i] = x[i - 1] + norm(left[i].value - left[i - 1].value);
     }
     const bool one_sided = index == from || index == to;
     const std::size_t terms = std::min<std::size_t>(count, one_sided ? kTerms - 1 : kTerms);
-    Vec3f place{};
-    Vec3f slope{};
-    Vec3f bend{};
+    LaneVec place = to_lanes({});
+    LaneVec slope = place;
+    LaneVec bend = place;
     // Value, first and second derivative at the knot, of this polynomial and the one before.
     float now[3] = {1, 0, 0};
     float last[3] = {0, 0, 0};
+    // Sums over the vertices: of the polynomial squared, of that times x, and of its products.
+    float square = static_cast<float>(count);
+    float moment = 0;
+    LaneVec product = place;
+    // The first polynomial is 1.
+    for (std::size_t i = 0; i < count; ++i) {
+        moment += x[i];
+        product = product + left[i].value;
+    }
     float square_before = 1;
-    for (std::size_t k = 0; k < terms; ++k) {
-        float square = 0;
-        float moment = 0;
-        Vec3f product{};
-        if (k == 0) {
-            // The first polynomial is 1: no bit changes where it is left out.
-            for (std::size_t i = 0; i < count; ++i) {
-                moment += x[i];
-                product = product + left[i].get();
-            }
-            square = static_cast<float>(count);
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
-                const float v = value[i];
-                square += v * v;
-                moment += x[i] * v * v;
-                product = product + left[i].get() * v;
-            }
-        }
-        const Vec3f part = product / square;
+    float worst = 0;
+    for (std::size_t k = 0;; ++k) {
+        const LaneVec part = product / square;
         place = place + part * now[0];
         slope = slope + part * now[1];
         bend = bend + part * now[2];
-        const float shift = moment / square;
-        const float back = k == 0 ? 0.0F : square / square_before;
-        if (k == 0) {
+        if (k + 1 == terms) {
             for (std::size_t i = 0; i < count; ++i) {
-                left[i].set(left[i].get() - part);
-                before[i] = 1.0F;
-                value[i] = x[i] - shift;
-            }
-        } else if (k + 1 == terms) {
-            for (std::size_t i = 0; i < count; ++i) {
-                left[i].set(left[i].get() - part * value[i]);
+                const LaneVec rest = left[i].value - (k == 0 ? part : part * value[i]);
+                worst = std::max(worst, dot(rest, rest));
             }
             break;
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
+        }
+        const float shift = moment / square;
+        const float back = k == 0 ? 0.0F : square / square_before;
+        square_before = square;
+        square = 0;
+        moment = 0;
+        product = to_lanes({});
+        // The vertices leave this polynomial and meet the next.
+        for (std::size_t i = 0; i < count; ++i) {
+            float next = x[i] - shift;
+            LaneVec rest = left[i].value;
+            if (k == 0) {
+                rest = rest - part;
+                before[i] = 1.0F;
+            } else {
                 const float v = value[i];
-                left[i].set(left[i].get() - part * v);
-                value[i] = (x[i] - shift) * v - back * before[i];
+                rest = rest - part * v;
+                next = next * v - back * before[i];
                 before[i] = v;
             }
+            value[i] = next;
+            left[i].value = rest;
+            square += next * next;
+            moment += x[i] * next * next;
+            product = product + rest * next;
         }
-        const float next[3] = {-shift * now[0] - back * last[0],
-                               now[0] - shift * now[1] - back * last[1],
-                               2.0F * now[1] - shift * now[2] - back * last[2]};
+        const float following[3] = {-shift * now[0] - back * last[0],
+                                    now[0] - shift * now[1] - back * last[1],
+                                    2.0F * now[1] - shift * now[2] - back * last[2]};
         for (unsigned n = 0; n < 3; ++n) {
             last[n] = now[n];
-            now[n] = next[n];
+            now[n] = following[n];
         }
-        square_before = square;
     }
-    float worst = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        worst = std::max(worst, dot(left[i].get(), left[i].get()));
-    }
-    const float speed = norm(slope);
-    knot.end.tangent = slope / std::max(speed, 1e-6F);
-    knot.end.curvature =
-        (bend - knot.end.tangent * dot(bend, knot.end.tangent)) / std::max(speed * speed, 1e-12F);
+    set_end(to_vec(slope), to_vec(bend), knot.end);
     const bool at_end = index == 0 || index + 1 == vertices_.size();
-    knot.at = at_end ? Vec3f{} : place;
+    knot.at = at_end ? Vec3f{} : to_vec(place);
     return std::sqrt(worst);
 }
 
@@ -285,21 +289,23 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
     float whole = 0;
     const Vertex* const vertices = vertices_.begin();
     for (std::size_t i = 0; i < last; ++i) {
-        whole += norm(scaled(vertices[i + 1].at - vertices[i].at));
+        whole += norm(scaled_difference(vertices[i + 1].at, vertices[i].at, kMillimetre));
     }
-    Vec3f before = -start_.at;
+    const LaneQuintic piece = lane_quintic(fit.piece, fit.chord);
+    const LaneVec start = to_lanes(start_.at);
+    LaneVec before = to_lanes(-start_.at);
     for (std::size_t i = 1; i <= last; ++i) {
-        const Vec3f here = scaled(vertices[i].at - vertices[0].at) - start_.at;
+        const LaneVec here = scaled_difference(vertices[i].at, vertices[0].at, kMillimetre) - start;
         const float length = norm(here - before);
         for (const float part : {0.5F, 1.0F}) {
-            const Vec3f point = before + (here - before) * part;
+            const LaneVec point = before + (here - before) * part;
             const float x = (along + length * part) / whole;
-            const Vec3f off = point - point_at(fit.piece, fit.chord, x);
+            const LaneVec off = point - point_at(piece, x);
             const float distance = dot(off, off);
             if (distance <= square) {
                 continue;  // near whichever way the curve goes
             }
-            const Vec3f slope = slope_at(fit.piece, fit.chord, x);
+            const LaneVec slope = slope_at(piece, x);
             const float ahead = dot(off, slope);
             if (distance - ahead * ahead / dot(slope, slope) > square) {
                 return false;

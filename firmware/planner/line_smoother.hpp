@@ -74,7 +74,6 @@ private:
     };
 
     Vec3f between(std::size_t from, std::size_t to) const noexcept;
-    std::int32_t travel(std::size_t line) const noexcept;
     std::size_t knot_lines_before(std::size_t index) const noexcept;
     std::size_t knot_lines_after(std::size_t index) const noexcept;
     Knot knot_at(std::size_t index) const noexcept;

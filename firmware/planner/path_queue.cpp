@@ -5,12 +5,10 @@
 
 namespace cusp::planner {
 
-void PathQueue::append_block(const Block& added) noexcept
+void PathQueue::append_block() noexcept
 {
     CUSP_ASSERT(free_blocks() > 0);
-    const std::uint32_t end = block_end();
-    block(end) = added;
-    store(block_end_, end + 1);
+    store(block_end_, block_end() + 1);
 }
 
 void PathQueue::append_interval(const Interval& added) noexcept

@@ -98,7 +98,10 @@ public:
     void set_half_filter(float seconds) noexcept { half_filter_ = seconds; }
 
     // Context: main loop.
-    void append_block(const Block& block) noexcept;
+    // Room for the next block, which the servo tick does not see before append_block().
+    // Precondition: free_blocks() > 0.
+    Block& new_block() noexcept { return block(block_end()); }
+    void append_block() noexcept;
     void append_interval(const Interval& interval) noexcept;
     void insert_interval(std::uint32_t before, const Interval& interval) noexcept;
     void publish(std::uint32_t end) noexcept { store(published_, end); }

@@ -19,9 +19,8 @@ constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
 // Near a single junction the speed hardly changes; in dense runs it must.
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
-// A stretch that is passed in less time, s, gains nothing by limits of its own.
-constexpr float kShortestStretch = kServoTick;
-constexpr float kGreatestSpeed = 2000.0F;  // mm/s
+// Free intervals that a stretch may take.
+constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
 constexpr float kExactDeviation = 0.0009F;
@@ -110,6 +109,7 @@ void Planner::reset(Position at) noexcept
     end_.reset();
     end_length_ = 0;
     close_requested_ = false;
+    starved_ = false;
     next_stretch_ = 0;
     stretches_ = 0;
     tail_ = at;
@@ -129,8 +129,10 @@ void Planner::push(const path::Move& move) noexcept
     tail_ = move.end;
     if (LineSmoother::accepts(move) && smoother_.continues(move)) {
         smoother_.add(move);
+        starved_ = starved_ && !smoother_.full();
     } else {
         waiting_ = move;
+        starved_ = false;
     }
     work();
 }
@@ -138,12 +140,14 @@ void Planner::push(const path::Move& move) noexcept
 void Planner::close() noexcept
 {
     close_requested_ = true;
+    starved_ = false;
     work();
 }
 
 void Planner::flush_if_short() noexcept
 {
     flushing_ = path_is_short();
+    starved_ = starved_ && !flushing_;
     work();
     flushing_ = false;
 }
@@ -224,23 +228,50 @@ bool Planner::next_move() noexcept
 
 void Planner::work() noexcept
 {
-    constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
+    if (!waits()) {
+        go_on();
+    }
+}
+
+// Whether there is nothing to do: no room, or no move. It is asked at every poll.
+bool Planner::waits() const noexcept
+{
+    if (close_requested_ || queue_.published() == queue_.interval_begin()) {
+        return false;
+    }
+    if (queue_.free_intervals() <= kIntervalsOfAStretch) {
+        return true;
+    }
+    return next_stretch_ == stretches_ &&
+           (queue_.free_blocks() == 0 || queue_.free_curves() == 0 || (starved_ && maker_.done()));
+}
+
+void Planner::go_on() noexcept
+{
+    std::optional<StretchAhead> ahead;
     bool changed = false;
     while (queue_.free_intervals() > kIntervalsOfAStretch) {
         if (next_stretch_ != stretches_) {
-            add_stretch();
+            if (!ahead) {
+                ahead.emplace(stretch_ahead(queue_.block(queue_.block_end() - 1)));
+            }
+            add_stretch(*ahead);
             changed = true;
             continue;
         }
-        if (queue_.free_blocks() == 0 || queue_.free_curves() == 0 ||
-            (maker_.done() && !next_move())) {
+        if (queue_.free_blocks() == 0 || queue_.free_curves() == 0) {
             break;
         }
-        if (!maker_.done()) {
-            Block block;
-            if (maker_.make(move_, queue_, block)) {
-                add_block(block);
-            }
+        if (maker_.done() && !next_move()) {
+            starved_ = true;
+            break;
+        }
+        Block& block = queue_.new_block();
+        if (!maker_.done() && maker_.make(move_, queue_, block)) {
+            next_stretch_ = 0;
+            stretches_ = static_cast<std::uint8_t>(stretch_count(block));
+            ahead.emplace(stretch_ahead(block));
+            add_block(block, *ahead);
         }
     }
     const bool cut = maker_.done() && next_stretch_ == stretches_;
@@ -257,19 +288,17 @@ void Planner::work() noexcept
     }
 }
 
-void Planner::add_block(const Block& block) noexcept
+// The block lies where the queue has the next.
+void Planner::add_block(const Block& block, const StretchAhead& ahead) noexcept
 {
     // Only rounding makes a jump where one line or arc was cut into blocks.
     const bool goes_on = within_move_ && block.shape != BlockShape::kCurve;
     if (end_ && !goes_on) {
-        const Stretch first = stretch(block, 0);
-        join(start_geometry(block), block, first, allowance_of(block, first));
+        join(start_geometry(block), block, ahead.stretch, ahead.allowance);
     }
     within_move_ = true;
     const BlockShape before = queue_.block(queue_.block_end() - 1).shape;
-    queue_.append_block(block);
-    next_stretch_ = 0;
-    stretches_ = static_cast<std::uint8_t>(stretch_count(block));
+    queue_.append_block();
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
@@ -398,55 +427,6 @@ void Planner::age_bounds(const PathDerivatives& passed, float length) noexcept
         bends_.pop_back();
     }
     (void)bends_.try_push_back({passed, 0.0F});
-}
-
-Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
-{
-    const float filter_s = static_cast<float>(path_filter_) * kServoTick;
-    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
-    const auto* quintic = std::get_if<path::Quintic>(&move_.path);
-    const bool is_transition = quintic != nullptr && quintic->is_transition;
-    MachineLimits limits = limits_;
-    if (block.shape == BlockShape::kCurve) {
-        leave_to_rounding(limits, block.filter);
-    }
-    Allowance of_part =
-        allowance(part.derivatives, limits, filter_s, choice_.centripetal, kGreatestSpeed,
-                  is_transition ? kTransitionJerkShare : kCurvatureJerkShare);
-    of_part.feed = feed * feed;
-    return of_part;
-}
-
-// Adds the next stretch of the last block, and those behind it that allow nearly the same.
-void Planner::add_stretch() noexcept
-{
-    const Block& block = queue_.block(queue_.block_end() - 1);
-    const std::uint32_t begin = next_stretch_ == 0 ? 0 : stretch_end_;
-    Stretch whole = stretch(block, next_stretch_);
-    const Allowance of_first = allowance_of(block, whole);
-    Allowance allowed = of_first;
-    while (++next_stretch_ != stretches_) {
-        const Stretch part = stretch(block, next_stretch_);
-        const Allowance of_part = allowance_of(block, part);
-        const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
-        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
-        if (!is_short && !are_alike(of_first, of_part)) {
-            break;
-        }
-        whole.end = part.end;
-        whole.derivatives = larger(whole.derivatives, part.derivatives);
-        allowed = stricter(allowed, of_part);
-    }
-    stretch_end_ = whole.end;
-    if (whole.end == begin) {
-        return;
-    }
-    apply_junction_limits(whole.derivatives);
-    spread_bend(whole.derivatives.second);
-    builder_.append(whole.end - begin, allowed, block.rapid);
-    spread_bend(whole.derivatives.second);
-    age_bounds(whole.derivatives, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
-    end_speed_ = greatest_speed(allowed, block.rapid);
 }
 
 // Overlap in time at the corner at the end of the path so far. None with a shaper, which drains.

@@ -85,18 +85,28 @@ private:
     FilterChoice filter_for(float tolerance) const noexcept;
     float window_of(AxisFilter filter) const noexcept;
     void spread_bend(const Vec3f& curvature) noexcept;
+    // The next stretch of the last block, and what it allows.
+    struct StretchAhead {
+        StretchReader reader;
+        Stretch stretch;
+        Allowance allowance;
+    };
     void work() noexcept;
+    void go_on() noexcept;
+    bool waits() const noexcept;
     bool path_is_short() const noexcept;
     bool next_move() noexcept;
     bool next_smoothed(path::Move& move) noexcept;
     void start() noexcept;
-    void add_block(const Block& block) noexcept;
+    void add_block(const Block& block, const StretchAhead& ahead) noexcept;
+    StretchAhead stretch_ahead(const Block& block) const noexcept;
+    void read_stretch(StretchAhead& ahead) const noexcept;
     void join(const EndGeometry& after,
               const Block& block,
               const Stretch& first,
               const Allowance& of_first) noexcept;
     Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
-    void add_stretch() noexcept;
+    void add_stretch(StretchAhead& ahead) noexcept;
     JunctionShare share_of(const Junction& junction,
                            std::size_t earlier,
                            float distance,
@@ -142,6 +152,8 @@ private:
     std::uint8_t stretches_{0};
     std::uint32_t stretch_end_{0};
     bool within_move_{false};  // a block of move_ is on the path
+    // The moves so far make no further one: until another comes there is nothing to do.
+    bool starved_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};

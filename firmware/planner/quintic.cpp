@@ -4,28 +4,6 @@
 #include <algorithm>
 
 namespace cusp::planner {
-namespace {
-
-Vec3f bulge_at(const path::Quintic& piece, float x) noexcept
-{
-    const auto& q = piece.bulge;
-    return q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
-}
-
-}  // namespace
-
-Vec3f point_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
-{
-    return chord * x + bulge_at(piece, x) * (x * (1.0F - x));
-}
-
-Vec3f slope_at(const path::Quintic& piece, Vec3f chord, float x) noexcept
-{
-    const auto& q = piece.bulge;
-    return chord + bulge_at(piece, x) * (1.0F - 2.0F * x) +
-           (q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x) * (x * (1.0F - x));
-}
-
 path::Quintic hermite(Vec3f chord, const PathEnd& from, const PathEnd& to, float length) noexcept
 {
     // What the ends add to a straight line, so that it need not cancel.
@@ -49,9 +27,10 @@ bool make_quintic(
     float length = norm(chord);
     for (unsigned i = 0; i < kTries; ++i) {
         piece = hermite(chord, from, to, length);
-        const float a = norm(slope_at(piece, chord, 0.25F));
-        const float m = norm(slope_at(piece, chord, 0.5F));
-        const float b = norm(slope_at(piece, chord, 0.75F));
+        const LaneQuintic lanes = lane_quintic(piece, chord);
+        const float a = norm(slope_at(lanes, 0.25F));
+        const float m = norm(slope_at(lanes, 0.5F));
+        const float b = norm(slope_at(lanes, 0.75F));
         const float fastest = std::max({a, m, b});
         const float slowest = std::min({a, m, b});
         if (fastest <= (1.0F + error) * length && slowest >= (1.0F - error) * length) {

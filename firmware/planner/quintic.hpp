@@ -1,6 +1,9 @@
 // Quintic pieces with given place, direction and curvature at both ends.
 #pragma once
 
+#include <array>
+
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/base/vec.hpp"
 #include "firmware/path/path.hpp"
 
@@ -24,8 +27,34 @@ bool make_quintic(Vec3f chord,
                   float error,
                   path::Quintic& piece) noexcept;
 
+// A piece ready to be asked for many places.
+struct LaneQuintic {
+    LaneVec chord;
+    std::array<LaneVec, 4> bulge;
+};
+
+inline LaneQuintic lane_quintic(const path::Quintic& piece, Vec3f chord) noexcept
+{
+    const auto& q = piece.bulge;
+    return {to_lanes(chord), {{to_lanes(q[0]), to_lanes(q[1]), to_lanes(q[2]), to_lanes(q[3])}}};
+}
+
+inline LaneVec bulge_at(const LaneQuintic& piece, float x) noexcept
+{
+    const auto& q = piece.bulge;
+    return q[0] + (q[1] + (q[2] + q[3] * x) * x) * x;
+}
+
 // From the start of the piece, mm, and the derivative by x, at x in [0, 1].
-Vec3f point_at(const path::Quintic& piece, Vec3f chord, float x) noexcept;
-Vec3f slope_at(const path::Quintic& piece, Vec3f chord, float x) noexcept;
+inline LaneVec point_at(const LaneQuintic& piece, float x) noexcept
+{
+    return piece.chord * x + bulge_at(piece, x) * (x * (1.0F - x));
+}
+inline LaneVec slope_at(const LaneQuintic& piece, float x) noexcept
+{
+    const auto& q = piece.bulge;
+    return piece.chord + bulge_at(piece, x) * (1.0F - 2.0F * x) +
+           (q[1] + (q[2] * 2.0F + q[3] * (3.0F * x)) * x) * (x * (1.0F - x));
+}
 
 }  // namespace cusp::planner

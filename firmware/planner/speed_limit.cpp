@@ -25,6 +25,20 @@ float cube_root(float q) noexcept
     return v;
 }
 
+// The least of the cube roots. Rounding aside a root rises with its cube: of all floats below 1e15
+// none has a root below that of one smaller by more than 7e-8 of it.
+float least_root(Vec3f cubes, float least_cube) noexcept
+{
+    constexpr float kNext = 1e-4F;
+    float least = cube_root(least_cube);
+    for (const float cube : {cubes.x, cubes.y, cubes.z}) {
+        if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
+            least = std::min(least, cube_root(cube));
+        }
+    }
+    return least;
+}
+
 // At part of the squared speed's cap.
 float value(const Line& line, float part) noexcept
 {
@@ -113,47 +127,53 @@ Allowance allowance(const PathDerivatives& derivatives,
                     float max_speed,
                     float jerk_share) noexcept
 {
+    const auto& [first, second, third] = derivatives;
     float cap = max_speed * max_speed;
-    float jerk_speed = kUnlimited;
-    for (unsigned i = 0; i < 3; ++i) {
-        const float ratio = limits.velocity[i] / std::max(derivatives.first[i], kTiny);
+    float least_cube = kUnlimited;
+    const auto cube_of = [&](float p3, float j) {
+        return jerk_share * j / std::max(p3, kTiny);
+    };
+    const auto cap_axis = [&](float p1, float p2, float cube, float v, float a) {
+        const float ratio = v / std::max(p1, kTiny);
         cap = std::min(cap, ratio < 1e12F ? ratio * ratio : kUnlimited);
-        const float second = std::max(derivatives.second[i], kTiny);
-        cap = std::min(cap, kCentripetalShare * limits.acceleration[i] / second);
-        const float third = std::max(derivatives.third[i], kTiny);
-        const float cube = jerk_share * limits.jerk[i] / third;
-        if (cube < 1e15F) {
-            jerk_speed = std::min(jerk_speed, cube_root(cube));
-        }
-    }
-    if (jerk_speed < 1e6F) {
+        cap = std::min(cap, kCentripetalShare * a / std::max(p2, kTiny));
+        least_cube = std::min(least_cube, cube);
+    };
+    const auto& [velocity, acceleration, jerk] = limits;
+    const Vec3f cubes{cube_of(third.x, jerk.x), cube_of(third.y, jerk.y), cube_of(third.z, jerk.z)};
+    cap_axis(first.x, second.x, cubes.x, velocity.x, acceleration.x);
+    cap_axis(first.y, second.y, cubes.y, velocity.y, acceleration.y);
+    cap_axis(first.z, second.z, cubes.z, velocity.z, acceleration.z);
+    if (least_cube < 1e15F) {
+        const float jerk_speed = least_root(cubes, least_cube);
         cap = std::min(cap, jerk_speed * jerk_speed);
     }
-    const float curvature = norm(derivatives.second);
-    cap = std::min(cap, max_centripetal / std::max(curvature, kTiny));
+    cap = std::min(cap, max_centripetal / std::max(norm(second), kTiny));
 
     const float speed = std::sqrt(cap);
     Allowance least = kAllowsAll;
     least.cap = cap;
-    for (unsigned i = 0; i < 3; ++i) {
-        const float first = std::max(derivatives.first[i], kTiny);
-        const float bent = derivatives.second[i] * cap;
-        Line& acceleration = least.by_acceleration;
-        acceleration.at_rest = std::min(acceleration.at_rest, limits.acceleration[i] / first);
-        acceleration.at_cap =
-            std::min(acceleration.at_cap, (limits.acceleration[i] - bent) / first);
+    const auto limit_axis = [&](float p1, float p2, float p3, float a, float j) {
+        const float along = std::max(p1, kTiny);
+        const float bent = p2 * cap;
+        Line& by_acceleration = least.by_acceleration;
+        by_acceleration.at_rest = std::min(by_acceleration.at_rest, a / along);
+        by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - bent) / along);
         // With y = v^2/cap the bound is (j - k y^1.5)/(p + q y^0.5), not below
         // (j - k y)/(p + q (1 + y)/2), which is convex: not below its tangent at the cap.
-        const float k = derivatives.third[i] * speed * cap;
-        const float half = 1.5F * derivatives.second[i] * speed;
-        const float rest = first / filter_s + half;
+        const float k = p3 * speed * cap;
+        const float half = 1.5F * p2 * speed;
+        const float rest = along / filter_s + half;
         const float whole = rest + half;
-        const float at_cap = (limits.jerk[i] - k) / whole;
-        Line& jerk = least.by_jerk;
-        jerk.at_cap = std::min(jerk.at_cap, at_cap);
-        jerk.at_rest =
-            std::min(jerk.at_rest, at_cap + (k * rest + limits.jerk[i] * half) / (whole * whole));
-    }
+        const float at_cap = (j - k) / whole;
+        Line& by_jerk = least.by_jerk;
+        by_jerk.at_cap = std::min(by_jerk.at_cap, at_cap);
+        by_jerk.at_rest =
+            std::min(by_jerk.at_rest, at_cap + (k * rest + j * half) / (whole * whole));
+    };
+    limit_axis(first.x, second.x, third.x, acceleration.x, jerk.x);
+    limit_axis(first.y, second.y, third.y, acceleration.y, jerk.y);
+    limit_axis(first.z, second.z, third.z, acceleration.z, jerk.z);
     return least;
 }
 

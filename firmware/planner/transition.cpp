@@ -149,10 +149,11 @@ bool keeps_to(const path::Quintic& piece,
 {
     constexpr unsigned kPlaces = 16;
     const Vec3d start = to_millimetres(from);
+    const LaneQuintic lanes = lane_quintic(piece, chord);
     const double half = 0.5 * static_cast<double>(piece.length);
     for (unsigned i = 1; i < kPlaces; ++i) {
         const double x = static_cast<double>(i) / kPlaces;
-        const Vec3f place = point_at(piece, chord, static_cast<float>(x));
+        const Vec3f place = to_vec(point_at(lanes, static_cast<float>(x)));
         const Vec3d at = start + Vec3d{static_cast<double>(place.x), static_cast<double>(place.y),
                                        static_cast<double>(place.z)};
         const double s = (2 * x - 1) * half;

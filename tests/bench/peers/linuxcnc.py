@@ -121,10 +121,12 @@ def display():
         pathlib.Path("errors.txt").write_text(f"{what}: not within {seconds} s; {said and said[1]}")
         sys.exit(1)
 
-    until("emergency stop", lambda: status.task_state != linuxcnc.STATE_ESTOP,
-          lambda: command.state(linuxcnc.STATE_ESTOP_RESET))
-    until("power", lambda: status.task_state == linuxcnc.STATE_ON,
-          lambda: command.state(linuxcnc.STATE_ON))
+    def switch_on():
+        """The emergency stop comes back where its pin, a loop in HAL, is read too early."""
+        stopped = status.task_state == linuxcnc.STATE_ESTOP
+        command.state(linuxcnc.STATE_ESTOP_RESET if stopped else linuxcnc.STATE_ON)
+
+    until("power", lambda: status.task_state == linuxcnc.STATE_ON, switch_on)
     until("manual", lambda: status.task_mode == linuxcnc.MODE_MANUAL,
           lambda: command.mode(linuxcnc.MODE_MANUAL))
     until("home", lambda: sum(status.homed[:3]) == 3, lambda: command.home(-1))

@@ -128,3 +128,43 @@ TEST(Stretches, BoundTheDerivativesOfQuintics)
     CHECK_TEXT(worst.first.x < 1e-5F && worst.second.x < 1e-5F && worst.third.x < 1e-5F,
                found.c_str());
 }
+
+// What one stretch ends with begins the next: read alone, it reckons that place itself.
+TEST(Stretches, AreTheSameReadInOrderAndAlone)
+{
+    std::mt19937_64 random{7303};
+    std::uniform_real_distribution<float> coordinate{-1, 1};
+    for (int k = 0; k < 300; ++k) {
+        Block block;
+        CurveBlock curve{};
+        curve.piece = stretch_test_piece(random);
+        const bool is_curve = k % 3 == 0 && nurbs::make_arc_length_table(curve.piece, curve.table);
+        if (is_curve) {
+            block.shape = BlockShape::kCurve;
+            block.curve = &curve;
+        } else if (k % 3 == 1) {
+            block.shape = BlockShape::kQuintic;
+            block.displacement = {16'000'000, 0, 0};
+            for (Vec3f& q : block.quintic.bulge) {
+                q = Vec3f{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
+            }
+        } else {
+            block.shape = BlockShape::kArc;
+            block.arc = {{1, 0, 0}, {0, 1, 0}, {0, 0, coordinate(random)}, 1.0F, 0.1F, 9e-8F};
+        }
+        set_length(block, 16'000'000);
+        StretchReader reader{block, 0};
+        const unsigned count = stretch_count(block);
+        CHECK(count > 1);
+        for (unsigned i = 0; i < count; ++i) {
+            const Stretch next = reader.next();
+            const Stretch alone = stretch(block, i);
+            const std::string where = "block " + std::to_string(k) + ", " + std::to_string(i);
+            CHECK_TEXT(next.end == alone.end, where.c_str());
+            CHECK_TEXT(next.derivatives.first == alone.derivatives.first, where.c_str());
+            CHECK_TEXT(next.derivatives.second == alone.derivatives.second, where.c_str());
+            CHECK_TEXT(next.derivatives.third == alone.derivatives.third, where.c_str());
+        }
+        UNSIGNED_LONGS_EQUAL(16'000'000, stretch(block, count - 1).end);
+    }
+}

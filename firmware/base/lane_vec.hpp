@@ -1,0 +1,82 @@
+// LaneVec: three numbers in one register, on processors that have registers of four.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/base/vec.hpp"
+
+namespace cusp {
+
+// A Vec3f by lanes: the same operations and so the same bits. The fourth lane is not looked at.
+struct WideVec {
+    using Floats = float __attribute__((vector_size(16)));
+    using Integers = std::int32_t __attribute__((vector_size(16)));
+
+    Floats lanes;
+
+    friend WideVec operator+(WideVec a, WideVec b) noexcept { return {a.lanes + b.lanes}; }
+    friend WideVec operator-(WideVec a, WideVec b) noexcept { return {a.lanes - b.lanes}; }
+    friend WideVec operator*(WideVec a, float k) noexcept { return {a.lanes * k}; }
+    friend WideVec operator/(WideVec a, float k) noexcept { return {a.lanes / k}; }
+};
+
+inline float dot(WideVec a, WideVec b) noexcept
+{
+    const WideVec::Floats products = a.lanes * b.lanes;
+    return products[0] + products[1] + products[2];
+}
+
+inline float norm(WideVec a) noexcept { return std::sqrt(dot(a, a)); }
+
+inline WideVec magnitude(WideVec a) noexcept
+{
+    WideVec::Integers bits;
+    static_assert(sizeof(bits) == sizeof(a.lanes));
+    __builtin_memcpy(&bits, &a.lanes, sizeof(bits));
+    bits &= 0x7FFFFFFF;
+    __builtin_memcpy(&a.lanes, &bits, sizeof(bits));
+    return a;
+}
+
+inline WideVec larger(WideVec a, WideVec b) noexcept
+{
+    return {a.lanes < b.lanes ? b.lanes : a.lanes};
+}
+
+// Cores of 64 bits have such registers, or a compiler that does without.
+using LaneVec = std::conditional_t<sizeof(std::size_t) == 8, WideVec, Vec3f>;
+
+template <class Lane = LaneVec>
+Lane to_lanes(const Vec3f& a) noexcept
+{
+    if constexpr (std::is_same_v<Lane, WideVec>) {
+        return Lane{{a.x, a.y, a.z, 0.0F}};
+    } else {
+        return a;
+    }
+}
+
+// The difference of two places, scaled.
+template <class Lane = LaneVec>
+Lane scaled_difference(const Vec3<std::int32_t>& a,
+                       const Vec3<std::int32_t>& b,
+                       float scale) noexcept
+{
+    if constexpr (std::is_same_v<Lane, WideVec>) {
+        const WideVec::Integers d =
+            WideVec::Integers{a.x, a.y, a.z, 0} - WideVec::Integers{b.x, b.y, b.z, 0};
+        return Lane{__builtin_convertvector(d, WideVec::Floats) * scale};
+    } else {
+        const Vec3<std::int32_t> d = a - b;
+        return Vec3f{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)} *
+               scale;
+    }
+}
+
+inline Vec3f to_vec(const WideVec& a) noexcept { return {a.lanes[0], a.lanes[1], a.lanes[2]}; }
+inline Vec3f to_vec(const Vec3f& a) noexcept { return a; }
+
+}  // namespace cusp

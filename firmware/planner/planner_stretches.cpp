@@ -1,0 +1,78 @@
+// A block's stretches, one after the other, become intervals.
+#include <algorithm>
+
+#include "firmware/planner/planner.hpp"
+#include "firmware/planner/rounding_margin.hpp"
+
+namespace cusp::planner {
+namespace {
+
+// A stretch that is passed in less time, s, gains nothing by limits of its own.
+constexpr float kShortestStretch = kServoTick;
+constexpr float kGreatestSpeed = 2000.0F;  // mm/s
+
+}  // namespace
+
+Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
+{
+    const float filter_s = static_cast<float>(path_filter_) * kServoTick;
+    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
+    const auto* quintic = std::get_if<path::Quintic>(&move_.path);
+    const bool is_transition = quintic != nullptr && quintic->is_transition;
+    MachineLimits limits = limits_;
+    if (block.shape == BlockShape::kCurve) {
+        leave_to_rounding(limits, block.filter);
+    }
+    Allowance of_part =
+        allowance(part.derivatives, limits, filter_s, choice_.centripetal, kGreatestSpeed,
+                  is_transition ? kTransitionJerkShare : kCurvatureJerkShare);
+    of_part.feed = feed * feed;
+    return of_part;
+}
+
+// Of a block that has stretches left, the next of which is next_stretch_.
+Planner::StretchAhead Planner::stretch_ahead(const Block& block) const noexcept
+{
+    StretchAhead ahead{{block, next_stretch_}, {}, {}};
+    read_stretch(ahead);
+    return ahead;
+}
+
+void Planner::read_stretch(StretchAhead& ahead) const noexcept
+{
+    ahead.stretch = ahead.reader.next();
+    ahead.allowance = allowance_of(ahead.reader.block(), ahead.stretch);
+}
+
+// Adds the next stretch of the last block, and those behind it that allow nearly the same.
+void Planner::add_stretch(StretchAhead& ahead) noexcept
+{
+    const Block& block = ahead.reader.block();
+    const std::uint32_t begin = next_stretch_ == 0 ? 0 : stretch_end_;
+    Stretch whole = ahead.stretch;
+    const Allowance of_first = ahead.allowance;
+    Allowance allowed = of_first;
+    while (++next_stretch_ != stretches_) {
+        read_stretch(ahead);
+        const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
+        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
+        if (!is_short && !are_alike(of_first, ahead.allowance)) {
+            break;
+        }
+        whole.end = ahead.stretch.end;
+        whole.derivatives = larger(whole.derivatives, ahead.stretch.derivatives);
+        allowed = stricter(allowed, ahead.allowance);
+    }
+    stretch_end_ = whole.end;
+    if (whole.end == begin) {
+        return;
+    }
+    apply_junction_limits(whole.derivatives);
+    spread_bend(whole.derivatives.second);
+    builder_.append(whole.end - begin, allowed, block.rapid);
+    spread_bend(whole.derivatives.second);
+    age_bounds(whole.derivatives, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
+    end_speed_ = greatest_speed(allowed, block.rapid);
+}
+
+}  // namespace cusp::planner
