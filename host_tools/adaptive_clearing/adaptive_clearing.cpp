@@ -374,8 +374,7 @@ private:
     bool is_bounded(const std::vector<Edge>& path) const
     {
         return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {
-            return swept_.engagement_bound(edge, settings_.max_engagement, settings_.tolerance) <=
-                   settings_.max_engagement;
+            return swept_.keeps(edge, settings_.max_engagement, settings_.tolerance);
         });
     }
 

@@ -96,8 +96,9 @@ std::size_t SweptArea::cell_at(Vec2d point) const
     if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
         return kNoCell;
     }
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(x);
+    // By way of int: processors have no conversion to an unsigned one.
+    return static_cast<std::size_t>(static_cast<int>(y)) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(static_cast<int>(x));
 }
 
 void SweptArea::add_disc(Vec2d centre, double radius)
@@ -421,6 +422,32 @@ double SweptArea::engagement_bound(const Edge& edge, double limit, double tolera
                                              static_cast<double>(i + 1) / n, limit, tolerance));
     }
     return most;
+}
+
+bool SweptArea::piece_keeps(
+    const Edge& edge, double from, double to, double limit, double tolerance) const
+{
+    if (engagement_of_piece(edge, from, to, tolerance) <= limit) {
+        return true;
+    }
+    if ((to - from) * length(edge) < 2.0 * kShortestPiece * radius_) {
+        return false;
+    }
+    const double middle = 0.5 * (from + to);
+    return piece_keeps(edge, from, middle, limit, tolerance) &&
+           piece_keeps(edge, middle, to, limit, tolerance);
+}
+
+bool SweptArea::keeps(const Edge& edge, double limit, double tolerance) const
+{
+    const int n = pieces_of(edge, tolerance);
+    for (int i = 0; i < n; ++i) {
+        if (!piece_keeps(edge, static_cast<double>(i) / n, static_cast<double>(i + 1) / n, limit,
+                         tolerance)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 std::vector<Vec2d> SweptArea::uncut_points(const Region2d& region) const

@@ -57,6 +57,9 @@ public:
     // it is at most `limit`.
     double engagement_bound(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
 
+    // Whether that is at most `limit`; ends at the first piece that is over it.
+    bool keeps(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
+
     // Whether the point is swept.
     bool contains(Vec2d point) const;
 
@@ -95,6 +98,8 @@ private:
     std::optional<Interval> covered_by(const Disc& disc, const Pose2d& pose, double shrink) const;
     void add_covered(const Disc& disc, const Pose2d& pose, double shrink) const;
     double bound_of_piece(
+        const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
+    bool piece_keeps(
         const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
 
     Vec2d corner_;

@@ -161,8 +161,7 @@ private:
         const double end = at + size * (i + 1) / n;
         const Edge piece = between(edge, point_on(edge, static_cast<double>(i) / n),
                                    point_on(edge, (i + 1.0) / n));
-        if (space_.swept.engagement_bound(piece, space_.max_engagement, space_.tolerance) >
-            space_.max_engagement) {
+        if (!space_.swept.keeps(piece, space_.max_engagement, space_.tolerance)) {
             if (!found_.empty()) {
                 found_.back().to = std::min(found_.back().to, begin);
             }
