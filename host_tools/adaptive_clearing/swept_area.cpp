@@ -263,9 +263,15 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double 
 // Radians from -end to end (a diamond angle) that covered_ leaves out; sorts it.
 double SweptArea::open_between_covered(double end) const
 {
-    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
-        return a.from < b.from || (a.from == b.from && a.to < b.to);
-    });
+    // They come nearly in order: the circle is looked at from one end to the other.
+    for (std::size_t i = 1; i < covered_.size(); ++i) {
+        const Interval part = covered_[i];
+        std::size_t k = i;
+        for (; k > 0 && part.from < covered_[k - 1].from; --k) {
+            covered_[k] = covered_[k - 1];
+        }
+        covered_[k] = part;
+    }
     double reached = -end;
     double open = 0.0;
     for (const Interval& c : covered_) {
