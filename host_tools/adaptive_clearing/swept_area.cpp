@@ -7,15 +7,11 @@
 #include <cstring>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
 using offset::Box2d;
 using offset::Edge;
-using offset::edges_of;
-using offset::EdgeTree;
-using offset::Region2d;
 
 namespace {
 
@@ -454,32 +450,6 @@ bool SweptArea::keeps(const Edge& edge, double limit, double tolerance) const
         }
     }
     return true;
-}
-
-std::vector<Vec2d> SweptArea::uncut_points(const Region2d& region) const
-{
-    constexpr int kFiner = 6;
-    const EdgeTree tree{edges_of(region)};
-    std::vector<Vec2d> result;
-    for (int j = 0; j < rows_; ++j) {
-        for (int i = 0; i < columns_; ++i) {
-            const Vec2d first = corner_ + Vec2d{i + 0.0, j + 0.0} * pitch_;
-            const Vec2d middle = first + Vec2d{0.5, 0.5} * pitch_;
-            // A cell that no edge meets lies on one side.
-            if (is_swept_[cell_at(middle)] != 0 ||
-                (!tree.any_nearer(middle, pitch_) && !tree.surrounds(middle))) {
-                continue;
-            }
-            for (int k = 0; k < kFiner * kFiner; ++k) {
-                const Vec2d p =
-                    first + Vec2d{k % kFiner + 0.5, k / kFiner + 0.5} * (pitch_ / kFiner);
-                if (!contains(p) && tree.surrounds(p)) {
-                    result.push_back(p);
-                }
-            }
-        }
-    }
-    return result;
 }
 
 bool SweptArea::contains(Vec2d point) const
