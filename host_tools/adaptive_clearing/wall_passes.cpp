@@ -81,7 +81,7 @@ bool is_in_stock(Vec2d place, const WallSpace& space)
 {
     constexpr double kSunk = 0.02;  // radii
     return space.swept.engagement(place, {1.0, 0.0}, -kSunk * space.swept.radius(), 0.5 * kPi) >
-           10.0 * kBarelyOpen;
+           0.0;
 }
 
 // A tangent arc from swept ground onto the start of the path; none where there is no room.
