@@ -57,6 +57,7 @@ constexpr double kMostNeck = 0.52;   // wider ones are steered through
 constexpr double kMostMouth = 0.8;
 constexpr double kLeastHelix = 0.02;
 constexpr double kPiece = 0.1;
+constexpr double kPart = 0.0125;  // of pieces over the limit
 constexpr double kTargetMargin = 0.2;
 constexpr double kSteerShare = 0.995;  // of the engagement
 constexpr double kMoreLength = 1.3;    // times the area over the width of a straight cut
@@ -328,7 +329,8 @@ private:
         const EdgeTree centres{edges_of(whole)};
         const SliverSpace space{places_, walls_, centres, settings_.wall_clearance, radius_};
         constexpr double kMargin = 0.02;
-        for (const Vec2d p : swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_))) {
+        for (const Vec2d p :
+             swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_), settings_.tolerance)) {
             if (swept_.contains(p)) {
                 continue;
             }
@@ -374,8 +376,7 @@ private:
     bool is_bounded(const std::vector<Edge>& path) const
     {
         return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {
-            return swept_.engagement_bound(edge, settings_.max_engagement, settings_.tolerance) <=
-                   settings_.max_engagement;
+            return swept_.keeps(edge, settings_.max_engagement, settings_.tolerance);
         });
     }
 
@@ -394,23 +395,14 @@ private:
         link_to(path.front().start);
         OverEngagement over{};
         for (const Edge& edge : path) {
-            const int n =
-                std::max(1, static_cast<int>(std::ceil(length(edge) / (kPiece * radius_))));
-            for (int i = 0; i < n; ++i) {
-                const Edge piece =
-                    between(edge, point_on(edge, static_cast<double>(i) / n),
-                            i + 1 == n ? edge.end : point_on(edge, static_cast<double>(i + 1) / n));
-                const double most =
-                    swept_.engagement_bound(piece, settings_.max_engagement, settings_.tolerance);
-                swept_.add(piece, settings_.tolerance);
-                if (most <= settings_.max_engagement) {
-                    result_.engagement_bound = std::max(result_.engagement_bound, most);
+            for (const Edge& piece : pieces_of(edge, kPiece * radius_)) {
+                if (swept_.keeps(piece, settings_.max_engagement, settings_.tolerance)) {
+                    sweep(piece, over);
                     continue;
                 }
-                over.length += length(piece);
-                if (most > over.engagement) {
-                    over.engagement = most;
-                    over.at = piece.end;
+                // The end of a corner is shorter than a piece.
+                for (const Edge& part : pieces_of(piece, kPart * radius_)) {
+                    sweep(part, over);
                 }
             }
         }
@@ -420,6 +412,35 @@ private:
             result_.over.push_back(over);
         }
         add_run(path);
+    }
+
+    static std::vector<Edge> pieces_of(const Edge& edge, double most)
+    {
+        const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / most)));
+        std::vector<Edge> pieces;
+        for (int i = 0; i < n; ++i) {
+            pieces.push_back(
+                between(edge, point_on(edge, static_cast<double>(i) / n),
+                        i + 1 == n ? edge.end : point_on(edge, static_cast<double>(i + 1) / n)));
+        }
+        return pieces;
+    }
+
+    // Counts what of the piece is over the limit.
+    void sweep(const Edge& piece, OverEngagement& over)
+    {
+        const double most =
+            swept_.engagement_bound(piece, settings_.max_engagement, settings_.tolerance);
+        swept_.add(piece, settings_.tolerance);
+        if (most <= settings_.max_engagement) {
+            result_.engagement_bound = std::max(result_.engagement_bound, most);
+            return;
+        }
+        over.length += length(piece);
+        if (most > over.engagement) {
+            over.engagement = most;
+            over.at = piece.end;
+        }
     }
 
     void add_run(const std::vector<Edge>& path)

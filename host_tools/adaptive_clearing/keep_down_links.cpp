@@ -14,6 +14,7 @@
 namespace cusp::adaptive_clearing {
 
 using clearing::is_path_clear;
+using offset::left_normal;
 using offset::line_edge;
 using offset::RegionOffset;
 using offset::unit;
@@ -24,6 +25,7 @@ namespace {
 constexpr double kMargin = 0.03;
 constexpr double kRoom = 0.06;  // the margin and half of kLook
 constexpr double kLook = 0.06;  // between places that are looked at
+constexpr int kFew = 8;         // of them, one is looked at first
 constexpr double kLattice = 0.5;
 constexpr double kLongest = 60.0;
 constexpr double kBeside[] = {0.1, 0.2, 0.4, 0.8};
@@ -66,13 +68,28 @@ bool KeepDownLinks::is_free(Vec2d from, Vec2d to) const
     const double size = norm(to - from);
     const Vec2d heading = unit(to - from);
     const int n = static_cast<int>(std::ceil(size / (kLook * radius_)));
+    const auto place = [&](int i) {
+        return from + (to - from) * ((i + 0.5) / n);
+    };
+    // A few points find at once most of what is in the way.
+    const Vec2d ahead = heading * radius_;
+    const Vec2d aside = left_normal(ahead);
+    for (int i = 0; i < n; i += kFew) {
+        for (const Vec2d& point : {ahead, aside, aside * -1.0}) {
+            if (!swept_.contains(place(i) + point)) {
+                return false;
+            }
+        }
+    }
+    if (!is_path_clear(walls_, line_edge(from, to), wall_clearance_ + kMargin * radius_)) {
+        return false;
+    }
     for (int i = 0; i < n; ++i) {
-        const Vec2d place = from + (to - from) * ((i + 0.5) / n);
-        if (swept_.engagement(place, heading, kRoom * radius_) >= kNone) {
+        if (swept_.engagement(place(i), heading, kRoom * radius_) >= kNone) {
             return false;
         }
     }
-    return is_path_clear(walls_, line_edge(from, to), wall_clearance_ + kMargin * radius_);
+    return true;
 }
 
 bool KeepDownLinks::is_free(Node node)
@@ -91,8 +108,7 @@ bool KeepDownLinks::is_free(Node node)
 bool KeepDownLinks::is_open(Vec2d from, Vec2d to) const
 {
     const offset::Edge way = line_edge(from, to);
-    return is_path_clear(walls_, way, wall_clearance_) &&
-           swept_.engagement_bound(way, kMet) <= kMet;
+    return is_path_clear(walls_, way, wall_clearance_) && swept_.keeps(way, kMet);
 }
 
 // The nearest of a few places around with room, to be reached by a straight move.

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
 using offset::Contour;
 using offset::Edge;
-using offset::edges_of;
 using offset::EdgeTree;
 using offset::left_normal;
 using offset::length;
@@ -46,7 +44,7 @@ struct TouchingCircle {
 };
 
 // The largest circle of at most this radius that touches the wall at the place.
-TouchingCircle touching_circle(const EdgeTree& walls, Vec2d at, Vec2d inward, double radius)
+TouchingCircle touching_circle(const RegionOffset& walls, Vec2d at, Vec2d inward, double radius)
 {
     Vec2d other = at;
     for (int i = 0; i < kShrinks; ++i) {
@@ -67,8 +65,7 @@ TouchingCircle touching_circle(const EdgeTree& walls, Vec2d at, Vec2d inward, do
 
 class NeckFinder {
 public:
-    NeckFinder(const RegionOffset& walls, const NeckLimits& limits)
-        : limits_{limits}, tree_{edges_of(walls.source())}
+    NeckFinder(const RegionOffset& walls, const NeckLimits& limits) : limits_{limits}, walls_{walls}
     {
     }
 
@@ -106,7 +103,7 @@ private:
     bool is_wide(Vec2d at, Vec2d inward) const
     {
         const double radius = limits_.wall_clearance + limits_.most_room_beside;
-        return !tree_.any_nearer(at + inward * radius, radius - kTouching);
+        return !walls_.any_nearer(at + inward * radius, radius - kTouching);
     }
 
     // About a corner that points into the region the circles turn.
@@ -129,7 +126,7 @@ private:
             return;
         }
         const TouchingCircle circle =
-            touching_circle(tree_, at, inward, limits_.wall_clearance + limits_.most_room_beside);
+            touching_circle(walls_, at, inward, limits_.wall_clearance + limits_.most_room_beside);
         const double room = circle.radius - limits_.wall_clearance;
         if (room < kLeastBeside * limits_.least_room || circle.between < kBesideNeck) {
             stations_.emplace_back();
@@ -174,7 +171,7 @@ private:
     }
 
     const NeckLimits& limits_;
-    EdgeTree tree_;
+    const RegionOffset& walls_;
     std::vector<std::optional<Station>> stations_;
     std::vector<NeckWay> ways_;
 };
@@ -183,9 +180,8 @@ private:
 
 std::optional<double> slot_width(const RegionOffset& walls, Vec2d place, double most)
 {
-    const EdgeTree tree{edges_of(walls.source())};
-    const Vec2d at = tree.nearest_edge(place).point;
-    const TouchingCircle circle = touching_circle(tree, at, unit(place - at), 0.5 * most);
+    const Vec2d at = walls.nearest_edge(place).point;
+    const TouchingCircle circle = touching_circle(walls, at, unit(place - at), 0.5 * most);
     return circle.between < kOpposite ? std::nullopt : std::optional{2.0 * circle.radius};
 }
 

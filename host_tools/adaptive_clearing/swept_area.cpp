@@ -7,15 +7,11 @@
 #include <cstring>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
 using offset::Box2d;
 using offset::Edge;
-using offset::edges_of;
-using offset::EdgeTree;
-using offset::Region2d;
 
 namespace {
 
@@ -96,8 +92,9 @@ std::size_t SweptArea::cell_at(Vec2d point) const
     if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
         return kNoCell;
     }
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(x);
+    // By way of int: processors have no conversion to an unsigned one.
+    return static_cast<std::size_t>(static_cast<int>(y)) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(static_cast<int>(x));
 }
 
 void SweptArea::add_disc(Vec2d centre, double radius)
@@ -262,9 +259,15 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double 
 // Radians from -end to end (a diamond angle) that covered_ leaves out; sorts it.
 double SweptArea::open_between_covered(double end) const
 {
-    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
-        return a.from < b.from || (a.from == b.from && a.to < b.to);
-    });
+    // They come nearly in order: the circle is looked at from one end to the other.
+    for (std::size_t i = 1; i < covered_.size(); ++i) {
+        const Interval part = covered_[i];
+        std::size_t k = i;
+        for (; k > 0 && part.from < covered_[k - 1].from; --k) {
+            covered_[k] = covered_[k - 1];
+        }
+        covered_[k] = part;
+    }
     double reached = -end;
     double open = 0.0;
     for (const Interval& c : covered_) {
@@ -423,30 +426,30 @@ double SweptArea::engagement_bound(const Edge& edge, double limit, double tolera
     return most;
 }
 
-std::vector<Vec2d> SweptArea::uncut_points(const Region2d& region) const
+bool SweptArea::piece_keeps(
+    const Edge& edge, double from, double to, double limit, double tolerance) const
 {
-    constexpr int kFiner = 6;
-    const EdgeTree tree{edges_of(region)};
-    std::vector<Vec2d> result;
-    for (int j = 0; j < rows_; ++j) {
-        for (int i = 0; i < columns_; ++i) {
-            const Vec2d first = corner_ + Vec2d{i + 0.0, j + 0.0} * pitch_;
-            const Vec2d middle = first + Vec2d{0.5, 0.5} * pitch_;
-            // A cell that no edge meets lies on one side.
-            if (is_swept_[cell_at(middle)] != 0 ||
-                (!tree.any_nearer(middle, pitch_) && !tree.surrounds(middle))) {
-                continue;
-            }
-            for (int k = 0; k < kFiner * kFiner; ++k) {
-                const Vec2d p =
-                    first + Vec2d{k % kFiner + 0.5, k / kFiner + 0.5} * (pitch_ / kFiner);
-                if (!contains(p) && tree.surrounds(p)) {
-                    result.push_back(p);
-                }
-            }
+    if (engagement_of_piece(edge, from, to, tolerance) <= limit) {
+        return true;
+    }
+    if ((to - from) * length(edge) < 2.0 * kShortestPiece * radius_) {
+        return false;
+    }
+    const double middle = 0.5 * (from + to);
+    return piece_keeps(edge, from, middle, limit, tolerance) &&
+           piece_keeps(edge, middle, to, limit, tolerance);
+}
+
+bool SweptArea::keeps(const Edge& edge, double limit, double tolerance) const
+{
+    const int n = pieces_of(edge, tolerance);
+    for (int i = 0; i < n; ++i) {
+        if (!piece_keeps(edge, static_cast<double>(i) / n, static_cast<double>(i + 1) / n, limit,
+                         tolerance)) {
+            return false;
         }
     }
-    return result;
+    return true;
 }
 
 bool SweptArea::contains(Vec2d point) const

@@ -57,11 +57,15 @@ public:
     // it is at most `limit`.
     double engagement_bound(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
 
+    // Whether that is at most `limit`; ends at the first piece that is over it.
+    bool keeps(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
+
     // Whether the point is swept.
     bool contains(Vec2d point) const;
 
-    // Points in the region that are not swept, of a raster with a pitch of radius / 72.
-    std::vector<Vec2d> uncut_points(const offset::Region2d& region) const;
+    // Points in the region that are not swept: of a raster with a pitch of radius / 72, and corners
+    // of what stays with discs larger by `sliver` (mm), which rasters miss where it is thin.
+    std::vector<Vec2d> uncut_points(const offset::Region2d& region, double sliver) const;
 
     double radius() const { return radius_; }
 
@@ -92,9 +96,13 @@ private:
     bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
     void put(std::uint32_t disc, Discs& discs, Vec2d middle) const;
     std::size_t cell_at(Vec2d point) const;
+    template <typename Visit>
+    void visit_corners(std::size_t cell, double more, Visit visit) const;
     std::optional<Interval> covered_by(const Disc& disc, const Pose2d& pose, double shrink) const;
     void add_covered(const Disc& disc, const Pose2d& pose, double shrink) const;
     double bound_of_piece(
+        const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
+    bool piece_keeps(
         const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
 
     Vec2d corner_;

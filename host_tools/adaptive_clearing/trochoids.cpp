@@ -32,7 +32,6 @@ constexpr double kWider = 0.5;            // of the step: from turn to turn
 constexpr double kMissedByTurn = 0.0004;  // radii: the width that the disc of a turn may miss
 constexpr double kSliverOfTurn = 0.01;    // radii: thinner stock does not count
 constexpr double kBarelyInTurn = 0.03;    // radians: less is no stock
-constexpr double kBegin = 0.0;            // radians: where the first turn begins
 constexpr int kLooks = 24;                // around a turn
 
 // A turn of the tool's centre.
@@ -88,6 +87,20 @@ bool has_stock(const Turn& turn, const TrochoidSpace& space)
     return false;
 }
 
+// Where on the turn, as an angle about its centre, the tool comes down: in no stock; none where it is
+// all around.
+std::optional<double> begin_of(const Turn& turn, const TrochoidSpace& space)
+{
+    for (int i = 0; i < kLooks; ++i) {
+        const double angle = 2 * kPi * i / kLooks;
+        if (space.swept.engagement(on(turn, angle), {1.0, 0.0},
+                                   -kSliverOfTurn * space.swept.radius(), kPi) <= 0.0) {
+            return angle;
+        }
+    }
+    return std::nullopt;
+}
+
 // Where the line that touches both turns on their right leaves them, as an angle about their
 // centres; none where one is inside the other.
 std::optional<double> tangent_angle(const Turn& a, const Turn& b)
@@ -136,14 +149,18 @@ double most_less(const Turn& turn, double radius)
 
 class TrochoidWriter {
 public:
-    TrochoidWriter(const Turn& first, const TrochoidSpace& space) : space_{space}, last_{first} {}
+    // from  radians: the angle about its centre where the first turn begins
+    TrochoidWriter(const Turn& first, double from, const TrochoidSpace& space)
+        : space_{space}, last_{first}, at_{from}
+    {
+    }
 
-    // The turn before the first line, begun at kBegin. Nothing is done where it does not keep the
+    // The turn before the first line. Nothing is done where it does not keep the
     // engagement.
     bool begin(bool in_stock)
     {
         std::vector<Edge> turn;
-        add_arcs(last_, kBegin, 2 * kPi, turn);
+        add_arcs(last_, at_, 2 * kPi, turn);
         const double tolerance = std::min(space_.tolerance, kChords * last_.radius);
         const double most = bound_of(turn, space_, tolerance);
         if (most > space_.max_engagement) {
@@ -219,8 +236,8 @@ private:
 
     const TrochoidSpace& space_;
     Turn last_;
-    double at_{kBegin};  // the angle about its centre where the tool came to it
-    bool makes_{};       // anything
+    double at_;     // the angle about its centre where the tool came to it
+    bool makes_{};  // anything
     TrochoidPass pass_;
 };
 
@@ -245,7 +262,8 @@ std::optional<NeckStock> stock_along(const NeckWay& way,
 
 Vec2d trochoid_start(Vec2d centre, double most_room, const TrochoidSpace& space)
 {
-    return on(turn_about(centre, most_room, space), kBegin);
+    const Turn turn = turn_about(centre, most_room, space);
+    return on(turn, begin_of(turn, space).value_or(0.0));
 }
 
 TrochoidPass trochoidal_pass(const NeckWay& way,
@@ -259,8 +277,12 @@ TrochoidPass trochoidal_pass(const NeckWay& way,
     const double sign = to > from ? 1.0 : -1.0;
     double at = ruler.at(from);
     Turn turn = turn_about(way[from].centre, most_room, space);
-    TrochoidWriter writer{turn, space};
-    if (turn.radius <= 0.0 || !writer.begin(has_stock(turn, space))) {
+    const std::optional<double> begin = begin_of(turn, space);
+    if (turn.radius <= 0.0 || !begin) {
+        return {};
+    }
+    TrochoidWriter writer{turn, *begin, space};
+    if (!writer.begin(has_stock(turn, space))) {
         return {};
     }
     double step = kFirstStep * turn.radius;

@@ -70,12 +70,18 @@ std::vector<Edge> part_of(const Contour& contour, Stretch stretch)
     return part;
 }
 
+bool is_corner(const Edge& before, const Edge& after)
+{
+    constexpr double kTangent = 0.99;
+    return dot(tangent_at_end(before), tangent_at_start(after)) < kTangent;
+}
+
 // The tool can not be there before a pass.
 bool is_in_stock(Vec2d place, const WallSpace& space)
 {
     constexpr double kSunk = 0.02;  // radii
     return space.swept.engagement(place, {1.0, 0.0}, -kSunk * space.swept.radius(), 0.5 * kPi) >
-           10.0 * kBarelyOpen;
+           0.0;
 }
 
 // A tangent arc from swept ground onto the start of the path; none where there is no room.
@@ -126,7 +132,9 @@ public:
     {
         const double pitch = kStations * space_.swept.radius();
         double at = 0.0;
-        for (const Edge& edge : contour_) {
+        for (std::size_t k = 0; k < contour_.size(); ++k) {
+            const Edge& edge = contour_[k];
+            const Edge& next = contour_[(k + 1) % contour_.size()];
             const double size = length(edge);
             if (!meet(box_of(edge), space_.spot)) {
                 at += size;
@@ -135,11 +143,9 @@ public:
             const int n =
                 std::max(edge.turn != 0 ? 4 : 1, static_cast<int>(std::ceil(size / pitch)));
             for (int i = 0; i < n; ++i) {
-                const double share = (i + 0.5) / n;
-                const Vec2d place = point_on(edge, share);
-                if (is_inside(space_.spot, place) &&
-                    space_.swept.engagement(place, tangent_on(edge, share), -space_.sliver) >=
-                        kBarelyOpen) {
+                // What stays in a sharp corner is met at its very end only.
+                if (has_stock(edge, (i + 0.5) / n) ||
+                    (i + 1 == n && is_corner(edge, next) && has_stock(edge, 1.0))) {
                     add(edge, i, n, at);
                 }
             }
@@ -152,6 +158,14 @@ public:
     bool has_barrier() const { return barrier_end_ > 0.0; }
 
 private:
+    bool has_stock(const Edge& edge, double share) const
+    {
+        const Vec2d place = point_on(edge, share);
+        return is_inside(space_.spot, place) &&
+               space_.swept.engagement(place, tangent_on(edge, share), -space_.sliver) >=
+                   kBarelyOpen;
+    }
+
     // The piece of the edge that begins `at` mm along the contour.
     void add(const Edge& edge, int i, int n, double at)
     {
@@ -161,8 +175,7 @@ private:
         const double end = at + size * (i + 1) / n;
         const Edge piece = between(edge, point_on(edge, static_cast<double>(i) / n),
                                    point_on(edge, (i + 1.0) / n));
-        if (space_.swept.engagement_bound(piece, space_.max_engagement, space_.tolerance) >
-            space_.max_engagement) {
+        if (!space_.swept.keeps(piece, space_.max_engagement, space_.tolerance)) {
             if (!found_.empty()) {
                 found_.back().to = std::min(found_.back().to, begin);
             }

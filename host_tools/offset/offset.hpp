@@ -46,6 +46,9 @@ public:
     // The smaller of `limit` and the distance from the nearest contour, on either side.
     double nearest(Vec2d point, double limit) const { return tree_.nearest(point, limit); }
 
+    // The nearest contour's nearest point. Precondition: there are contours.
+    EdgeTree::Nearest nearest_edge(Vec2d point) const { return tree_.nearest_edge(point); }
+
     const Region2d& source() const { return source_; }
 
 private:

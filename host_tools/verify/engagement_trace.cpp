@@ -15,6 +15,7 @@ constexpr double kOutside = 1.0;      // pitches from the tool to the places loo
 constexpr double kMeanReach = 1.5;    // pitches: the mean is over so much before and after
 constexpr double kGap = 3.0;          // pitches between two cuts that are one
 constexpr double kEntrySlope = 0.02;  // of the way: steeper ones down are entries
+constexpr double kFoot = 0.05;        // radii from the foot of an entry
 constexpr double kOverTip = 1e-4;     // mm: stock that is higher over the tool is in its way
 
 // Directions from the axis, x along the feed.
@@ -83,6 +84,22 @@ EngagementTrace::EngagementTrace(const HeightGrid& grid, const ToolPositions& po
     for (auto& band : seen_) {
         band.resize(positions.tips.size());
     }
+    find_entries();
+}
+
+void EngagementTrace::find_entries()
+{
+    enters_.resize(positions_.tips.size());
+    Vec3d foot{};
+    for (std::size_t k = 1; k < enters_.size(); ++k) {
+        const Vec3d tip = positions_.tips[k];
+        if (descends(k)) {
+            enters_[k] = true;
+            foot = tip;
+        } else if (enters_[k - 1] && !positions_.rapid[k]) {
+            enters_[k] = norm(tip - foot) <= kFoot * positions_.tool.radius;
+        }
+    }
 }
 
 double EngagementTrace::way(std::size_t k) const
@@ -90,7 +107,7 @@ double EngagementTrace::way(std::size_t k) const
     return k > 0 ? norm(positions_.tips[k] - positions_.tips[k - 1]) : 0.0;
 }
 
-bool EngagementTrace::enters(std::size_t k) const
+bool EngagementTrace::descends(std::size_t k) const
 {
     return positions_.tips[k].z - positions_.tips[k - 1].z < -kEntrySlope * way(k);
 }

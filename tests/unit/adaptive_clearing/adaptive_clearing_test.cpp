@@ -45,6 +45,17 @@ double least_x(const AdaptivePath& path)
     return least;
 }
 
+double distance_to(const AdaptivePath& path, Vec2d place)
+{
+    double least = 1e300;
+    for (const AdaptiveRun& run : path.runs) {
+        for (const Edge& edge : run.path) {
+            least = std::min(least, offset::distance_to(edge, place));
+        }
+    }
+    return least;
+}
+
 TEST_GROUP(AdaptiveClearing){};
 
 TEST(AdaptiveClearing, BeginsWithAHelixAndReachesTheWalls)
@@ -130,7 +141,25 @@ TEST(AdaptiveClearing, CornersAreCutInThinSlices)
                           line_edge({60, 0}, {40, 12}), line_edge({40, 12}, {0, 0})}}};
     const AdaptivePath sharp = clear_adaptively(kite, settings(60.0));
     CHECK(sharp.engagement_bound <= 60.0 * kDegree);
+    {
+        std::printf("over sharp %.4f\n", over(sharp));
+        for (auto& o : sharp.over)
+            std::printf("  %.3f,%.3f %.1f deg %.4f mm\n", o.at.x, o.at.y, o.engagement / kDegree,
+                        o.length);
+    }
     CHECK(over(sharp) < 0.7);
+}
+
+// The stretch that the rounding leaves is shorter than half the way between two looks.
+TEST(AdaptiveClearing, SharpCornersAreCutToTheirEnds)
+{
+    const Region2d kite{{{line_edge({0, 0}, {60, -28}), line_edge({60, -28}, {90, 0}),
+                          line_edge({90, 0}, {60, 28}), line_edge({60, 28}, {0, 0})}}};
+    AdaptiveSettings asked = settings(60.0);
+    asked.tool_radius = 6.0;
+    asked.wall_clearance = 6.01;
+    const double end = asked.wall_clearance / std::sin(std::atan2(28.0, 60.0));
+    CHECK(distance_to(clear_adaptively(kite, asked), {end, 0.0}) <= 2.0 * asked.corner);
 }
 
 TEST(AdaptiveClearing, TrochoidsOpenANeckFromARoom)

@@ -49,6 +49,21 @@ TEST(SweptArea, ASlotHasHalfATurnAndTheLineItselfNone)
     CHECK(!swept.contains({14, 3.1}));
 }
 
+TEST(SweptArea, ASliverThinnerThanTheRasterIsFound)
+{
+    SweptArea swept = swept_by_a_line();
+    swept.add(line_edge({-15, 6.012}, {15, 6.012}));
+    const Region2d region{{{line_edge({-9, 1}, {9, 1}), line_edge({9, 1}, {9, 5}),
+                            line_edge({9, 5}, {-9, 5}), line_edge({-9, 5}, {-9, 1})}}};
+    const std::vector<Vec2d> found = swept.uncut_points(region, 0.003);
+    CHECK(!found.empty());
+    for (const Vec2d p : found) {
+        CHECK(!swept.contains(p));
+        DOUBLES_EQUAL(3.006, p.y, 0.004);
+    }
+    CHECK(swept.uncut_points(region, 0.007).empty());
+}
+
 TEST(SweptArea, ATightTurnIsSweptToItsOuterSide)
 {
     constexpr double kMissed = 0.0015;  // mm

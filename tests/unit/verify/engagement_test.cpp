@@ -208,6 +208,10 @@ TEST(Engagement, LeavesOutEntriesAndCountsTheRest)
     const EngagementFigures& level = figures("G0 X10 Y10 Z0\nG1 X30 Z-2\nG1 X10\n");
     // the ramp's floor is over the way back, all along
     DOUBLES_EQUAL(20, *level.over_length, 0.5);
+    // a turn about the foot, near it and not so near
+    const std::string foot = "G0 X10 Y10\nG1 Z-2\nG1 X";
+    DOUBLES_EQUAL(0, *figures(foot + "10.14\nG3 X10.14 I-0.14\n").over_length, 0);
+    CHECK(*figures(foot + "10.5\nG3 X10.5 I-0.5\n").over_length > 1.0);
 }
 
 TEST(Engagement, IsOverTheLimitByMoreThanAShareAndTheGrid)
