@@ -15,6 +15,7 @@
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
 #include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
 #include "opencascade/BRepPrimAPI_MakeSphere.hxx"
+#include "opencascade/BRepPrimAPI_MakeTorus.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRep_Builder.hxx"
 #include "opencascade/GProp_GProps.hxx"
@@ -35,6 +36,7 @@
 #include "opencascade/gp_Ax3.hxx"
 #include "opencascade/gp_Circ.hxx"
 #include "opencascade/gp_Trsf.hxx"
+#include "opencascade/gp_Vec.hxx"
 // CppUTest's macros come last
 #include "CppUTest/TestHarness.h"
 // it needs the harness before it
@@ -264,11 +266,12 @@ TEST(CadSurfaces, OfABallFusedIntoABlockAreWholeOrRefused)
             const TopoDS_Shape both =
                 BRepAlgoAPI_Fuse(box, BRepPrimAPI_MakeSphere(at, 10).Shape()).Shape();
             const std::string file = step(both);
-            std::vector<Surface> surfaces;
-            const std::string words = cusp::test::refusal([&] { surfaces = read_surfaces(file); });
+            std::vector<Surface> surfaces;  // those below too: pieces may all be below
+            const std::string words =
+                cusp::test::refusal([&] { surfaces = read_cad_model(file).faces; });
             if (words.empty()) {
                 ++read;
-                DOUBLES_EQUAL(60 * 40 + 2 * disc * (1 - place.inside),
+                DOUBLES_EQUAL(2 * (60 * 40 + disc * (1 - place.inside)),
                               seen_from_above(surfaces).area, 4.0);
             } else {
                 STRCMP_CONTAINS("a trim leaves the domain", words.c_str());
@@ -296,6 +299,45 @@ TEST(CadSurfaces, OfABallWithAHoleWithoutASeamAreAllButTheHole)
     // both halves, without the cap's disc seen from above
     DOUBLES_EQUAL(kPi * (2 * 100 - 19 * towards.Z()), seen_from_above(read_surfaces(file)).area,
                   1.0);
+}
+
+// A wire of the ring crosses both its seams. The area of all faces in plan is twice that of the upper
+// ends of columns.
+TEST(CadSurfaces, OfARingCutAcrossItsSeamsAreAll)
+{
+    constexpr double kAcross = 0.05;  // mm, of a column
+    const gp_Ax2 place(gp_Pnt(2.5, 2, -8), gp_Dir(0.1, 0.1, 1));
+    const std::string file = step(BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(10, 4).Shape(),
+                                                  BRepPrimAPI_MakeBox(place, 9, 8, 20).Shape())
+                                      .Shape());
+    const auto along = [&](const gp_Dir& axis, double x, double y) {
+        return gp_Vec(place.Location(), gp_Pnt(x, y, 0)).Dot(axis);
+    };
+    double expected = 0;
+    for (double x = -14 + kAcross / 2; x < 14; x += kAcross) {
+        for (double y = -14 + kAcross / 2; y < 14; y += kAcross) {
+            const double under = 16 - std::pow(std::hypot(x, y) - 10, 2);
+            if (under <= 0) {
+                continue;
+            }
+            const double top = std::sqrt(under);
+            double low = -1e9;  // of the box
+            double high = 1e9;
+            const gp_Dir axes[] = {place.XDirection(), place.YDirection(), place.Direction()};
+            const double sides[] = {9, 8, 20};
+            for (int k = 0; k < 3; ++k) {
+                const double here = along(axes[k], x, y);
+                const double a = -here / axes[k].Z();
+                const double b = (sides[k] - here) / axes[k].Z();
+                low = std::max(low, std::min(a, b));
+                high = std::min(high, std::max(a, b));
+            }
+            const bool cut = low < high && low < top && high > -top;
+            const int ends = cut ? (high < top ? 1 : 0) + (low > -top ? 1 : 0) : 1;
+            expected += 2 * ends * kAcross * kAcross;
+        }
+    }
+    DOUBLES_EQUAL(expected, seen_from_above(read_cad_model(file).faces).area, 1.0);
 }
 
 // The arc's control point lies 0.098 mm outside the face, the arc inside.
