@@ -326,6 +326,55 @@ double area_of(const TopoDS_Shape& shape)
     return properties.Mass();
 }
 
+// mm: how far the edges' curves in (u, v) lie beside the edges at most.
+double off_edges(const TopoDS_Face& face)
+{
+    constexpr int kLooks = 24;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    double most = 0;
+    for (TopExp_Explorer at{face, TopAbs_EDGE}; at.More(); at.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+        double from = 0;
+        double to = 0;
+        double from_uv = 0;
+        double to_uv = 0;
+        const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
+        const Handle(Geom2d_Curve) trim = BRep_Tool::CurveOnSurface(edge, face, from_uv, to_uv);
+        if (curve.IsNull() || trim.IsNull() || BRep_Tool::Degenerated(edge) ||
+            !BRep_Tool::SameParameter(edge)) {
+            continue;
+        }
+        for (int k = 0; k <= kLooks; ++k) {
+            const double t = 1.0 * k / kLooks;
+            const gp_Pnt2d uv = trim->Value(from_uv + t * (to_uv - from_uv));
+            most = std::max(
+                most,
+                curve->Value(from + t * (to - from)).Distance(surface->Value(uv.X(), uv.Y())));
+        }
+    }
+    return most;
+}
+
+// Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
+// (u, v) that lie millimetres beside their edges.
+void check_conversion(const TopoDS_Face& original,
+                      const TopoDS_Face& converted,
+                      const std::string& place)
+{
+    constexpr double kLeastAllowed = 0.01;  // mm
+    constexpr double kMore = 1.5;           // of the file's own tolerance
+    const double off = off_edges(converted);
+    const double allowed =
+        std::max(kLeastAllowed,
+                 kMore * BRep_Tool::MaxTolerance(original.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
+    if (off > allowed) {
+        throw InputError(
+            fmt::format("{}: Open CASCADE puts an edge {:.3g} mm beside its place, "
+                        "allowed {:.3g}",
+                        place, off, allowed));
+    }
+}
+
 // One face with its trims.
 Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::string& place)
 {
@@ -355,6 +404,7 @@ void add_whole_face(const SolidFace& found,
         return;
     }
     try {
+        check_conversion(found.face, face, place);
         model.faces.push_back(trimmed_surface(face, surface, place));
         model.outwards.push_back(found.solid ? outwards : 0.0);
     } catch (const InputError&) {
@@ -368,7 +418,7 @@ void add_whole_face(const SolidFace& found,
 // The pieces of a face, cut at every `turn` (radians); none where that fails or is not the same face.
 std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)
 {
-    constexpr double kSameArea = 1e-4;
+    constexpr double kSameArea = 1e-3;  // sums over a face with a seam are inexact
     std::vector<TopoDS_Face> out;
     try {
         ShapeUpgrade_ShapeDivideAngle divide{turn, face};
