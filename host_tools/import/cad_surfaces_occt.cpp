@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/cad_face_pieces.hpp"
 #include "host_tools/import/cad_shape.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
@@ -17,19 +18,16 @@
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepBuilderAPI_Sewing.hxx"
 #include "opencascade/BRepBuilderAPI_Transform.hxx"
-#include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepLib.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRepTools_WireExplorer.hxx"
 #include "opencascade/BRep_Builder.hxx"
 #include "opencascade/BRep_Tool.hxx"
-#include "opencascade/GProp_GProps.hxx"
 #include "opencascade/Geom2dConvert.hxx"
 #include "opencascade/Geom2d_BSplineCurve.hxx"
 #include "opencascade/Geom2d_TrimmedCurve.hxx"
 #include "opencascade/GeomConvert.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
-#include "opencascade/ShapeUpgrade_ShapeDivideAngle.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
@@ -319,62 +317,6 @@ bool looks_up(const Surface& s, double outwards)
     return false;
 }
 
-double area_of(const TopoDS_Shape& shape)
-{
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(shape, properties);
-    return properties.Mass();
-}
-
-// mm: how far the edges' curves in (u, v) lie beside the edges at most.
-double off_edges(const TopoDS_Face& face)
-{
-    constexpr int kLooks = 24;
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-    double most = 0;
-    for (TopExp_Explorer at{face, TopAbs_EDGE}; at.More(); at.Next()) {
-        const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
-        double from = 0;
-        double to = 0;
-        double from_uv = 0;
-        double to_uv = 0;
-        const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
-        const Handle(Geom2d_Curve) trim = BRep_Tool::CurveOnSurface(edge, face, from_uv, to_uv);
-        if (curve.IsNull() || trim.IsNull() || BRep_Tool::Degenerated(edge) ||
-            !BRep_Tool::SameParameter(edge)) {
-            continue;
-        }
-        for (int k = 0; k <= kLooks; ++k) {
-            const double t = 1.0 * k / kLooks;
-            const gp_Pnt2d uv = trim->Value(from_uv + t * (to_uv - from_uv));
-            most = std::max(
-                most,
-                curve->Value(from + t * (to - from)).Distance(surface->Value(uv.X(), uv.Y())));
-        }
-    }
-    return most;
-}
-
-// Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
-// (u, v) that lie millimetres beside their edges.
-void check_conversion(const TopoDS_Face& original,
-                      const TopoDS_Face& converted,
-                      const std::string& place)
-{
-    constexpr double kLeastAllowed = 0.01;  // mm
-    constexpr double kMore = 1.5;           // of the file's own tolerance
-    const double off = off_edges(converted);
-    const double allowed =
-        std::max(kLeastAllowed,
-                 kMore * BRep_Tool::MaxTolerance(original.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
-    if (off > allowed) {
-        throw InputError(
-            fmt::format("{}: Open CASCADE puts an edge {:.3g} mm beside its place, "
-                        "allowed {:.3g}",
-                        place, off, allowed));
-    }
-}
-
 // One face with its trims.
 Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::string& place)
 {
@@ -415,43 +357,33 @@ void add_whole_face(const SolidFace& found,
     }
 }
 
-// The pieces of a face, cut at every `turn` (radians); none where that fails or is not the same face.
-std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)
-{
-    constexpr double kSameArea = 1e-3;  // sums over a face with a seam are inexact
-    std::vector<TopoDS_Face> out;
-    try {
-        ShapeUpgrade_ShapeDivideAngle divide{turn, face};
-        if (!divide.Perform()) {
-            return {};
-        }
-        for (TopExp_Explorer at{divide.Result(), TopAbs_FACE}; at.More(); at.Next()) {
-            out.push_back(TopoDS::Face(at.Current()));
-        }
-        const double area = area_of(face);
-        const bool same = std::abs(area_of(divide.Result()) - area) <= kSameArea * std::abs(area);
-        return same ? out : std::vector<TopoDS_Face>{};
-    } catch (const Standard_Failure&) {
-        return {};
-    }
-}
-
-// As add_whole_face(), for the pieces of a face. Returns false where one cannot be read.
+// As add_whole_face(), for the pieces of a face. Returns false where one cannot be read, or where
+// they keep another part of the face: Open CASCADE's curves may lie on the wrong side of a seam.
 bool add_pieces(
     const SolidFace& found, double turn, bool all_faces, const std::string& place, CadModel& model)
 {
+    constexpr double kSameVector = 3e-3;  // of the area
+    CadModel all;
     CadModel pieces;
     try {
         for (const TopoDS_Face& piece : pieces_of(found.face, turn)) {
+            add_whole_face({piece, found.solid}, true, place, all);
             add_whole_face({piece, found.solid}, all_faces, place, pieces);
         }
     } catch (const InputError&) {
         return false;
     }
+    Vec3d apart = area_vector(found.face);
+    for (const Surface& piece : all.faces) {
+        apart = apart - area_vector(piece);
+    }
+    if (all.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
+        return false;
+    }
     model.faces.insert(model.faces.end(), pieces.faces.begin(), pieces.faces.end());
     model.outwards.insert(model.outwards.end(), pieces.outwards.begin(), pieces.outwards.end());
     model.unread += pieces.unread;
-    return !pieces.faces.empty() || pieces.unread > 0;
+    return true;
 }
 
 // Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain. The

@@ -272,6 +272,17 @@ TEST(CadSurfaces, OfABallFusedIntoABlockAreWhole)
     }
 }
 
+// Its wire crosses the seam, and Open CASCADE wraps it round to the wrong side: no piece can be read.
+TEST(CadSurfaces, OfABallWhoseCutCrossesTheSeamTheWrongWayAreRefused)
+{
+    const gp_Ax2 tilted(gp_Pnt(0, 0, 0), gp_Dir(0.2, -0.5, 1));
+    const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(1, 3, -20), gp_Pnt(40, 40, 20)).Shape();
+    const std::string file =
+        step(BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(tilted, 10).Shape(), box).Shape());
+    STRCMP_CONTAINS("face 1: Open CASCADE puts an edge",
+                    cusp::test::refusal([&] { read_cad_model(file); }).c_str());
+}
+
 // A face without a seam, as other systems write it: all of the ball but the cap, not the cap.
 TEST(CadSurfaces, OfABallWithAHoleWithoutASeamAreAllButTheHole)
 {

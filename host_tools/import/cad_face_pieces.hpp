@@ -1,0 +1,37 @@
+// Faces of a CAD model that Open CASCADE converts to splines badly, in pieces that it converts well.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware/base/vec.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+
+#include "opencascade/TopoDS_Face.hxx"
+#include "opencascade/TopoDS_Shape.hxx"
+
+namespace cusp::import {
+
+// mm2, of all faces; negative where edges run round a face the wrong way.
+double area_of(const TopoDS_Shape& shape);
+
+// mm2: the integral of the unit normal over a face, forward oriented, which its edges in space decide:
+// half the sum of r x dr (Stokes). The same of a surface with its trims; they agree if these keep
+// the right side of the edges.
+Vec3d area_vector(const TopoDS_Face& face);
+Vec3d area_vector(const nurbs::Surface& surface);
+
+// Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
+// (u, v) that lie millimetres beside their edges. 0.01 mm is allowed, and 1.5 times the tolerance of
+// the file.
+//
+// Throws InputError, with `place` before it.
+void check_conversion(const TopoDS_Face& original,
+                      const TopoDS_Face& converted,
+                      const std::string& place);
+
+// The pieces of a face, cut at every `turn` (radians) about its axis; none where that fails or is not
+// the same face.
+std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn);
+
+}  // namespace cusp::import
