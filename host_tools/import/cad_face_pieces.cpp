@@ -27,8 +27,6 @@ namespace {
 // Of an area: sums over a face with a seam are inexact.
 constexpr double kSameArea = 1e-3;
 
-Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 // mm: how far the edges' curves in (u, v) lie beside the edges at most.
 double off_edges(const TopoDS_Face& face)
 {

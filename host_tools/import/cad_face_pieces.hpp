@@ -9,8 +9,11 @@
 
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Shape.hxx"
+#include "opencascade/gp_Pnt.hxx"
 
 namespace cusp::import {
+
+inline Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 // mm2, of all faces; negative where edges run round a face the wrong way.
 double area_of(const TopoDS_Shape& shape);

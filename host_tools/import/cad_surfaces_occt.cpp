@@ -50,8 +50,6 @@ namespace {
 constexpr double kLeastRise = 1e-6;
 constexpr double kSewing = 1e-3;  // mm
 
-Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 std::vector<double> list_of(const TColStd_Array1OfReal& knots)
 {
     return {knots.begin(), knots.end()};
