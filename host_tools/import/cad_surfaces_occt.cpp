@@ -361,26 +361,27 @@ bool add_pieces(
     const SolidFace& found, double turn, bool all_faces, const std::string& place, CadModel& model)
 {
     constexpr double kSameVector = 3e-3;  // of the area
-    CadModel all;
     CadModel pieces;
     try {
         for (const TopoDS_Face& piece : pieces_of(found.face, turn)) {
-            add_whole_face({piece, found.solid}, true, place, all);
-            add_whole_face({piece, found.solid}, all_faces, place, pieces);
+            add_whole_face({piece, found.solid}, true, place, pieces);
         }
     } catch (const InputError&) {
         return false;
     }
     Vec3d apart = area_vector(found.face);
-    for (const Surface& piece : all.faces) {
+    for (const Surface& piece : pieces.faces) {
         apart = apart - area_vector(piece);
     }
-    if (all.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
+    if (pieces.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
         return false;
     }
-    model.faces.insert(model.faces.end(), pieces.faces.begin(), pieces.faces.end());
-    model.outwards.insert(model.outwards.end(), pieces.outwards.begin(), pieces.outwards.end());
-    model.unread += pieces.unread;
+    for (std::size_t k = 0; k < pieces.faces.size(); ++k) {
+        if (all_faces || !found.solid || looks_up(pieces.faces[k], pieces.outwards[k])) {
+            model.faces.push_back(std::move(pieces.faces[k]));
+            model.outwards.push_back(pieces.outwards[k]);
+        }
+    }
     return true;
 }
 
