@@ -19,6 +19,7 @@
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
 #include "opencascade/TopoDS_Edge.hxx"
+#include "opencascade/gp_Vec.hxx"
 
 namespace cusp::import {
 
@@ -121,16 +122,46 @@ Vec3d area_vector(const nurbs::Surface& s)
     return sum;
 }
 
+double allowed_off(const TopoDS_Face& face)
+{
+    constexpr double kLeast = 0.01;  // mm
+    constexpr double kMore = 1.5;    // of the file's own tolerance
+    return std::max(kLeast,
+                    kMore * BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
+}
+
+std::vector<SphereEdge> edges_in_space(const TopoDS_Face& face, bool backwards)
+{
+    std::vector<SphereEdge> edges;
+    for (TopExp_Explorer at{face.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; at.More(); at.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
+        double from = 0;
+        double to = 0;
+        const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
+        if (curve.IsNull() || BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, face)) {
+            continue;
+        }
+        if ((edge.Orientation() == TopAbs_REVERSED) != backwards) {
+            std::swap(from, to);
+        }
+        edges.push_back(
+            {[curve](double t) {
+                 gp_Pnt point;
+                 gp_Vec tangent;
+                 curve->D1(t, point, tangent);
+                 return PointAndTangent{vec_of(point), {tangent.X(), tangent.Y(), tangent.Z()}};
+             },
+             from, to});
+    }
+    return edges;
+}
+
 void check_conversion(const TopoDS_Face& original,
                       const TopoDS_Face& converted,
                       const std::string& place)
 {
-    constexpr double kLeastAllowed = 0.01;  // mm
-    constexpr double kMore = 1.5;           // of the file's own tolerance
     const double off = off_edges(converted);
-    const double allowed =
-        std::max(kLeastAllowed,
-                 kMore * BRep_Tool::MaxTolerance(original.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
+    const double allowed = allowed_off(original);
     if (off > allowed) {
         throw InputError(
             fmt::format("{}: Open CASCADE puts an edge {:.3g} mm beside its place, "

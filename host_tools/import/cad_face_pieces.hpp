@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "firmware/base/vec.hpp"
+#include "host_tools/import/sphere_octants.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
 #include "opencascade/TopoDS_Face.hxx"
@@ -24,9 +25,15 @@ double area_of(const TopoDS_Shape& shape);
 Vec3d area_vector(const TopoDS_Face& face);
 Vec3d area_vector(const nurbs::Surface& surface);
 
+// mm: how far its edges may lie beside a face: 0.01, and 1.5 times the tolerance of the file.
+double allowed_off(const TopoDS_Face& face);
+
+// The edges of a face, forward oriented, without seams and poles. Seen from where the normal of its
+// surface points to, the face lies on their left; on their right with `backwards`.
+std::vector<SphereEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
+
 // Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
-// (u, v) that lie millimetres beside their edges. 0.01 mm is allowed, and 1.5 times the tolerance of
-// the file.
+// (u, v) that lie millimetres beside their edges. allowed_off() is allowed.
 //
 // Throws InputError, with `place` before it.
 void check_conversion(const TopoDS_Face& original,

@@ -8,6 +8,7 @@
 #include "host_tools/import/cad_shape.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/sphere_patches.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -15,6 +16,7 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
+#include "opencascade/BRepAdaptor_Surface.hxx"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepBuilderAPI_Sewing.hxx"
 #include "opencascade/BRepBuilderAPI_Transform.hxx"
@@ -34,6 +36,7 @@
 #include "opencascade/TopoDS_Edge.hxx"
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Solid.hxx"
+#include "opencascade/gp_Sphere.hxx"
 #include "opencascade/gp_Trsf.hxx"
 
 namespace cusp::import {
@@ -385,9 +388,38 @@ bool add_pieces(
     return true;
 }
 
+// As add_whole_face(), for a face of a sphere whose edges in space are good. Returns false for others.
+bool add_sphere_patches(const SolidFace& found,
+                        bool all_faces,
+                        const std::string& place,
+                        CadModel& model)
+{
+    const BRepAdaptor_Surface adaptor{found.face};
+    if (adaptor.GetType() != GeomAbs_Sphere) {
+        return false;
+    }
+    const gp_Sphere sphere = adaptor.Sphere();
+    const bool mirrored = !sphere.Position().Direct();
+    const bool inwards = (found.face.Orientation() == TopAbs_REVERSED) != mirrored;
+    const double outwards = inwards ? -1.0 : 1.0;
+    try {
+        for (Surface& patch :
+             sphere_patches({vec_of(sphere.Location()), sphere.Radius()},
+                            edges_in_space(found.face, mirrored), allowed_off(found.face), place)) {
+            if (all_faces || !found.solid || looks_up(patch, outwards)) {
+                model.faces.push_back(std::move(patch));
+                model.outwards.push_back(found.solid ? outwards : 0.0);
+            }
+        }
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
 // Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain. The
-// pieces of such a face have no seam inside; cuts may meet a wire where they fail, so there are two
-// choices.
+// patches and pieces of such a face have no seam inside; cuts may meet a wire where they fail, so
+// there are two choices.
 void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
 {
     constexpr double kQuarter = 0.5 * kPi;
@@ -395,7 +427,8 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     try {
         add_whole_face(found, all_faces, place, model);
     } catch (const InputError&) {
-        if (!add_pieces(found, kQuarter, all_faces, place, model) &&
+        if (!add_sphere_patches(found, all_faces, place, model) &&
+            !add_pieces(found, kQuarter, all_faces, place, model) &&
             !add_pieces(found, kOther, all_faces, place, model)) {
             throw;
         }
