@@ -1,0 +1,402 @@
+// One face: its surface, its trims, and what is done where these do not fit together.
+#include "host_tools/import/cad_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/import/cad_face_pieces.hpp"
+#include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/sphere_patches.hpp"
+#include "host_tools/import/trim_loops.hpp"
+#include "host_tools/import/trim_repair.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/nurbs/knot_insertion.hpp"
+
+#include "fmt/format.h"
+#include "opencascade/BRepAdaptor_Surface.hxx"
+#include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
+#include "opencascade/BRepTools.hxx"
+#include "opencascade/BRepTools_WireExplorer.hxx"
+#include "opencascade/BRep_Tool.hxx"
+#include "opencascade/Geom2dConvert.hxx"
+#include "opencascade/Geom2d_BSplineCurve.hxx"
+#include "opencascade/Geom2d_TrimmedCurve.hxx"
+#include "opencascade/GeomConvert.hxx"
+#include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/Standard_Failure.hxx"
+#include "opencascade/TopExp_Explorer.hxx"
+#include "opencascade/TopoDS.hxx"
+#include "opencascade/TopoDS_Edge.hxx"
+#include "opencascade/TopoDS_Wire.hxx"
+#include "opencascade/gp_Sphere.hxx"
+
+namespace cusp::import {
+
+using job::loop_polyline;
+using job::signed_area;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
+namespace {
+
+// Least z of a unit normal that counts as upward; a face with less everywhere is vertical.
+constexpr double kLeastRise = 1e-6;
+
+std::vector<double> list_of(const TColStd_Array1OfReal& knots)
+{
+    return {knots.begin(), knots.end()};
+}
+
+// The least u and v of all ends of edges.
+gp_Pnt2d least_corner(const TopoDS_Face& face)
+{
+    gp_Pnt2d least{kUnbounded, kUnbounded};
+    for (TopExp_Explorer edges{face, TopAbs_EDGE}; edges.More(); edges.Next()) {
+        double first = 0;
+        double last = 0;
+        const Handle(Geom2d_Curve) curve =
+            BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
+        for (const double t : {first, last}) {
+            if (!curve.IsNull()) {
+                const gp_Pnt2d p = curve->Value(t);
+                least.SetCoord(std::min(least.X(), p.X()), std::min(least.Y(), p.Y()));
+            }
+        }
+    }
+    return least;
+}
+
+// The part of the surface that the face uses, with clamped ends.
+Surface surface_of(const TopoDS_Face& face)
+{
+    const Handle(Geom_BSplineSurface) found =
+        GeomConvert::SurfaceToBSplineSurface(BRep_Tool::Surface(face));
+    const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(found->Copy());
+    double u0 = 0;
+    double u1 = 0;
+    double v0 = 0;
+    double v1 = 0;
+    BRepTools::UVBounds(face, u0, u1, v0, v1);
+    double low_u = 0;
+    double high_u = 0;
+    double low_v = 0;
+    double high_v = 0;
+    spline->Bounds(low_u, high_u, low_v, high_v);
+    // The bounds of a periodic face may exceed the period by a tolerance. Then the least parameter
+    // of its edges is the start.
+    const gp_Pnt2d first = least_corner(face);
+    const auto keep_within = [](bool periodic, double low, double high, double least, double& from,
+                                double& to) {
+        if (!periodic) {
+            from = std::max(from, low);
+            to = std::min(to, high);
+        } else if (to - from > high - low) {
+            from = least;
+            to = least + (high - low);
+        }
+    };
+    keep_within(spline->IsUPeriodic(), low_u, high_u, first.X(), u0, u1);
+    keep_within(spline->IsVPeriodic(), low_v, high_v, first.Y(), v0, v1);
+    spline->Segment(u0, u1, v0, v1);
+    Surface surface;
+    surface.degree_u = spline->UDegree();
+    surface.degree_v = spline->VDegree();
+    surface.size_u = spline->NbUPoles();
+    surface.size_v = spline->NbVPoles();
+    surface.knots_u = list_of(spline->UKnotSequence());
+    surface.knots_v = list_of(spline->VKnotSequence());
+    for (int i = 1; i <= surface.size_u; ++i) {
+        for (int j = 1; j <= surface.size_v; ++j) {
+            surface.points.push_back(vec_of(spline->Pole(i, j)));
+            surface.weights.push_back(spline->Weight(i, j));
+        }
+    }
+    return surface;
+}
+
+Curve trim_of(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::string& place)
+{
+    double first = 0;
+    double last = 0;
+    const Handle(Geom2d_Curve) found = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (found.IsNull() || !(first < last)) {
+        throw InputError(place + ": an edge has no curve on the face");
+    }
+    const Handle(Geom2d_BSplineCurve) spline = Geom2dConvert::CurveToBSplineCurve(
+        Handle(Geom2d_Curve)(new Geom2d_TrimmedCurve(found, first, last)));
+    Curve curve;
+    curve.degree = spline->Degree();
+    curve.knots = list_of(spline->KnotSequence());
+    for (int i = 1; i <= spline->NbPoles(); ++i) {
+        curve.points.push_back({spline->Pole(i).X(), spline->Pole(i).Y(), 0});
+        curve.weights.push_back(spline->Weight(i));
+    }
+    check_curve(curve, place);
+    curve = clamped(curve);
+    return edge.Orientation() == TopAbs_REVERSED ? reversed(curve) : curve;
+}
+
+// On a periodic surface the trims may be offset from the domain by whole periods.
+void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, const Surface& s)
+{
+    const Handle(Geom_Surface) whole = BRep_Tool::Surface(face);
+    const auto shift = [&](double Vec3d::*axis, double period, double low, double high) {
+        double least = curves.front().points.front().*axis;
+        double most = least;
+        for (const Curve& curve : curves) {
+            for (const Vec3d& p : curve.points) {
+                least = std::min(least, p.*axis);
+                most = std::max(most, p.*axis);
+            }
+        }
+        const double by = period * std::round((low + high - least - most) / (2 * period));
+        for (Curve& curve : curves) {
+            for (Vec3d& p : curve.points) {
+                p.*axis += by;
+            }
+        }
+    };
+    if (!curves.empty() && whole->IsUPeriodic()) {
+        shift(&Vec3d::x, whole->UPeriod(), s.u_begin(), s.u_end());
+    }
+    if (!curves.empty() && whole->IsVPeriodic()) {
+        shift(&Vec3d::y, whole->VPeriod(), s.v_begin(), s.v_end());
+    }
+}
+
+// The edges of a wire that have a length, in order. BRepTools_WireExplorer stops early where a seam
+// meets a pole. Then each curve is followed by the one that starts nearest to its end in (u, v).
+std::vector<Curve> loop_of(const TopoDS_Wire& wire,
+                           const TopoDS_Face& face,
+                           const std::string& place)
+{
+    std::vector<Curve> walked;
+    for (BRepTools_WireExplorer at{wire, face}; at.More(); at.Next()) {
+        if (!BRep_Tool::Degenerated(at.Current())) {
+            walked.push_back(trim_of(at.Current(), face, place));
+        }
+    }
+    std::vector<Curve> all;
+    for (TopExp_Explorer edges{wire.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; edges.More();
+         edges.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+        if (!BRep_Tool::Degenerated(edge)) {
+            all.push_back(trim_of(edge, face, place));
+        }
+    }
+    if (walked.size() >= all.size()) {
+        return walked;
+    }
+    if (wire.Orientation() == TopAbs_REVERSED) {
+        for (Curve& curve : all) {
+            curve = reversed(curve);
+        }
+    }
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        const Vec3d end = all[i].points.back();
+        const auto next =
+            std::min_element(all.begin() + static_cast<std::ptrdiff_t>(i) + 1, all.end(),
+                             [&](const Curve& a, const Curve& b) {
+                                 return norm(a.points.front() - end) < norm(b.points.front() - end);
+                             });
+        std::swap(all[i + 1], *next);
+    }
+    return all;
+}
+
+// Whether the wire runs along seams and poles alone: the edge of the whole of a ball or ring, which
+// trims nothing. Open CASCADE's curves of such seams are up to a tenth of a millimetre beside them.
+bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
+{
+    bool any = false;
+    for (TopExp_Explorer edges{wire, TopAbs_EDGE}; edges.More(); edges.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+        if (!BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, face)) {
+            return false;
+        }
+        any = true;
+    }
+    return any;
+}
+
+void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface)
+{
+    std::vector<Curve> curves;
+    for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
+        if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
+            continue;
+        }
+        std::vector<Curve> loop = loop_of(TopoDS::Wire(wires.Current()), face, place);
+        shift_into_domain(loop, face, surface);
+        if (loop.empty()) {
+            continue;
+        }
+        tidy(loop, surface);
+        bridge_poles(loop, surface);
+        curves.insert(curves.end(), loop.begin(), loop.end());
+    }
+    surface.trims = trim_loops(curves, surface, place);
+    const double whole =
+        (surface.u_end() - surface.u_begin()) * (surface.v_end() - surface.v_begin());
+    constexpr double kWhole = 1e-9;
+    if (surface.trims.size() == 1 &&
+        std::abs(signed_area(loop_polyline(surface.trims[0], 1e-3 * std::sqrt(whole))) - whole) <=
+            kWhole * whole) {
+        surface.trims.clear();  // the boundary of the domain trims nothing
+    }
+}
+
+// Whether any sampled normal of a solid's face points up. `outwards` is +1 if du x dv points out.
+bool looks_up(const Surface& s, double outwards)
+{
+    constexpr int kLooks = 16;
+    for (int k = 0; k < kLooks * kLooks; ++k) {
+        const double a = (k % kLooks + 0.5) / kLooks;
+        const double b = (k / kLooks + 0.5) / kLooks;
+        const SurfacePoint p = derivatives_at(s, s.u_begin() + a * (s.u_end() - s.u_begin()),
+                                              s.v_begin() + b * (s.v_end() - s.v_begin()));
+        const Vec3d n = cross(p.du, p.dv);
+        if (outwards * n.z > kLeastRise * norm(n)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// One face with its trims.
+Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::string& place)
+{
+    check_surface(surface, place);
+    surface = clamped(surface);
+    add_trims(face, place, surface);
+    return surface;
+}
+
+void add_converted_face(const SolidFace& found,
+                        bool all_faces,
+                        const std::string& place,
+                        CadModel& model)
+{
+    // the wires of a forward-oriented face have its interior on their left in (u, v)
+    const TopoDS_Shape converted =
+        BRepBuilderAPI_NurbsConvert{found.face.Oriented(TopAbs_FORWARD), true}.Shape();
+    const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
+    // Sewing has also reversed such a face, so its normal can't be trusted.
+    if (area_of(face) < 0) {
+        throw InputError(place + ": its edges run round it the wrong way");
+    }
+    const Surface surface = surface_of(face);
+    const double outwards = found.face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
+    const bool is_below = found.solid && !looks_up(surface, outwards);
+    if (is_below && !all_faces) {
+        return;
+    }
+    try {
+        check_conversion(found.face, face, place);
+        model.faces.push_back(trimmed_surface(face, surface, place));
+        model.outwards.push_back(found.solid ? outwards : 0.0);
+    } catch (const InputError&) {
+        if (!is_below) {
+            throw;
+        }
+        ++model.unread;
+    }
+}
+
+// As add_converted_face(); what Open CASCADE cannot convert is an InputError, too.
+void add_whole_face(const SolidFace& found,
+                    bool all_faces,
+                    const std::string& place,
+                    CadModel& model)
+{
+    try {
+        add_converted_face(found, all_faces, place, model);
+    } catch (const Standard_Failure& failure) {
+        throw InputError(
+            fmt::format("{}: Open CASCADE failed: {}", place, failure.GetMessageString()));
+    }
+}
+
+// As add_whole_face(), for the pieces of a face. Returns false where one cannot be read, or where
+// they keep another part of the face: Open CASCADE's curves may lie on the wrong side of a seam.
+bool add_pieces(
+    const SolidFace& found, double turn, bool all_faces, const std::string& place, CadModel& model)
+{
+    constexpr double kSameVector = 3e-3;  // of the area
+    CadModel pieces;
+    try {
+        for (const TopoDS_Face& piece : pieces_of(found.face, turn)) {
+            add_whole_face({piece, found.solid}, true, place, pieces);
+        }
+    } catch (const InputError&) {
+        return false;
+    }
+    Vec3d apart = area_vector(found.face);
+    for (const Surface& piece : pieces.faces) {
+        apart = apart - area_vector(piece);
+    }
+    if (pieces.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
+        return false;
+    }
+    for (std::size_t k = 0; k < pieces.faces.size(); ++k) {
+        if (all_faces || !found.solid || looks_up(pieces.faces[k], pieces.outwards[k])) {
+            model.faces.push_back(std::move(pieces.faces[k]));
+            model.outwards.push_back(pieces.outwards[k]);
+        }
+    }
+    return true;
+}
+
+// As add_whole_face(), for a face of a sphere whose edges in space are good. Returns false for others.
+bool add_sphere_patches(const SolidFace& found,
+                        bool all_faces,
+                        const std::string& place,
+                        CadModel& model)
+{
+    const BRepAdaptor_Surface adaptor{found.face};
+    if (adaptor.GetType() != GeomAbs_Sphere) {
+        return false;
+    }
+    const gp_Sphere sphere = adaptor.Sphere();
+    const bool mirrored = !sphere.Position().Direct();
+    const bool inwards = (found.face.Orientation() == TopAbs_REVERSED) != mirrored;
+    const double outwards = inwards ? -1.0 : 1.0;
+    try {
+        for (Surface& patch :
+             sphere_patches({vec_of(sphere.Location()), sphere.Radius()},
+                            edges_in_space(found.face, mirrored), allowed_off(found.face), place)) {
+            if (all_faces || !found.solid || looks_up(patch, outwards)) {
+                model.faces.push_back(std::move(patch));
+                model.outwards.push_back(found.solid ? outwards : 0.0);
+            }
+        }
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+// Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain. The
+// patches and pieces of such a face have no seam inside; cuts may meet a wire where they fail, so
+// there are two choices.
+void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
+{
+    constexpr double kQuarter = 0.5 * kPi;
+    constexpr double kOther = 0.35 * kPi;
+    try {
+        add_whole_face(found, all_faces, place, model);
+    } catch (const InputError&) {
+        if (!add_sphere_patches(found, all_faces, place, model) &&
+            !add_pieces(found, kQuarter, all_faces, place, model) &&
+            !add_pieces(found, kOther, all_faces, place, model)) {
+            throw;
+        }
+    }
+}
+
+}  // namespace cusp::import

@@ -1,0 +1,171 @@
+// random_part SEED PART.step MESH.stl: a block with boxes, cylinders, cones, balls and rings added or cut
+// away, some edges rounded or chamfered, sometimes turned; and Open CASCADE's own mesh of it.
+//
+// Its least x and y are 0, its top z = 0, its longest side at most 40 mm.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/support/draw.hpp"
+
+#include "opencascade/BRepAlgoAPI_Cut.hxx"
+#include "opencascade/BRepAlgoAPI_Fuse.hxx"
+#include "opencascade/BRepBndLib.hxx"
+#include "opencascade/BRepBuilderAPI_Transform.hxx"
+#include "opencascade/BRepCheck_Analyzer.hxx"
+#include "opencascade/BRepFilletAPI_MakeChamfer.hxx"
+#include "opencascade/BRepFilletAPI_MakeFillet.hxx"
+#include "opencascade/BRepMesh_IncrementalMesh.hxx"
+#include "opencascade/BRepPrimAPI_MakeBox.hxx"
+#include "opencascade/BRepPrimAPI_MakeCone.hxx"
+#include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
+#include "opencascade/BRepPrimAPI_MakeSphere.hxx"
+#include "opencascade/BRepPrimAPI_MakeTorus.hxx"
+#include "opencascade/Bnd_Box.hxx"
+#include "opencascade/STEPControl_Writer.hxx"
+#include "opencascade/Standard_Failure.hxx"
+#include "opencascade/StlAPI_Writer.hxx"
+#include "opencascade/TopExp_Explorer.hxx"
+#include "opencascade/TopoDS.hxx"
+#include "opencascade/TopoDS_Edge.hxx"
+#include "opencascade/gp_Ax1.hxx"
+#include "opencascade/gp_Ax2.hxx"
+#include "opencascade/gp_Trsf.hxx"
+
+using cusp::test::Draw;
+
+namespace {
+
+constexpr double kDeflection = 0.004;  // mm, of the mesh
+constexpr double kTurn = 0.1;          // radians, the same
+
+gp_Pnt random_point(Draw& draw, double low, double high)
+{
+    const double x = draw.uniform(-5, 60);
+    const double y = draw.uniform(-5, 40);
+    return {x, y, draw.uniform(low, high)};
+}
+
+gp_Dir random_axis(Draw& draw)
+{
+    if (draw.whole(0, 2) == 0) {
+        return {0, 0, 1};
+    }
+    const double x = draw.uniform(-1, 1);
+    const double y = draw.uniform(-1, 1);
+    return {x, y, draw.uniform(0.2, 1)};
+}
+
+TopoDS_Shape random_body(Draw& draw)
+{
+    const gp_Ax2 at{random_point(draw, 2, 24), random_axis(draw)};
+    const double a = draw.uniform(0, 1);
+    const double b = draw.uniform(0, 1);
+    switch (draw.whole(0, 4)) {
+        case 0:
+            return BRepPrimAPI_MakeBox(at, 4 + 21 * a, 4 + 21 * b, draw.uniform(4, 25)).Shape();
+        case 1:
+            return BRepPrimAPI_MakeCylinder(at, 3 + 9 * a, 4 + 21 * b).Shape();
+        case 2:
+            return BRepPrimAPI_MakeCone(at, 6 + 6 * a, 5 * b, draw.uniform(4, 20)).Shape();
+        case 3:
+            return BRepPrimAPI_MakeSphere(at, 4 + 10 * a).Shape();
+        default:
+            return BRepPrimAPI_MakeTorus(at, 7 + 7 * a, 2 + 3 * b).Shape();
+    }
+}
+
+// The changed shape where Open CASCADE makes a good one, or else the shape.
+template <class Change>
+TopoDS_Shape changed(const TopoDS_Shape& shape, Change change)
+{
+    try {
+        const TopoDS_Shape next = change();
+        const bool good = !next.IsNull() && BRepCheck_Analyzer(next).IsValid() &&
+                          TopExp_Explorer(next, TopAbs_FACE).More();
+        return good ? next : shape;
+    } catch (const Standard_Failure&) {
+        return shape;
+    }
+}
+
+template <class Maker>
+TopoDS_Shape with_edge(const TopoDS_Shape& shape, double size, const TopoDS_Edge& edge)
+{
+    Maker maker{shape};
+    maker.Add(size, edge);
+    maker.Build();
+    return maker.IsDone() ? maker.Shape() : shape;
+}
+
+TopoDS_Shape with_a_blend(Draw& draw, const TopoDS_Shape& shape)
+{
+    std::vector<TopoDS_Edge> edges;
+    for (TopExp_Explorer at{shape, TopAbs_EDGE}; at.More(); at.Next()) {
+        edges.push_back(TopoDS::Edge(at.Current()));
+    }
+    const int last = static_cast<int>(edges.size()) - 1;
+    const TopoDS_Edge edge = edges[static_cast<std::size_t>(draw.whole(0, last))];
+    const bool rounded = draw.whole(0, 2) > 0;
+    const double size = draw.uniform(0.5, rounded ? 4 : 3);
+    return changed(shape, [&] {
+        return rounded ? with_edge<BRepFilletAPI_MakeFillet>(shape, size, edge)
+                       : with_edge<BRepFilletAPI_MakeChamfer>(shape, size, edge);
+    });
+}
+
+TopoDS_Shape random_part(Draw& draw)
+{
+    TopoDS_Shape part = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
+    for (int k = draw.whole(2, 6); k > 0; --k) {
+        const bool added = draw.whole(0, 1) > 0;
+        part = changed(part, [&] {
+            const TopoDS_Shape body = random_body(draw);
+            return added ? BRepAlgoAPI_Fuse(part, body).Shape()
+                         : BRepAlgoAPI_Cut(part, body).Shape();
+        });
+    }
+    for (int k = draw.whole(0, 6); k > 0; --k) {
+        part = with_a_blend(draw, part);
+    }
+    if (draw.whole(0, 1) > 0) {
+        gp_Trsf turn;
+        turn.SetRotation(gp_Ax1(gp_Pnt(30, 20, 0), random_axis(draw)), draw.uniform(0, 0.3));
+        part = BRepBuilderAPI_Transform(part, turn, true).Shape();
+    }
+    return part;
+}
+
+TopoDS_Shape placed(const TopoDS_Shape& part)
+{
+    constexpr double kLongest = 40;  // mm
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(part, box, false, false);
+    const gp_Pnt low = box.CornerMin();
+    const gp_Pnt high = box.CornerMax();
+    gp_Trsf move;
+    move.SetTranslation(gp_Vec(-low.X(), -low.Y(), -high.Z()));
+    gp_Trsf scale;
+    scale.SetScale(gp_Pnt(0, 0, 0), kLongest / std::max(high.X() - low.X(), high.Y() - low.Y()));
+    return BRepBuilderAPI_Transform(part, scale * move, true).Shape();
+}
+
+}  // namespace
+
+int main(int count, char** words)
+{
+    if (count != 4) {
+        std::fputs("usage: random_part SEED PART.step MESH.stl\n", stderr);
+        return 2;
+    }
+    Draw draw{std::mt19937{static_cast<unsigned>(std::strtoul(words[1], nullptr, 10))}};
+    const TopoDS_Shape part = placed(random_part(draw));
+    STEPControl_Writer step;
+    step.Transfer(part, STEPControl_AsIs);
+    const bool written = step.Write(words[2]) == IFSelect_RetDone;
+    const BRepMesh_IncrementalMesh mesh{part, kDeflection, false, kTurn};
+    StlAPI_Writer stl;
+    stl.ASCIIMode() = false;
+    return written && stl.Write(part, words[3]) ? 0 : 1;
+}
