@@ -29,6 +29,7 @@ private:
     std::uint32_t glitches_{0};
     std::uint16_t raw_{0};
     std::uint16_t steady_{0};
+    std::uint16_t counted_{0};  // inputs whose counter is above 0
     std::uint8_t ticks_{0};
 };
 

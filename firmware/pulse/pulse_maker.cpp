@@ -196,7 +196,6 @@ void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
 // Moves the edges before `end` into the frame.
 inline void PulseMaker::take_edges(std::uint32_t end, PulseFrame& frame) noexcept
 {
-    frame.edges.clear();
     // Written past the vector's size, which is set at the end: no count is kept in memory.
     PulseEdge* const first = frame.edges.begin();
     PulseEdge* out = first;
@@ -228,14 +227,17 @@ inline void PulseMaker::take_edges(std::uint32_t end, PulseFrame& frame) noexcep
 
 void PulseMaker::compress(PulseFrame& frame) noexcept
 {
-    const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
-    take_edges(end, frame);
-    const std::uint32_t left = edges_end_ - end;
-    for (std::uint32_t i = 0; i < left; ++i) {
-        edges_[i] = edges_[kPulseTicksPerFrame + i];
-        edges_[kPulseTicksPerFrame + i] = 0;
+    frame.edges.clear();
+    if (edges_end_ != 0) {
+        const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
+        take_edges(end, frame);
+        const std::uint32_t left = edges_end_ - end;
+        for (std::uint32_t i = 0; i < left; ++i) {
+            edges_[i] = edges_[kPulseTicksPerFrame + i];
+            edges_[kPulseTicksPerFrame + i] = 0;
+        }
+        edges_end_ = left;
     }
-    edges_end_ = left;
     for (AxisState& axis : axes_) {
         axis.last_rise = std::max(axis.last_rise - kFrame, kLongAgo);
     }

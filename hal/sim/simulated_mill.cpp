@@ -72,6 +72,9 @@ void SimulatedMill::set(const OutputLevels& levels) noexcept
 
 void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame& frame)
 {
+    if (frame.edges.empty()) {
+        return;
+    }
     std::uint64_t taken = 0;
     std::uint64_t plus = 0;
     unsigned levels = levels_;

@@ -29,6 +29,7 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
     std::vector<std::uint64_t> ticks(begins.size(), 0);
     std::size_t operation = 0;
     RunOptions options;
+    options.measures_motion = false;
     options.measures_deviation = false;
     options.sums_edges = false;
     // Set points do not depend on the size of a step, and pulses are a third of a run.

@@ -86,7 +86,8 @@ void add_verify_command(CLI::App& app, Work& work)
     auto* command = app.add_subcommand(
         "verify", "simulate the cut; report gouge, scallop and the remaining stock");
     command->footer(
-        "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
+        "Gouge and scallop are measured square to the surface, in mm, whatever the job's units;\n"
+        "of stock beside a wall scallop_max_mm is the distance from the wall.\n"
         "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
         "plan_tolerance (walls), scallop (on 99 % of what the tools reach; stock on the rest may\n"
         "be no thicker than scallop and floor_tolerance), where a rapid move cuts stock, or where "

@@ -40,7 +40,9 @@ void Instruments::tick()
     controller_.tick_firmware();
     const Position at = motion_.position();
     const std::uint32_t line = motion_.executing_line();
-    statistics_.add(at);
+    if (options_.measures_motion) {
+        statistics_.add(at);
+    }
     tool_times_.add_tick(line);
     const bool on_path = !controller_.machine().changing_tool();
     const double deviation =

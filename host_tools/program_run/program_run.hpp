@@ -57,6 +57,9 @@ struct RunOptions {
     std::optional<double> probe_z;
     // Bits per second of the serial line; 0: lines take no time.
     std::uint32_t bits_per_second{0};
+    // Whether set points are measured: for seconds() and the result's duration_s, total_s, end,
+    // length_mm, max_velocity, max_acceleration and max_jerk.
+    bool measures_motion{true};
     // Whether the deviation from the programmed path is measured.
     bool measures_deviation{true};
     // Receives the path for a measurement elsewhere.

@@ -9,6 +9,7 @@
 #include "host_tools/verify/bands.hpp"
 #include "host_tools/verify/reachable.hpp"
 #include "host_tools/verify/residual_thickness.hpp"
+#include "host_tools/verify/stock_distance.hpp"
 #include "host_tools/verify/tool_access.hpp"
 
 namespace cusp::verify {
@@ -234,10 +235,33 @@ struct Sums {
     std::size_t unreachable{};
     std::size_t uncovered{};
     double total{};
-    std::vector<double> seen;  // where some stock was cut
+    std::vector<std::size_t> seen;  // points where some stock was cut
 };
 
-void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
+// The greatest distance of the stock's top from the material that stays, of points in falling order
+// of their height along the normal.
+double highest_scallop(const FloorQuestion& q,
+                       const Ideal& ideal,
+                       const std::vector<double>& left,
+                       const std::vector<std::size_t>& falling)
+{
+    double most = std::min(left[falling.front()], 0.0);
+    for (const std::size_t k : falling) {
+        if (left[k] <= most) {
+            break;
+        }
+        const double top = std::min(q.cut[k], q.top);
+        most = std::max(most, stock_distance(q.grid, ideal.height, k, top, left[k], most));
+    }
+    return most;
+}
+
+void fill_figures(const FloorQuestion& q,
+                  const Ideal& ideal,
+                  const std::vector<double>& left,
+                  const Sums& sums,
+                  std::size_t cells,
+                  VerifyFigures& figures)
 {
     const auto share = [](std::size_t part, std::size_t whole) {
         return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
@@ -249,15 +273,18 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
     if (sums.seen.empty()) {
         return;
     }
-    std::vector<double> sorted = sums.seen;
-    std::sort(sorted.begin(), sorted.end());
-    figures.scallop_max = sorted.back();
-    const double place = 0.99 * static_cast<double>(sorted.size() - 1);
+    std::vector<std::size_t> falling = sums.seen;
+    std::sort(falling.begin(), falling.end(),
+              [&](std::size_t a, std::size_t b) { return left[a] > left[b]; });
+    figures.scallop_max = highest_scallop(q, ideal, left, falling);
+    const std::size_t last = falling.size() - 1;
+    const double place = 0.99 * static_cast<double>(last);
     const auto low = static_cast<std::size_t>(place);
     const double rest = place - static_cast<double>(low);
-    figures.scallop_p99 =
-        sorted[low] + rest * (sorted[std::min(low + 1, sorted.size() - 1)] - sorted[low]);
-    figures.scallop_mean = sums.total / static_cast<double>(sorted.size());
+    const double below = left[falling[last - low]];
+    const double above = left[falling[last - std::min(low + 1, last)]];
+    figures.scallop_p99 = std::min(below + rest * (above - below), figures.scallop_max);
+    figures.scallop_mean = sums.total / static_cast<double>(falling.size());
 }
 
 // mm: distance of each point from the walls.
@@ -328,7 +355,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         ++cells;
         sums.uncovered += left[k] <= bound ? 0U : 1U;
         if (done) {
-            sums.seen.push_back(left[k]);
+            sums.seen.push_back(k);
             sums.total += left[k];
             figures.left_volume +=
                 std::max(0.0, q.cut[k] - part.z[k]) * q.grid.pitch * q.grid.pitch;
@@ -341,7 +368,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     if (q.scallop) {
         find_thickest(q, ideal, clear, left, figures);
     }
-    fill_figures(sums, cells, figures);
+    fill_figures(q, ideal, left, sums, cells, figures);
     fill_beyond_walls(q, clear, part);
     return {std::move(left), std::move(gouge), std::move(part.z)};
 }

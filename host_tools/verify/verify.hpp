@@ -83,7 +83,9 @@ struct VerifyFigures {
     double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;
-    double scallop_max{};  // stock left above the surface, or above the reachable height
+    // Stock left above the surface, or above the reachable height. Along the normal; the greatest
+    // is no more than the distance of the stock's top from what stays under or beside it.
+    double scallop_max{};
     double scallop_p99{};
     double scallop_mean{};
     double left_volume{};                       // mm^3

@@ -321,7 +321,8 @@ TEST(Verify, RefusesNoSliverThinnerThanTheTolerance)
     }
     const Verification result =
         verify::verify(job, folder.with("p.ngc", program + "M30\n"), settings, [](double) {});
-    CHECK(result.figures.scallop_max > 0.5);
+    // the sliver is 4 mm high and 0.03 mm thick, the columns of heights some tenths apart
+    CHECK(result.figures.scallop_max < 0.2);
     STRCMP_EQUAL("", result.broken.empty() ? "" : result.broken.front().c_str());
 }
 
