@@ -9,7 +9,7 @@
 
 namespace cusp::import {
 
-// solid  whether the face bounds a solid, so that its orientation tells the outside
+// solid  whether the face bounds a solid, so that its orientation says where the outside is
 struct SolidFace {
     TopoDS_Face face;
     bool solid;

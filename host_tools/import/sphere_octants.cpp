@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 
 #include "fmt/format.h"
 
@@ -16,7 +16,6 @@ namespace cusp::import {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChords = 64;  // of an edge, to find its crossings and what is nearest
 
 double parameter(const SphereEdge& edge, int chord)
@@ -148,7 +147,7 @@ private:
 Piece* nearest(std::vector<Piece>& pieces, Vec3d point, bool enters)
 {
     Piece* best = nullptr;
-    double least = kInfinity;
+    double least = kInfinite;
     for (Piece& piece : pieces) {
         const double apart = norm(piece.edge.begin() - point);
         if (!piece.used && piece.enters == enters && apart < least) {
@@ -196,13 +195,13 @@ private:
         return loop;
     }
 
-    // The piece that goes on where this one ends inside the octant; none where the loop is closed.
+    // The piece that begins where this one ends inside the octant; none where the loop is closed.
     Piece* next_of(const Piece& piece, const Piece& first)
     {
         const Vec3d end = piece.edge.end();
         Piece* next = nearest(pieces_, end, false);
-        const double to_next = next != nullptr ? norm(next->edge.begin() - end) : kInfinity;
-        const double to_first = first.enters ? kInfinity : norm(first.edge.begin() - end);
+        const double to_next = next != nullptr ? norm(next->edge.begin() - end) : kInfinite;
+        const double to_first = first.enters ? kInfinite : norm(first.edge.begin() - end);
         if (std::min(to_next, to_first) > gap_) {
             throw InputError(place_ + ": the edges on a sphere do not close");
         }
@@ -214,7 +213,7 @@ private:
     {
         const double from = boundary_.place_of(piece.edge.end());
         Piece* next = nullptr;
-        double least = kInfinity;
+        double least = kInfinite;
         double to = from;
         for (Piece& other : pieces_) {
             const double there = other.enters ? boundary_.place_of(other.edge.begin()) : 0;
@@ -243,7 +242,7 @@ private:
 bool is_left(const std::vector<SphereEdge>& edges, Vec3d p)
 {
     constexpr double kSame = 1e-9;
-    double least = kInfinity;
+    double least = kInfinite;
     double side = 0;
     for (const SphereEdge& edge : edges) {
         Vec3d a = edge.begin();
