@@ -35,6 +35,7 @@ using offset::edges_of;
 using offset::EdgeTree;
 using offset::grown;
 using offset::length;
+using offset::pieces_of;
 using offset::point_on;
 using offset::Region2d;
 using offset::RegionOffset;
@@ -168,18 +169,20 @@ private:
         const double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
         double r = std::min(kHelix * radius_, room);
         r = r < kLeastHelix * radius_ ? 0.0 : r;
-        add_helix(pole, r);
+        const double reached = add_helix(pole, r);
         for (int i = 0; i < 16; ++i) {
             const double angle = 2 * kPi * i / 16;
-            const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * r;
+            const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * reached;
             starts.add(place);
             places_.push_back(place);
         }
     }
 
-    void add_helix(Vec2d centre, double r)
+    // Returns how far from its centre the tool is free to go, at most r (mm).
+    double add_helix(Vec2d centre, double r)
     {
         link_.clear();
+        double reached = 0.0;
         at_ = centre;
         if (r <= 0.0) {
             swept_.add_disc(centre, radius_);
@@ -189,8 +192,10 @@ private:
                 entry_spiral(swept_, centre, r, {settings_.max_engagement, settings_.tolerance});
             result_.engagement_bound = std::max(result_.engagement_bound, spiral.engagement_bound);
             add_run(spiral.path);
+            reached = spiral.radius;
         }
         result_.runs.back().helix = EntryHelix{centre, r};
+        return reached;
     }
 
     // Trochoids into the stock of each neck.
@@ -226,8 +231,8 @@ private:
                 way.begin() + static_cast<std::ptrdiff_t>(stock.last) + 1,
                 [](const NeckPlace& a, const NeckPlace& b) { return a.room < b.room; }) -
             way.begin());
-        const double room = std::min(kHelix * radius_, way[widest].room);
-        add_helix(way[widest].centre, room);
+        const double room =
+            add_helix(way[widest].centre, std::min(kHelix * radius_, way[widest].room));
         cut_neck(way, widest, last, room, space);
         cut_neck(way, widest, first, room, space);
     }
@@ -390,9 +395,14 @@ private:
     }
 
     // Measures and sweeps the path piece by piece.
-    void cut(const std::vector<Edge>& path)
+    void cut(std::vector<Edge> path)
     {
         link_to(path.front().start);
+        if (link_.empty() && !result_.runs.empty()) {
+            if (const auto in = links_.approach(path.front().start)) {
+                path.insert(path.begin(), *in);
+            }
+        }
         OverEngagement over{};
         for (const Edge& edge : path) {
             for (const Edge& piece : pieces_of(edge, kPiece * radius_)) {
@@ -412,18 +422,6 @@ private:
             result_.over.push_back(over);
         }
         add_run(path);
-    }
-
-    static std::vector<Edge> pieces_of(const Edge& edge, double most)
-    {
-        const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / most)));
-        std::vector<Edge> pieces;
-        for (int i = 0; i < n; ++i) {
-            pieces.push_back(
-                between(edge, point_on(edge, static_cast<double>(i) / n),
-                        i + 1 == n ? edge.end : point_on(edge, static_cast<double>(i + 1) / n)));
-        }
-        return pieces;
     }
 
     // Counts what of the piece is over the limit.

@@ -27,6 +27,7 @@ constexpr double kRoom = 0.06;  // the margin and half of kLook
 constexpr double kLook = 0.06;  // between places that are looked at
 constexpr int kFew = 8;         // of them, one is looked at first
 constexpr double kLattice = 0.5;
+constexpr double kCusp = 0.005;  // less than that stays beside a path that was cut
 constexpr double kLongest = 60.0;
 constexpr double kBeside[] = {0.1, 0.2, 0.4, 0.8};
 constexpr int kSides = 16;
@@ -127,6 +128,15 @@ std::optional<Vec2d> KeepDownLinks::beside(Vec2d place) const
         }
     }
     return std::nullopt;
+}
+
+std::optional<offset::Edge> KeepDownLinks::approach(Vec2d start) const
+{
+    if (swept_.engagement(start, {1.0, 0.0}, -kCusp * radius_, kPi) < kNone) {
+        return std::nullopt;
+    }
+    const std::optional<Vec2d> place = beside(start);
+    return place ? std::optional{line_edge(*place, start)} : std::nullopt;
 }
 
 std::vector<LinkLeg> KeepDownLinks::between(Vec2d from, Vec2d to)

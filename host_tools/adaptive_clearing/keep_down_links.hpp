@@ -30,6 +30,10 @@ public:
     // met. Empty where there is no way, or only a long one.
     std::vector<LinkLeg> between(Vec2d from, Vec2d to);
 
+    // For a tool that comes down where stock is near `start`: the move at the feed from a place
+    // without any. None where no stock is near, or no such place.
+    std::optional<offset::Edge> approach(Vec2d start) const;
+
 private:
     using Node = std::uint64_t;  // of the lattice of places
     bool is_room(Vec2d place) const;

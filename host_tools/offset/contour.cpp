@@ -107,6 +107,18 @@ Edge between(const Edge& edge, Vec2d from, Vec2d to)
     return {from, to, edge.centre, edge.radius, edge.turn};
 }
 
+std::vector<Edge> pieces_of(const Edge& edge, double most)
+{
+    const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / most)));
+    std::vector<Edge> pieces;
+    for (int i = 0; i < n; ++i) {
+        pieces.push_back(
+            between(edge, point_on(edge, static_cast<double>(i) / n),
+                    i + 1 == n ? edge.end : point_on(edge, static_cast<double>(i + 1) / n)));
+    }
+    return pieces;
+}
+
 double length(const Contour& contour)
 {
     double sum = 0.0;

@@ -66,6 +66,8 @@ Edge reversed(const Edge& edge);
 
 // The part of the edge between two points on it.
 Edge between(const Edge& edge, Vec2d from, Vec2d to);
+// Equal parts of the edge, each no longer than `most` (mm).
+std::vector<Edge> pieces_of(const Edge& edge, double most);
 
 double length(const Contour& contour);
 double area(const Contour& contour);  // mm^2, > 0 where it runs counter-clockwise
