@@ -352,6 +352,17 @@ bool closed_pocket_holds(unsigned number)
     return holds(region, random_settings(random, number), number);
 }
 
+bool slot_holds(unsigned number)
+{
+    Random random{number};
+    const AdaptiveSettings settings = random_settings(random, number);
+    std::optional<Region2d> region;
+    while (!region) {
+        region = random_slot(random, settings);
+    }
+    return holds(*region, settings, number);
+}
+
 // The stock ends somewhere in the pocket, on two or three sides; none where no side is open.
 std::optional<bool> open_pocket_holds(unsigned number)
 {
@@ -375,12 +386,13 @@ TEST_GROUP(RandomAdaptiveClearing){};
 // Slivers between passes and in corners; passes begun in stock.
 TEST(RandomAdaptiveClearing, SeedsThatOnceFailed)
 {
-    for (const unsigned number : {1001U, 50016U, 60001U}) {
+    for (const unsigned number : {1001U, 50016U, 60001U, 81010U}) {
         CHECK(closed_pocket_holds(number));
     }
     for (const unsigned number : {43U, 107U, 50016U, 50069U}) {
         CHECK(open_pocket_holds(number).value());
     }
+    CHECK(slot_holds(80020));
 }
 
 // The stock is a star of lines and arcs, with a hole in every other case, about a place in the
@@ -457,14 +469,7 @@ TEST(RandomAdaptiveClearing, OpensSlots)
     int wrong = 0;
     std::printf("%d random slots, seeds from %u\n", cases, first);
     for (int i = 0; i < cases; ++i) {
-        const unsigned number = first + static_cast<unsigned>(i);
-        Random random{number};
-        const AdaptiveSettings settings = random_settings(random, number);
-        std::optional<Region2d> region;
-        while (!region) {
-            region = random_slot(random, settings);
-        }
-        wrong += holds(*region, settings, number) ? 0 : 1;
+        wrong += slot_holds(first + static_cast<unsigned>(i)) ? 0 : 1;
     }
     LONGS_EQUAL(0, wrong);
 }
