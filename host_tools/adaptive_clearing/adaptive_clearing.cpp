@@ -25,7 +25,6 @@ namespace cusp::adaptive_clearing {
 
 using job::CutDirection;
 using offset::area;
-using offset::between;
 using offset::Box2d;
 using offset::box_of;
 using offset::connected_parts;

@@ -10,8 +10,6 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/plan_vector.hpp"
 
-#include "fmt/format.h"
-
 namespace cusp::import {
 
 namespace {

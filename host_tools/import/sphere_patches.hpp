@@ -33,7 +33,8 @@ struct Sphere {
 // place  begins the message
 //
 // Returns trimmed surfaces, none for an octant outside the face; du x dv points out of the sphere. Their
-// trims lie within 1e-5 mm of the edges, put on the sphere along its radius.
+// trims lie within 1e-5 mm of the edges, put on the sphere along its radius. Parts of the face narrower
+// than 2e-5 of a patch's side are left out.
 // Errors: InputError where edges do not close, leave the sphere, cross, or bound no face.
 std::vector<nurbs::Surface> sphere_patches(const Sphere& sphere,
                                            const std::vector<SphereEdge>& edges,
