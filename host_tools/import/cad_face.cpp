@@ -50,6 +50,9 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
+// mm: an edge that stands for a point and is longer is told.
+constexpr double kPoint = 0.01;
+
 // The least u and v of all ends of edges.
 gp_Pnt2d least_corner(const TopoDS_Face& face)
 {
@@ -167,17 +170,29 @@ void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, cons
     }
 }
 
+struct WireTrims {
+    std::vector<Curve> curves;
+    std::vector<bool> point_follows;  // for each curve: the next edge of the wire has no length
+};
+
 // The edges of a wire that have a length, in order. BRepTools_WireExplorer stops early where a seam
 // meets a pole. Then each curve is followed by the one that starts nearest to its end in (u, v).
-std::vector<Curve> loop_of(const TopoDS_Wire& wire,
-                           const TopoDS_Face& face,
-                           const std::string& place)
+WireTrims trims_of(const TopoDS_Wire& wire, const TopoDS_Face& face, const std::string& place)
 {
-    std::vector<Curve> walked;
+    WireTrims walked;
+    bool begins_at_point = false;
     for (BRepTools_WireExplorer at{wire, face}; at.More(); at.Next()) {
         if (!BRep_Tool::Degenerated(at.Current())) {
-            walked.push_back(trim_of(at.Current(), face, place));
+            walked.curves.push_back(trim_of(at.Current(), face, place));
+            walked.point_follows.push_back(false);
+        } else if (walked.curves.empty()) {
+            begins_at_point = true;
+        } else {
+            walked.point_follows.back() = true;
         }
+    }
+    if (begins_at_point && !walked.curves.empty()) {
+        walked.point_follows.back() = true;
     }
     std::vector<Curve> all;
     for (TopExp_Explorer edges{wire.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; edges.More();
@@ -187,7 +202,7 @@ std::vector<Curve> loop_of(const TopoDS_Wire& wire,
             all.push_back(trim_of(edge, face, place));
         }
     }
-    if (walked.size() >= all.size()) {
+    if (walked.curves.size() >= all.size()) {
         return walked;
     }
     if (wire.Orientation() == TopAbs_REVERSED) {
@@ -204,7 +219,7 @@ std::vector<Curve> loop_of(const TopoDS_Wire& wire,
                              });
         std::swap(all[i + 1], *next);
     }
-    return all;
+    return {all, std::vector<bool>(all.size(), false)};
 }
 
 // Whether the wire runs along seams and poles alone: the edge of the whole of a ball or ring, which
@@ -222,20 +237,22 @@ bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
     return any;
 }
 
-void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface)
+void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface, CadModel& model)
 {
     std::vector<Curve> curves;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
         if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
             continue;
         }
-        std::vector<Curve> loop = loop_of(TopoDS::Wire(wires.Current()), face, place);
+        auto [loop, point_follows] = trims_of(TopoDS::Wire(wires.Current()), face, place);
         shift_into_domain(loop, face, surface);
         if (loop.empty()) {
             continue;
         }
         tidy(loop, surface);
-        bridge_poles(loop, surface);
+        const double longest = bridge_points(loop, point_follows, surface);
+        model.faces_beside_points += longest > kPoint ? 1 : 0;
+        model.longest_point = std::max(model.longest_point, longest);
         curves.insert(curves.end(), loop.begin(), loop.end());
     }
     surface.trims = trim_loops(curves, surface, place);
@@ -267,11 +284,14 @@ bool looks_up(const Surface& s, double outwards)
 }
 
 // One face with its trims.
-Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::string& place)
+Surface trimmed_surface(const TopoDS_Face& face,
+                        Surface surface,
+                        const std::string& place,
+                        CadModel& model)
 {
     check_surface(surface, place);
     surface = clamped(surface);
-    add_trims(face, place, surface);
+    add_trims(face, place, surface, model);
     return surface;
 }
 
@@ -296,7 +316,7 @@ void add_converted_face(const SolidFace& found,
     }
     try {
         check_conversion(found.face, face, place);
-        model.faces.push_back(trimmed_surface(face, surface, place));
+        model.faces.push_back(trimmed_surface(face, surface, place, model));
         model.outwards.push_back(found.solid ? outwards : 0.0);
     } catch (const InputError&) {
         if (!is_below) {
@@ -341,6 +361,8 @@ bool add_pieces(
     if (pieces.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
         return false;
     }
+    model.faces_beside_points += pieces.faces_beside_points;
+    model.longest_point = std::max(model.longest_point, pieces.longest_point);
     for (std::size_t k = 0; k < pieces.faces.size(); ++k) {
         if (all_faces || !found.solid || looks_up(pieces.faces[k], pieces.outwards[k])) {
             model.faces.push_back(std::move(pieces.faces[k]));

@@ -52,9 +52,28 @@ CadModel read_model(const std::string& file, const Similarity& placed, bool all_
 
 }  // namespace
 
-std::vector<Surface> read_cad_surfaces(const std::string& file, const Similarity& placed)
+std::vector<Surface> read_cad_surfaces(const std::string& file,
+                                       const Similarity& placed,
+                                       std::vector<std::string>* notes)
 {
-    return read_model(file, placed, false).faces;
+    CadModel model = read_model(file, placed, false);
+    if (notes != nullptr) {
+        const std::vector<std::string> found = notes_of(model, file);
+        notes->insert(notes->end(), found.begin(), found.end());
+    }
+    return std::move(model.faces);
+}
+
+std::vector<std::string> notes_of(const CadModel& model, const std::string& file)
+{
+    if (model.faces_beside_points == 0) {
+        return {};
+    }
+    return {fmt::format(
+        "{}: {} {} an edge that the file makes a point, but which is up to {:.3g} mm long; the "
+        "faces end there as their surfaces do",
+        file, model.faces_beside_points, model.faces_beside_points == 1 ? "face has" : "faces have",
+        model.longest_point)};
 }
 
 CadModel read_cad_model(const std::string& file) { return read_model(file, {}, true); }

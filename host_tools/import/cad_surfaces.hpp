@@ -22,18 +22,27 @@ namespace cusp::import {
 //
 // Errors: InputError with the file and the reason: no such file, not STEP, IGES or BREP, no upward
 // face, contradicting trims, no libcusp_cad.so.
+//
+// notes  what is wrong in the file and was mended, in words; may be null
 std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
-                                              const Similarity& placed = {});
+                                              const Similarity& placed = {},
+                                              std::vector<std::string>* notes = nullptr);
 
 // The faces of a model, and facts about the file.
 struct CadModel {
     std::string unit;      // of length, as named in the file; "": it names none
     std::size_t solids{};  // volumes that faces close
     std::size_t unread{};  // faces of solids without an upward normal and with broken edges
+    // Edges that stand for a point, but have a length on the surface: of how many faces, mm.
+    std::size_t faces_beside_points{};
+    double longest_point{};
     std::vector<nurbs::Surface> faces;  // all others, in mm
     std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1
                                         // if into it; 0: the face belongs to no solid
 };
+
+// What is wrong in the file and was mended, in words.
+std::vector<std::string> notes_of(const CadModel& model, const std::string& file);
 
 // As read_cad_surfaces(), but faces of solids without an upward normal are kept.
 CadModel read_cad_model(const std::string& file);

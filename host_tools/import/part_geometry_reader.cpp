@@ -142,6 +142,7 @@ void take_model(PartGeometry& part, const std::string& file)
     part.unit = model.unit.empty() ? unit_of(1, true) : PartUnit{model.unit, 0, false};
     part.solids = model.solids;
     part.unread_faces = model.unread;
+    part.notes = notes_of(model, file);
     part.outwards = std::move(model.outwards);
     take_surfaces(part, std::move(model.faces));
 }

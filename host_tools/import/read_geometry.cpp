@@ -136,7 +136,7 @@ std::vector<Surface> read_surfaces(const std::string& file,
                                    const Similarity& placed)
 {
     if (is_cad_file(file)) {
-        return read_cad_surfaces(file, placed);
+        return read_cad_surfaces(file, placed, notes);
     }
     std::vector<Surface> surfaces;
     if (path_ending(file) == ".json") {

@@ -80,6 +80,21 @@ void pull_inside(Curve& curve, const Surface& s)
     curve = chords;
 }
 
+// mm: of a line in (u, v) on the surface, by chords.
+double length_on(const Surface& s, Vec3d from, Vec3d to)
+{
+    constexpr int kChords = 16;
+    double length = 0;
+    Vec3d last = point_at(s, from.x, from.y);
+    for (int k = 1; k <= kChords; ++k) {
+        const Vec3d at = from + (to - from) * (1.0 * k / kChords);
+        const Vec3d next = point_at(s, at.x, at.y);
+        length += norm(next - last);
+        last = next;
+    }
+    return length;
+}
+
 }  // namespace
 
 void tidy(std::vector<Curve>& loop, const Surface& s)
@@ -99,22 +114,27 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-void bridge_poles(std::vector<Curve>& loop, const Surface& s)
+double bridge_points(std::vector<Curve>& loop,
+                     const std::vector<bool>& point_follows,
+                     const Surface& s)
 {
-    for (std::size_t i = loop.size(); i-- > 0;) {
-        const Vec3d end = loop[i].points.back();
-        const Vec3d next = loop[(i + 1) % loop.size()].points.front();
+    const auto meets_pole = [&s](Vec3d end, Vec3d next) {
         const bool along_side =
             std::abs(end.x - next.x) <= kSameVertex * (s.u_end() - s.u_begin()) ||
             std::abs(end.y - next.y) <= kSameVertex * (s.v_end() - s.v_begin());
-        const Vec3d middle = 0.5 * (end + next);
-        const Vec3d pole = point_at(s, end.x, end.y);
-        if (!(end == next) && along_side && norm(point_at(s, next.x, next.y) - pole) < kSamePole &&
-            norm(point_at(s, middle.x, middle.y) - pole) < kSamePole) {
+        return along_side && length_on(s, end, next) < kSamePole;
+    };
+    double longest = 0;
+    for (std::size_t i = loop.size(); i-- > 0;) {
+        const Vec3d end = loop[i].points.back();
+        const Vec3d next = loop[(i + 1) % loop.size()].points.front();
+        if (!(end == next) && (point_follows[i] || meets_pole(end, next))) {
+            longest = std::max(longest, length_on(s, end, next));
             loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                         Curve{1, {0, 0, 1, 1}, {end, next}, {1, 1}});
         }
     }
+    return longest;
 }
 
 }  // namespace cusp::import

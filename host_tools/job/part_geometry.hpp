@@ -71,8 +71,9 @@ struct PartGeometry {
     // One value for each surface: +1 if du x dv points out of its solid, -1 if into it; 0: of no solid. Empty
     // where the file has no solids.
     std::vector<double> outwards;
-    std::size_t solids{};        // STEP, IGES and BREP
-    std::size_t unread_faces{};  // that face down and have broken edges
+    std::size_t solids{};            // STEP, IGES and BREP
+    std::size_t unread_faces{};      // that face down and have broken edges
+    std::vector<std::string> notes;  // on what was wrong in the file and was mended
 
     std::vector<std::array<Vec3d, 3>> triangles;
     std::size_t degenerate{};  // facets without area, left out

@@ -154,6 +154,7 @@ Json part_json(const PartInfo& info)
         out["faces"] = info.pieces;
         out["solids"] = info.part.solids;
         out["unread_faces"] = info.part.unread_faces;
+        out["notes"] = info.part.notes;
     }
     if (info.ground) {
         add_ground(*info.ground, out);

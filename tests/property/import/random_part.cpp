@@ -1,5 +1,7 @@
 // random_part SEED PART.step MESH.stl: a block with boxes, cylinders, cones, balls and rings added or cut
-// away, some edges rounded or chamfered, sometimes turned; and Open CASCADE's own mesh of it.
+// away, some edges rounded or chamfered, sometimes turned; and Open CASCADE's own mesh of it. Prints the
+// largest tolerance of its edges and vertices, mm: Open CASCADE may shrink a short side of a fillet to a
+// vertex with a tolerance of half its length, and the mesh is no truer than that.
 //
 // Its least x and y are 0, its top z = 0, its longest side at most 40 mm.
 #include <algorithm>
@@ -22,6 +24,7 @@
 #include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
 #include "opencascade/BRepPrimAPI_MakeSphere.hxx"
 #include "opencascade/BRepPrimAPI_MakeTorus.hxx"
+#include "opencascade/BRep_Tool.hxx"
 #include "opencascade/Bnd_Box.hxx"
 #include "opencascade/STEPControl_Writer.hxx"
 #include "opencascade/Standard_Failure.hxx"
@@ -167,5 +170,7 @@ int main(int count, char** words)
     const BRepMesh_IncrementalMesh mesh{part, kDeflection, false, kTurn};
     StlAPI_Writer stl;
     stl.ASCIIMode() = false;
+    std::printf("tolerance %.6f mm\n", std::max(BRep_Tool::MaxTolerance(part, TopAbs_EDGE),
+                                                BRep_Tool::MaxTolerance(part, TopAbs_VERTEX)));
     return written && stl.Write(part, words[3]) ? 0 : 1;
 }

@@ -12,6 +12,7 @@
 #include "opencascade/BRepBuilderAPI_MakeWire.hxx"
 #include "opencascade/BRepBuilderAPI_Transform.hxx"
 #include "opencascade/BRepGProp.hxx"
+#include "opencascade/BRepLib.hxx"
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
 #include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
 #include "opencascade/BRepPrimAPI_MakeSphere.hxx"
@@ -19,6 +20,7 @@
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRep_Builder.hxx"
 #include "opencascade/GProp_GProps.hxx"
+#include "opencascade/Geom2d_Line.hxx"
 #include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
 #include "opencascade/Geom_SphericalSurface.hxx"
@@ -27,9 +29,14 @@
 #include "opencascade/Interface_Static.hxx"
 #include "opencascade/STEPControl_Controller.hxx"
 #include "opencascade/STEPControl_Writer.hxx"
+#include "opencascade/TColStd_Array1OfInteger.hxx"
+#include "opencascade/TColStd_Array1OfReal.hxx"
 #include "opencascade/TColgp_Array2OfPnt.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS_Compound.hxx"
+#include "opencascade/TopoDS_Edge.hxx"
+#include "opencascade/TopoDS_Face.hxx"
+#include "opencascade/TopoDS_Vertex.hxx"
 #include "opencascade/TopoDS_Wire.hxx"
 #include "opencascade/gp_Ax1.hxx"
 #include "opencascade/gp_Ax2.hxx"
@@ -321,6 +328,63 @@ TEST(CadSurfaces, OfABallWithAHoleWithoutASeamAreAllButTheHole)
     // both halves, without the cap's disc seen from above
     DOUBLES_EQUAL(kPi * (2 * 100 - 19 * towards.Z()), seen_from_above(read_surfaces(file)).area,
                   1.0);
+}
+
+// A square of 10 whose side at y = 10 is said to be a point, as Open CASCADE leaves fillets that run out.
+TEST(CadSurfaces, OfAFaceWithASideThatIsSaidToBeAPointAreWhole)
+{
+    TColgp_Array2OfPnt poles(1, 2, 1, 2);
+    for (int i = 0; i < 4; ++i) {
+        poles.SetValue(i / 2 + 1, i % 2 + 1, gp_Pnt(10 * (i / 2), 10 * (i % 2), i == 3 ? 1 : 0));
+    }
+    TColStd_Array1OfReal knots(1, 2);
+    knots.SetValue(1, 0);
+    knots.SetValue(2, 10);
+    TColStd_Array1OfInteger ends(1, 2);
+    ends.Init(2);
+    const Handle(Geom_BSplineSurface) patch =
+        new Geom_BSplineSurface(poles, knots, knots, ends, ends, 1, 1);
+    const BRep_Builder builder;
+    TopoDS_Face face;
+    builder.MakeFace(face, patch, 1e-7);
+    const auto vertex = [&](const gp_Pnt& at, double tolerance) {
+        TopoDS_Vertex made;
+        builder.MakeVertex(made, at, tolerance);
+        return made;
+    };
+    const TopoDS_Vertex a = vertex(gp_Pnt(0, 0, 0), 1e-7);
+    const TopoDS_Vertex b = vertex(gp_Pnt(10, 0, 0), 1e-7);
+    const TopoDS_Vertex c = vertex(gp_Pnt(5, 10, 0.5), 5.1);
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    const auto add = [&](const TopoDS_Vertex& from, const TopoDS_Vertex& to, const gp_Pnt2d& at,
+                         const gp_Dir2d& along, bool is_point) {
+        TopoDS_Edge edge;
+        builder.MakeEdge(edge);
+        const Handle(Geom2d_Line) line = new Geom2d_Line(at, along);
+        builder.UpdateEdge(edge, line, face, 1e-7);
+        builder.Add(edge, from.Oriented(TopAbs_FORWARD));
+        builder.Add(edge, to.Oriented(TopAbs_REVERSED));
+        builder.Range(edge, 0, 10);
+        builder.Degenerated(edge, is_point);
+        if (!is_point) {
+            BRepLib::BuildCurve3d(edge);
+        }
+        builder.Add(wire, edge);
+    };
+    add(a, b, gp_Pnt2d(0, 0), gp_Dir2d(1, 0), false);
+    add(b, c, gp_Pnt2d(10, 0), gp_Dir2d(0, 1), false);
+    add(c, c, gp_Pnt2d(10, 10), gp_Dir2d(-1, 0), true);
+    add(c, a, gp_Pnt2d(0, 10), gp_Dir2d(0, -1), false);
+    builder.Add(face, wire);
+    const std::string file = folder.file("point.brep");
+    CHECK(BRepTools::Write(face, file.c_str()));
+    const CadModel model = read_cad_model(file);
+    DOUBLES_EQUAL(100, seen_from_above(model.faces).area, 0.1);
+    LONGS_EQUAL(1, model.faces_beside_points);
+    DOUBLES_EQUAL(std::sqrt(101.0), model.longest_point, 1e-6);
+    STRCMP_CONTAINS("1 face has an edge that the file makes a point",
+                    notes_of(model, file)[0].c_str());
 }
 
 // A wire of the ring crosses both its seams. The area of all faces in plan is twice that of the upper
