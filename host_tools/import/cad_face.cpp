@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/cad_face_patches.hpp"
 #include "host_tools/import/cad_face_pieces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
-#include "host_tools/import/sphere_patches.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -15,7 +16,6 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
-#include "opencascade/BRepAdaptor_Surface.hxx"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRepTools_WireExplorer.hxx"
@@ -30,7 +30,6 @@
 #include "opencascade/TopoDS.hxx"
 #include "opencascade/TopoDS_Edge.hxx"
 #include "opencascade/TopoDS_Wire.hxx"
-#include "opencascade/gp_Sphere.hxx"
 
 namespace cusp::import {
 
@@ -50,7 +49,7 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-// mm: an edge that stands for a point and is longer is told.
+// mm: an edge of no length in the file that is longer on the surface is reported.
 constexpr double kPoint = 0.01;
 
 // The least u and v of all ends of edges.
@@ -372,27 +371,18 @@ bool add_pieces(
     return true;
 }
 
-// As add_whole_face(), for a face of a sphere whose edges in space are good. Returns false for others.
-bool add_sphere_patches(const SolidFace& found,
-                        bool all_faces,
-                        const std::string& place,
-                        CadModel& model)
+// As add_whole_face(), for a face whose edges in space are good. Returns false for others.
+bool add_patches(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
 {
-    const BRepAdaptor_Surface adaptor{found.face};
-    if (adaptor.GetType() != GeomAbs_Sphere) {
-        return false;
-    }
-    const gp_Sphere sphere = adaptor.Sphere();
-    const bool mirrored = !sphere.Position().Direct();
-    const bool inwards = (found.face.Orientation() == TopAbs_REVERSED) != mirrored;
-    const double outwards = inwards ? -1.0 : 1.0;
     try {
-        for (Surface& patch :
-             sphere_patches({vec_of(sphere.Location()), sphere.Radius()},
-                            edges_in_space(found.face, mirrored), allowed_off(found.face), place)) {
-            if (all_faces || !found.solid || looks_up(patch, outwards)) {
+        std::optional<FacePatches> patches = patches_of(found.face, place);
+        if (!patches) {
+            return false;
+        }
+        for (Surface& patch : patches->surfaces) {
+            if (all_faces || !found.solid || looks_up(patch, patches->outwards)) {
                 model.faces.push_back(std::move(patch));
-                model.outwards.push_back(found.solid ? outwards : 0.0);
+                model.outwards.push_back(found.solid ? patches->outwards : 0.0);
             }
         }
     } catch (const InputError&) {
@@ -413,7 +403,7 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     try {
         add_whole_face(found, all_faces, place, model);
     } catch (const InputError&) {
-        if (!add_sphere_patches(found, all_faces, place, model) &&
+        if (!add_patches(found, all_faces, place, model) &&
             !add_pieces(found, kQuarter, all_faces, place, model) &&
             !add_pieces(found, kOther, all_faces, place, model)) {
             throw;

@@ -130,9 +130,9 @@ double allowed_off(const TopoDS_Face& face)
                     kMore * BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
 }
 
-std::vector<SphereEdge> edges_in_space(const TopoDS_Face& face, bool backwards)
+std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards)
 {
-    std::vector<SphereEdge> edges;
+    std::vector<FaceEdge> edges;
     for (TopExp_Explorer at{face.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; at.More(); at.Next()) {
         const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
         double from = 0;

@@ -30,7 +30,7 @@ double allowed_off(const TopoDS_Face& face);
 
 // The edges of a face, forward oriented, without seams and poles. Seen from where the normal of its
 // surface points to, the face lies on their left; on their right with `backwards`.
-std::vector<SphereEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
+std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
 
 // Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
 // (u, v) that lie millimetres beside their edges. allowed_off() is allowed.

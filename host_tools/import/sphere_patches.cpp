@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/import/trim_fit.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
@@ -37,12 +37,12 @@ Axes axes_of(Vec3d first, Vec3d beside)
 }
 
 // Edges in other axes, put on the unit sphere.
-std::vector<SphereEdge> on_unit_sphere(const std::vector<SphereEdge>& edges,
-                                       Vec3d centre,
-                                       const Axes& axes)
+std::vector<FaceEdge> on_unit_sphere(const std::vector<FaceEdge>& edges,
+                                     Vec3d centre,
+                                     const Axes& axes)
 {
-    std::vector<SphereEdge> out;
-    for (const SphereEdge& edge : edges) {
+    std::vector<FaceEdge> out;
+    for (const FaceEdge& edge : edges) {
         out.push_back({[at = edge.at, centre, axes](double t) {
                            const PointAndTangent found = at(t);
                            const Vec3d p = into(axes, found.point - centre);
@@ -56,7 +56,7 @@ std::vector<SphereEdge> on_unit_sphere(const std::vector<SphereEdge>& edges,
 }
 
 // The axes whose planes cut the edges best, of some that are spread evenly.
-Axes best_axes(const std::vector<SphereEdge>& edges, Vec3d centre)
+Axes best_axes(const std::vector<FaceEdge>& edges, Vec3d centre)
 {
     constexpr int kChoices = 40;
     constexpr double kGoldenAngle = 2.39996322972865332;
@@ -104,13 +104,8 @@ Surface patch(const Sphere& sphere, const Axes& axes)
     return s;
 }
 
-struct UvAndTangent {
-    Vec3d uv;  // z = 0
-    Vec3d tangent;
-};
-
 // (u, v) on the patch about the x axis of `axes`, of a point of the unit sphere; |latitude| < 90 degrees.
-UvAndTangent uv_of(const Axes& axes, const PointAndTangent& found)
+PointAndTangent uv_of(const Axes& axes, const PointAndTangent& found)
 {
     const Vec3d p = into(axes, found.point);
     const Vec3d d = into(axes, found.tangent);
@@ -130,97 +125,13 @@ UvAndTangent uv_of(const Axes& axes, const PointAndTangent& found)
             {slope(longitude) * turn, slope(latitude) * rise, 0}};
 }
 
-// Bezier spans of degree 3 that meet an edge's ends and tangents, halved until they are near it.
-class TrimFit {
-public:
-    TrimFit(const Axes& axes, double tolerance) : axes_{axes}, tolerance_{tolerance} {}
-
-    std::vector<Curve> fit(const SphereLoop& loop)
-    {
-        std::vector<Curve> curves;
-        for (const SphereEdge& edge : loop) {
-            curves.push_back(fit(edge));
-        }
-        for (std::size_t k = 0; k < curves.size(); ++k) {
-            curves[k].points.back() = curves[(k + 1) % curves.size()].points.front();
-        }
-        return curves;
-    }
-
-private:
-    Curve fit(const SphereEdge& edge)
-    {
-        curve_ = {3, {}, {}, {}};
-        add(edge, uv_of(axes_, edge.at(edge.from)), uv_of(axes_, edge.at(edge.to)), 0);
-        const auto spans = (curve_.points.size() - 1) / 3;
-        for (std::size_t k = 0; k <= spans; ++k) {
-            curve_.knots.insert(curve_.knots.end(), k == 0 || k == spans ? 4 : 3,
-                                static_cast<double>(k));
-        }
-        curve_.weights.assign(curve_.points.size(), 1);
-        return curve_;
-    }
-
-    void add(const SphereEdge& edge, const UvAndTangent& a, const UvAndTangent& b, int depth)
-    {
-        constexpr int kMostHalvings = 12;
-        const double third = (edge.to - edge.from) / 3;
-        const std::array<Vec3d, 4> span{a.uv, a.uv + a.tangent * third, b.uv - b.tangent * third,
-                                        b.uv};
-        if (depth == kMostHalvings || is_near(edge, span)) {
-            if (curve_.points.empty()) {
-                curve_.points.push_back(span[0]);
-            }
-            curve_.points.insert(curve_.points.end(), span.begin() + 1, span.end());
-            return;
-        }
-        const double middle = 0.5 * (edge.from + edge.to);
-        const UvAndTangent between = uv_of(axes_, edge.at(middle));
-        add({edge.at, edge.from, middle}, a, between, depth + 1);
-        add({edge.at, middle, edge.to}, between, b, depth + 1);
-    }
-
-    bool is_near(const SphereEdge& edge, const std::array<Vec3d, 4>& span) const
-    {
-        constexpr int kLooks = 6;
-        for (int k = 1; k < kLooks; ++k) {
-            const double t = 1.0 * k / kLooks;
-            const double r = 1 - t;
-            const Vec3d fitted = span[0] * (r * r * r) + span[1] * (3 * r * r * t) +
-                                 span[2] * (3 * r * t * t) + span[3] * (t * t * t);
-            const Vec3d exact = uv_of(axes_, edge.at(edge.from + (edge.to - edge.from) * t)).uv;
-            if (norm(fitted - exact) > tolerance_) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    const Axes& axes_;
-    double tolerance_;
-    Curve curve_;
-};
-
-// Whether trim_loops() sees an area: a plane may touch an edge, or cut off less than can be cut.
-bool has_width(const std::vector<Curve>& loop)
-{
-    constexpr double kChord = 1e-6;  // of (u, v), as the next
-    constexpr double kLeastWidth = 2e-5;
-    const std::vector<Vec2d> closed = job::loop_polyline(loop, kChord);
-    double length = 0;
-    for (std::size_t i = 1; i < closed.size(); ++i) {
-        length += norm(closed[i] - closed[i - 1]);
-    }
-    return std::abs(job::signed_area(closed)) > kLeastWidth * length;
-}
-
 void check_on_sphere(const Sphere& sphere,
-                     const std::vector<SphereEdge>& edges,
+                     const std::vector<FaceEdge>& edges,
                      double gap,
                      const std::string& place)
 {
     constexpr int kLooks = 24;
-    for (const SphereEdge& edge : edges) {
+    for (const FaceEdge& edge : edges) {
         for (int k = 0; k <= kLooks; ++k) {
             const Vec3d p = edge.at(edge.from + (edge.to - edge.from) * k / kLooks).point;
             const double off = std::abs(norm(p - sphere.centre) - sphere.radius);
@@ -237,7 +148,7 @@ void check_on_sphere(const Sphere& sphere,
 }  // namespace
 
 std::vector<Surface> sphere_patches(const Sphere& sphere,
-                                    const std::vector<SphereEdge>& edges,
+                                    const std::vector<FaceEdge>& edges,
                                     double gap,
                                     const std::string& place)
 {
@@ -245,7 +156,7 @@ std::vector<Surface> sphere_patches(const Sphere& sphere,
     constexpr double kMostSlope = 2.4;  // radians by u or v: 4 tan(30 degrees) and some
     check_on_sphere(sphere, edges, gap, place);
     const Axes axes = best_axes(edges, sphere.centre);
-    const std::vector<SphereEdge> turned = on_unit_sphere(edges, sphere.centre, axes);
+    const std::vector<FaceEdge> turned = on_unit_sphere(edges, sphere.centre, axes);
     std::vector<Surface> patches;
     for (const SphereOctant& octant : sphere_octants(turned, gap / sphere.radius, place)) {
         if (octant.loops.empty()) {
@@ -257,10 +168,13 @@ std::vector<Surface> sphere_patches(const Sphere& sphere,
             outside[k] = axes[0] * local[k].x + axes[1] * local[k].y + axes[2] * local[k].z;
         }
         Surface s = patch(sphere, outside);
-        TrimFit trims{local, kTrim / (kMostSlope * sphere.radius)};
+        const auto uv = [&local](const PointAndTangent& at) {
+            return uv_of(local, at);
+        };
         std::vector<Curve> curves;
-        for (const SphereLoop& loop : octant.loops) {
-            const std::vector<Curve> fitted = trims.fit(loop);
+        for (const FaceLoop& loop : octant.loops) {
+            const std::vector<Curve> fitted =
+                fitted_trims(loop, uv, kTrim / (kMostSlope * sphere.radius));
             if (has_width(fitted)) {
                 curves.insert(curves.end(), fitted.begin(), fitted.end());
             }

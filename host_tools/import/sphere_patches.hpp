@@ -1,7 +1,7 @@
 // Faces of spheres in patches that meet no seam and no pole.
 //
 //   // the cap above a circle of radius 6 about z, on a sphere of radius 10 about the origin
-//   const SphereEdge circle{[](double t) {
+//   const FaceEdge circle{[](double t) {
 //       return PointAndTangent{{6 * std::cos(t), 6 * std::sin(t), 8},
 //                              {-6 * std::sin(t), 6 * std::cos(t), 0}};
 //   }, 0, 2 * kPi};
@@ -37,7 +37,7 @@ struct Sphere {
 // than 2e-5 of a patch's side are left out.
 // Errors: InputError where edges do not close, leave the sphere, cross, or bound no face.
 std::vector<nurbs::Surface> sphere_patches(const Sphere& sphere,
-                                           const std::vector<SphereEdge>& edges,
+                                           const std::vector<FaceEdge>& edges,
                                            double gap,
                                            const std::string& place);
 

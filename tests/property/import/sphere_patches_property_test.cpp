@@ -11,8 +11,8 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/import/sphere_patches.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/patch_cover.hpp"
 #include "tests/support/property_cases.hpp"
 
 #include "fmt/format.h"
@@ -76,9 +76,9 @@ void add_meetings(const Side& side, const Side& other, std::vector<double>& angl
 }
 
 // The edges of what all sides keep, on a sphere; some run against their parameter.
-std::vector<SphereEdge> edges_of(const std::vector<Side>& sides, const Sphere& sphere)
+std::vector<FaceEdge> edges_of(const std::vector<Side>& sides, const Sphere& sphere)
 {
-    std::vector<SphereEdge> edges;
+    std::vector<FaceEdge> edges;
     for (std::size_t i = 0; i < sides.size(); ++i) {
         std::vector<double> angles;
         for (std::size_t j = 0; j < sides.size(); ++j) {
@@ -119,48 +119,6 @@ std::vector<SphereEdge> edges_of(const std::vector<Side>& sides, const Sphere& s
     return edges;
 }
 
-// The (u, v) of a point on a patch, by Newton's method from its middle; outside [0, 1] where it has none.
-Vec2d uv_on(const nurbs::Surface& s, Vec3d p)
-{
-    Vec2d uv{0.5, 0.5};
-    for (int i = 0; i < 50; ++i) {
-        const nurbs::SurfacePoint at = derivatives_at(s, uv.x, uv.y);
-        const Vec3d apart = p - at.point;
-        const double step_u = dot(apart, at.du) / dot(at.du, at.du);
-        const double step_v = dot(apart, at.dv) / dot(at.dv, at.dv);
-        uv = {std::clamp(uv.x + step_u, 0.0, 1.0), std::clamp(uv.y + step_v, 0.0, 1.0)};
-    }
-    return norm(point_at(s, uv.x, uv.y) - p) < 1e-6 * norm(p - point_at(s, 0.5, 0.5)) + 1e-9
-               ? uv
-               : Vec2d{-1, -1};
-}
-
-struct Patch {
-    nurbs::Surface surface;
-    std::vector<std::vector<Vec2d>> loops;
-};
-
-bool holds(const Patch& patch, Vec3d p)
-{
-    const Vec2d uv = uv_on(patch.surface, p);
-    if (uv.x < 0) {
-        return false;
-    }
-    bool inside = false;
-    for (const std::vector<Vec2d>& loop : patch.loops) {
-        inside = inside != job::encloses(loop, uv);
-    }
-    return inside;
-}
-
-// Of a point of the unit sphere.
-std::ptrdiff_t held_by(const std::vector<Patch>& patches, const Sphere& sphere, Vec3d p)
-{
-    return std::count_if(patches.begin(), patches.end(), [&](const Patch& patch) {
-        return holds(patch, sphere.centre + p * sphere.radius);
-    });
-}
-
 // Trims are chords here.
 bool is_near_a_side(const std::vector<Side>& sides, Vec3d p)
 {
@@ -177,18 +135,13 @@ std::string wrong_of(unsigned seed)
     const Sphere sphere{{draw.uniform(-50, 50), draw.uniform(-50, 50), draw.uniform(-50, 50)},
                         draw.uniform(0.5, 60)};
     const std::vector<Side> sides = random_sides(draw);
-    const std::vector<SphereEdge> edges = edges_of(sides, sphere);
+    const std::vector<FaceEdge> edges = edges_of(sides, sphere);
     if (edges.empty()) {
         return {};  // nothing is kept
     }
-    std::vector<Patch> patches;
+    test::PatchCover cover;
     try {
-        for (nurbs::Surface& surface : sphere_patches(sphere, edges, 1e-6, "a face")) {
-            patches.push_back({std::move(surface), {}});
-            for (const auto& loop : patches.back().surface.trims) {
-                patches.back().loops.push_back(job::loop_polyline(loop, 1e-6));
-            }
-        }
+        cover = test::PatchCover{sphere_patches(sphere, edges, 1e-6, "a face")};
     } catch (const InputError& error) {
         return fmt::format("seed {}: {}", seed, error.what());
     }
@@ -201,9 +154,10 @@ std::string wrong_of(unsigned seed)
                                       [&](const Side& side) { return side.keeps(p); });
         // patches meet within their trims' tolerance: a point between two of them is moved
         const Vec3d beside = p + random_direction(draw) * 1e-4;
-        const auto held = held_by(patches, sphere, p);
+        const auto held = cover.patches_at(sphere.centre + p * sphere.radius);
         if (held != (kept ? 1 : 0) &&
-            held_by(patches, sphere, beside / norm(beside)) != (kept ? 1 : 0)) {
+            cover.patches_at(sphere.centre + beside * (sphere.radius / norm(beside))) !=
+                (kept ? 1 : 0)) {
             return fmt::format("seed {}: {} patches hold ({} {} {}), {} expected", seed, held, p.x,
                                p.y, p.z, kept ? 1 : 0);
         }

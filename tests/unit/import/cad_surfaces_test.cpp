@@ -95,21 +95,26 @@ struct Seen {
     double high{-1e9};
 };
 
-// By squares in (u, v).
+// By places spread evenly in (u, v), not in rows: trims that run along rows would count whole rows.
 Seen seen_from_above(const std::vector<Surface>& surfaces)
 {
     constexpr int kLooks = 200;
+    constexpr double kGolden = 0.61803398874989485;
+    const auto in_row = [](int at, int row) {
+        const double shift = kGolden * row;
+        return at + shift - std::floor(shift);
+    };
     Seen seen;
     for (const Surface& s : surfaces) {
         std::vector<std::vector<Vec2d>> loops;
         for (const auto& loop : s.trims) {
-            loops.push_back(loop_polyline(loop, 1e-3));
+            loops.push_back(loop_polyline(loop, 1e-5 * (s.u_end() - s.u_begin())));
         }
         const double du = (s.u_end() - s.u_begin()) / kLooks;
         const double dv = (s.v_end() - s.v_begin()) / kLooks;
         for (int k = 0; k < kLooks * kLooks; ++k) {
-            const double u = s.u_begin() + (k % kLooks + 0.5) * du;
-            const double v = s.v_begin() + (k / kLooks + 0.5) * dv;
+            const double u = s.u_begin() + in_row(k % kLooks, k / kLooks) * du;
+            const double v = s.v_begin() + in_row(k / kLooks, k % kLooks) * dv;
             bool inside = loops.empty();
             for (const auto& loop : loops) {
                 inside = inside != encloses(loop, {u, v});
