@@ -9,6 +9,7 @@
 #include "host_tools/import/cad_face_patches.hpp"
 #include "host_tools/import/cad_face_pieces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/trim_cusps.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -16,6 +17,7 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
+#include "opencascade/BRepAdaptor_Surface.hxx"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRepTools_WireExplorer.hxx"
@@ -49,8 +51,8 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-// mm: an edge of no length in the file that is longer on the surface is reported.
-constexpr double kPoint = 0.01;
+// mm: the widest gap that is closed, however large the file's own tolerance.
+constexpr double kMostGap = 0.1;
 
 // The least u and v of all ends of edges.
 gp_Pnt2d least_corner(const TopoDS_Face& face)
@@ -124,6 +126,10 @@ Curve trim_of(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::strin
     double first = 0;
     double last = 0;
     const Handle(Geom2d_Curve) found = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (!found.IsNull() && !found->IsPeriodic()) {
+        first = std::max(first, found->FirstParameter());  // an edge's range may be rounded up
+        last = std::min(last, found->LastParameter());
+    }
     if (found.IsNull() || !(first < last)) {
         throw InputError(place + ": an edge has no curve on the face");
     }
@@ -236,9 +242,40 @@ bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
     return any;
 }
 
-void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface, CadModel& model)
+std::vector<std::vector<Curve>> trims_without_cusps(std::vector<std::vector<Curve>> loops,
+                                                    const Surface& surface,
+                                                    const std::string& place)
 {
-    std::vector<Curve> curves;
+    const auto grouped = [&] {
+        std::vector<Curve> curves;
+        for (const std::vector<Curve>& loop : loops) {
+            curves.insert(curves.end(), loop.begin(), loop.end());
+        }
+        return trim_loops(curves, surface, place);
+    };
+    try {
+        return grouped();
+    } catch (const InputError&) {
+        bool any = false;
+        for (std::vector<Curve>& loop : loops) {
+            any = cut_cusps(loop, surface) || any;
+        }
+        if (!any) {
+            throw;
+        }
+    }
+    return grouped();
+}
+
+// gap  mm: how far the file lets ends that meet lie apart
+void add_trims(const TopoDS_Face& face,
+               double gap,
+               const std::string& place,
+               Surface& surface,
+               CadModel& model)
+{
+    std::vector<std::vector<Curve>> loops;
+    Bridges most;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
         if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
             continue;
@@ -249,12 +286,14 @@ void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surfa
             continue;
         }
         tidy(loop, surface);
-        const double longest = bridge_points(loop, point_follows, surface);
-        model.faces_beside_points += longest > kPoint ? 1 : 0;
-        model.longest_point = std::max(model.longest_point, longest);
-        curves.insert(curves.end(), loop.begin(), loop.end());
+        const Bridges bridges = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
+        most = {std::max(most.longest_point, bridges.longest_point),
+                std::max(most.widest_gap, bridges.widest_gap)};
+        loops.push_back(std::move(loop));
     }
-    surface.trims = trim_loops(curves, surface, place);
+    surface.trims = trims_without_cusps(std::move(loops), surface, place);
+    model.points.add(most.longest_point);
+    model.gaps.add(most.widest_gap);
     const double whole =
         (surface.u_end() - surface.u_begin()) * (surface.v_end() - surface.v_begin());
     constexpr double kWhole = 1e-9;
@@ -283,26 +322,31 @@ bool looks_up(const Surface& s, double outwards)
 }
 
 // One face with its trims.
-Surface trimmed_surface(const TopoDS_Face& face,
-                        Surface surface,
-                        const std::string& place,
-                        CadModel& model)
+Surface trimmed_surface(
+    const TopoDS_Face& face, double gap, Surface surface, const std::string& place, CadModel& model)
 {
     check_surface(surface, place);
     surface = clamped(surface);
-    add_trims(face, place, surface, model);
+    add_trims(face, gap, place, surface, model);
     return surface;
 }
 
-void add_converted_face(const SolidFace& found,
-                        bool all_faces,
-                        const std::string& place,
-                        CadModel& model)
+// The face with a spline for its surface. The wires of a forward-oriented face have its interior on their
+// left in (u, v).
+TopoDS_Face converted(const TopoDS_Face& face)
 {
-    // the wires of a forward-oriented face have its interior on their left in (u, v)
-    const TopoDS_Shape converted =
-        BRepBuilderAPI_NurbsConvert{found.face.Oriented(TopAbs_FORWARD), true}.Shape();
-    const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
+    const TopoDS_Shape forward = face.Oriented(TopAbs_FORWARD);
+    const TopoDS_Shape spline = BRepBuilderAPI_NurbsConvert{forward, true}.Shape();
+    return TopoDS::Face(spline.Oriented(TopAbs_FORWARD));
+}
+
+// face  the found one or its conversion, forward oriented
+void add_spline_face(const SolidFace& found,
+                     const TopoDS_Face& face,
+                     bool all_faces,
+                     const std::string& place,
+                     CadModel& model)
+{
     // Sewing has also reversed such a face, so its normal can't be trusted.
     if (area_of(face) < 0) {
         throw InputError(place + ": its edges run round it the wrong way");
@@ -314,8 +358,10 @@ void add_converted_face(const SolidFace& found,
         return;
     }
     try {
-        check_conversion(found.face, face, place);
-        model.faces.push_back(trimmed_surface(face, surface, place, model));
+        const double beside = check_conversion(found.face, face, place);
+        model.faces.push_back(
+            trimmed_surface(face, allowed_off(found.face), surface, place, model));
+        model.beside.add(beside);
         model.outwards.push_back(found.solid ? outwards : 0.0);
     } catch (const InputError&) {
         if (!is_below) {
@@ -325,18 +371,38 @@ void add_converted_face(const SolidFace& found,
     }
 }
 
-// As add_converted_face(); what Open CASCADE cannot convert is an InputError, too.
+// As add_spline_face(); what Open CASCADE cannot convert is an InputError, too.
 void add_whole_face(const SolidFace& found,
                     bool all_faces,
                     const std::string& place,
                     CadModel& model)
 {
     try {
-        add_converted_face(found, all_faces, place, model);
+        add_spline_face(found, converted(found.face), all_faces, place, model);
     } catch (const Standard_Failure& failure) {
         throw InputError(
             fmt::format("{}: Open CASCADE failed: {}", place, failure.GetMessageString()));
     }
+}
+
+// As add_whole_face(), for a face that needs no conversion; that may spoil it. Returns false for others.
+bool add_unconverted(const SolidFace& found,
+                     bool all_faces,
+                     const std::string& place,
+                     CadModel& model)
+{
+    if (BRepAdaptor_Surface{found.face}.GetType() != GeomAbs_BSplineSurface) {
+        return false;
+    }
+    try {
+        const TopoDS_Shape forward = found.face.Oriented(TopAbs_FORWARD);
+        add_spline_face(found, TopoDS::Face(forward), all_faces, place, model);
+    } catch (const InputError&) {
+        return false;
+    } catch (const Standard_Failure&) {
+        return false;
+    }
+    return true;
 }
 
 // As add_whole_face(), for the pieces of a face. Returns false where one cannot be read, or where
@@ -360,8 +426,9 @@ bool add_pieces(
     if (pieces.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
         return false;
     }
-    model.faces_beside_points += pieces.faces_beside_points;
-    model.longest_point = std::max(model.longest_point, pieces.longest_point);
+    model.points.add(pieces.points);
+    model.gaps.add(pieces.gaps);
+    model.beside.add(pieces.beside);
     for (std::size_t k = 0; k < pieces.faces.size(); ++k) {
         if (all_faces || !found.solid || looks_up(pieces.faces[k], pieces.outwards[k])) {
             model.faces.push_back(std::move(pieces.faces[k]));
@@ -403,7 +470,8 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     try {
         add_whole_face(found, all_faces, place, model);
     } catch (const InputError&) {
-        if (!add_patches(found, all_faces, place, model) &&
+        if (!add_unconverted(found, all_faces, place, model) &&
+            !add_patches(found, all_faces, place, model) &&
             !add_pieces(found, kQuarter, all_faces, place, model) &&
             !add_pieces(found, kOther, all_faces, place, model)) {
             throw;

@@ -156,9 +156,9 @@ std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards)
     return edges;
 }
 
-void check_conversion(const TopoDS_Face& original,
-                      const TopoDS_Face& converted,
-                      const std::string& place)
+double check_conversion(const TopoDS_Face& original,
+                        const TopoDS_Face& converted,
+                        const std::string& place)
 {
     const double off = off_edges(converted);
     const double allowed = allowed_off(original);
@@ -168,6 +168,7 @@ void check_conversion(const TopoDS_Face& original,
                         "allowed {:.3g}",
                         place, off, allowed));
     }
+    return off;
 }
 
 std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)

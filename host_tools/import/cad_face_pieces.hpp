@@ -35,10 +35,11 @@ std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
 // Refuses what Open CASCADE's conversion has spoilt: on cones, balls and rings it makes curves in
 // (u, v) that lie millimetres beside their edges. allowed_off() is allowed.
 //
+// Returns how far an edge lies beside its place at most, mm.
 // Throws InputError, with `place` before it.
-void check_conversion(const TopoDS_Face& original,
-                      const TopoDS_Face& converted,
-                      const std::string& place);
+double check_conversion(const TopoDS_Face& original,
+                        const TopoDS_Face& converted,
+                        const std::string& place);
 
 // The pieces of a face, cut at every `turn` (radians) about its axis; none where that fails or is not
 // the same face.

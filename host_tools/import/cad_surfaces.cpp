@@ -66,14 +66,20 @@ std::vector<Surface> read_cad_surfaces(const std::string& file,
 
 std::vector<std::string> notes_of(const CadModel& model, const std::string& file)
 {
-    if (model.faces_beside_points == 0) {
-        return {};
-    }
-    return {fmt::format(
-        "{}: {} {} an edge that the file makes a point, but which is up to {:.3g} mm long; the "
-        "faces end there as their surfaces do",
-        file, model.faces_beside_points, model.faces_beside_points == 1 ? "face has" : "faces have",
-        model.longest_point)};
+    std::vector<std::string> notes;
+    const auto note = [&](const FaceFault& fault, const char* before, const char* after) {
+        if (fault.faces > 0) {
+            notes.push_back(fmt::format("{}: {} {} {} {:.3g} mm {}", file, fault.faces,
+                                        fault.faces == 1 ? "face has" : "faces have", before,
+                                        fault.most, after));
+        }
+    };
+    note(model.points, "an edge that the file makes a point, but which is up to",
+         "long; the faces end there as their surfaces do");
+    note(model.gaps, "edges whose ends lie up to",
+         "apart, within the file's own tolerance; joined");
+    note(model.beside, "edges up to", "beside the surface, within the file's own tolerance");
+    return notes;
 }
 
 CadModel read_cad_model(const std::string& file) { return read_model(file, {}, true); }

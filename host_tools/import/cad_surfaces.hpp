@@ -28,14 +28,34 @@ std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
                                               const Similarity& placed = {},
                                               std::vector<std::string>* notes = nullptr);
 
+// What is wrong with some faces of a file, and was mended or taken: of how many, and by how much, mm.
+struct FaceFault {
+    static constexpr double kReported = 0.01;  // mm: less is rounding
+
+    std::size_t faces{};
+    double most{};
+
+    void add(double off)
+    {
+        if (off > kReported) {
+            add(FaceFault{1, off});
+        }
+    }
+    void add(const FaceFault& other)
+    {
+        faces += other.faces;
+        most = other.most > most ? other.most : most;
+    }
+};
+
 // The faces of a model, and facts about the file.
 struct CadModel {
     std::string unit;      // of length, as named in the file; "": it names none
     std::size_t solids{};  // volumes that faces close
     std::size_t unread{};  // faces of solids without an upward normal and with broken edges
-    // Edges that stand for a point, but have a length on the surface: of how many faces, mm.
-    std::size_t faces_beside_points{};
-    double longest_point{};
+    FaceFault points;      // edges without length in the file that have one on the surface
+    FaceFault gaps;        // ends of edges that should meet
+    FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
     std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1
                                         // if into it; 0: the face belongs to no solid

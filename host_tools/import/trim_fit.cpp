@@ -38,9 +38,15 @@ private:
     {
         constexpr int kMostHalvings = 12;
         const double third = (to - from) / 3;
-        const std::array<Vec3d, 4> span{a.point, a.point + a.tangent * third,
-                                        b.point - b.tangent * third, b.point};
-        if (depth == kMostHalvings || is_near(from, to, span)) {
+        std::array<Vec3d, 4> span{a.point, a.point + a.tangent * third, b.point - b.tangent * third,
+                                  b.point};
+        const bool near = is_near(from, to, span);
+        if (!near && depth == kMostHalvings) {
+            // files have edges with a knot span of 1e-8 at the end, where the tangent is a jump's
+            span[1] = a.point + (b.point - a.point) / 3.0;
+            span[2] = b.point - (b.point - a.point) / 3.0;
+        }
+        if (near || depth == kMostHalvings) {
             if (curve_.points.empty()) {
                 curve_.points.push_back(span[0]);
             }

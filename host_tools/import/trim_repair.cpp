@@ -2,6 +2,7 @@
 #include "host_tools/import/trim_repair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cusp::import {
@@ -15,7 +16,8 @@ namespace {
 // Largest distance in (u, v), as a fraction of the domain, of edge ends that are the same vertex:
 // the tolerance of vertices in CAD files is 1e-3 mm at best.
 constexpr double kSameVertex = 2e-3;
-constexpr double kSamePole = 1e-3;  // mm
+constexpr double kNearVertex = 0.05;  // the same, of ends that a tolerance of the file keeps apart
+constexpr double kSamePole = 1e-3;    // mm
 // Converted curves along a seam deviate by up to a tenth of a millimetre from the seam.
 constexpr double kNearPole = 0.1;  // mm
 
@@ -114,27 +116,34 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-double bridge_points(std::vector<Curve>& loop,
-                     const std::vector<bool>& point_follows,
-                     const Surface& s)
+Bridges bridge_gaps(std::vector<Curve>& loop,
+                    const std::vector<bool>& point_follows,
+                    double gap,
+                    const Surface& s)
 {
-    const auto meets_pole = [&s](Vec3d end, Vec3d next) {
-        const bool along_side =
-            std::abs(end.x - next.x) <= kSameVertex * (s.u_end() - s.u_begin()) ||
-            std::abs(end.y - next.y) <= kSameVertex * (s.v_end() - s.v_begin());
-        return along_side && length_on(s, end, next) < kSamePole;
+    const auto within = [&s](Vec3d end, Vec3d next, double share) {
+        return std::array{std::abs(end.x - next.x) <= share * (s.u_end() - s.u_begin()),
+                          std::abs(end.y - next.y) <= share * (s.v_end() - s.v_begin())};
     };
-    double longest = 0;
+    Bridges bridges;
     for (std::size_t i = loop.size(); i-- > 0;) {
         const Vec3d end = loop[i].points.back();
         const Vec3d next = loop[(i + 1) % loop.size()].points.front();
-        if (!(end == next) && (point_follows[i] || meets_pole(end, next))) {
-            longest = std::max(longest, length_on(s, end, next));
+        if (end == next) {
+            continue;
+        }
+        const double length = length_on(s, end, next);
+        const auto [same_u, same_v] = within(end, next, kSameVertex);
+        const auto [near_u, near_v] = within(end, next, kNearVertex);
+        const bool is_point = point_follows[i] || ((same_u || same_v) && length < kSamePole);
+        if (is_point || (near_u && near_v && length <= gap)) {
+            double& most = is_point ? bridges.longest_point : bridges.widest_gap;
+            most = std::max(most, length);
             loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                         Curve{1, {0, 0, 1, 1}, {end, next}, {1, 1}});
         }
     }
-    return longest;
+    return bridges;
 }
 
 }  // namespace cusp::import

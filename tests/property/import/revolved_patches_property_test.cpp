@@ -66,16 +66,17 @@ Revolved random_surface(Draw& draw, bool ring)
 // further.
 using Corners = std::vector<Vec2d>;
 
-// Some edges run against their parameter.
+// Some edges run against their parameter, and some have a tangent that jumps at their end.
 void add_edges(const Revolved& surface, const Corners& corners, std::vector<FaceEdge>& edges)
 {
     for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
         const Vec2d a = corners[k];
         const Vec2d by = corners[k + 1] - a;
-        const auto curve = [&surface, a, by](double t) {
+        const auto curve = [&surface, a, by, jumps = k % 5 == 1](double t) {
             const Vec2d at = a + by * t;
             const auto [by_u, by_v] = slopes_on(surface, at);
-            return PointAndTangent{point_on(surface, at), by_u * by.x + by_v * by.y};
+            const double jump = jumps && t > 1 - 1e-9 ? 3000 : 1;
+            return PointAndTangent{point_on(surface, at), (by_u * by.x + by_v * by.y) * jump};
         };
         if (k % 3 == 2) {
             const auto turned = [curve](double t) {

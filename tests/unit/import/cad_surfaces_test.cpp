@@ -386,8 +386,8 @@ TEST(CadSurfaces, OfAFaceWithASideThatIsSaidToBeAPointAreWhole)
     CHECK(BRepTools::Write(face, file.c_str()));
     const CadModel model = read_cad_model(file);
     DOUBLES_EQUAL(100, seen_from_above(model.faces).area, 0.1);
-    LONGS_EQUAL(1, model.faces_beside_points);
-    DOUBLES_EQUAL(std::sqrt(101.0), model.longest_point, 1e-6);
+    LONGS_EQUAL(1, model.points.faces);
+    DOUBLES_EQUAL(std::sqrt(101.0), model.points.most, 1e-6);
     STRCMP_CONTAINS("1 face has an edge that the file makes a point",
                     notes_of(model, file)[0].c_str());
 }

@@ -1,0 +1,18 @@
+// Cuts off the tips of cusps in trimming loops.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::import {
+
+// Where two edges of a blend meet almost along each other, rounding makes them cross near the vertex. Cuts
+// both where they are 5e-5 of the domain apart, if that is at most 0.01 mm, and joins them by a line.
+//
+// loop  each curve starts at the end of the one before it, the first one at the end of the last one
+//
+// Returns whether there was such a place.
+bool cut_cusps(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
+
+}  // namespace cusp::import

@@ -1,0 +1,93 @@
+// Loops of CAD faces that are open, or cross themselves at a cusp.
+#include "host_tools/import/trim_repair.hpp"
+
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/import/trim_cusps.hpp"
+#include "host_tools/import/trim_loops.hpp"
+#include "host_tools/job/loop_shape.hpp"
+#include "tests/support/refusal.hpp"
+
+using namespace cusp;
+using namespace cusp::import;
+using namespace cusp::nurbs;
+
+namespace {
+
+// 10 mm wide, u and v in millimetres.
+Surface square()
+{
+    return {1,
+            1,
+            {0, 0, 10, 10},
+            {0, 0, 10, 10},
+            2,
+            2,
+            {{0, 0, 0}, {0, 10, 0}, {10, 0, 0}, {10, 10, 0}},
+            {1, 1, 1, 1},
+            {}};
+}
+
+Curve line(Vec2d a, Vec2d b) { return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}}; }
+
+Curve parabola(Vec2d a, Vec2d b, Vec2d c)
+{
+    return {2, {0, 0, 0, 1, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0}}, {1, 1, 1}};
+}
+
+double area_of(const std::vector<Curve>& loop)
+{
+    return job::signed_area(job::loop_polyline(loop, 1e-6));
+}
+
+}  // namespace
+
+TEST_GROUP(TrimRepair){};
+
+TEST(TrimRepair, ClosesAGapThatTheFileAllows)
+{
+    const Vec2d a{1, 1};
+    const Vec2d b{9, 1};
+    const Vec2d c{5, 8};
+    const Vec2d beside{5.03, 8.04};  // 0.05 from c
+    for (const double allowed : {0.06, 0.04}) {
+        std::vector<Curve> loop{line(a, b), line(b, c), line(beside, a)};
+        const Bridges bridges = bridge_gaps(loop, {false, false, false}, allowed, square());
+        LONGS_EQUAL(allowed > 0.05 ? 4 : 3, loop.size());
+        DOUBLES_EQUAL(allowed > 0.05 ? 0.05 : 0, bridges.widest_gap, 1e-12);
+        DOUBLES_EQUAL(0, bridges.longest_point, 0);
+    }
+}
+
+TEST(TrimRepair, TakesALineForAnEdgeThatIsAPoint)
+{
+    std::vector<Curve> loop{line({1, 1}, {9, 1}), line({9, 1}, {9, 8}), line({1, 8}, {1, 1})};
+    const Bridges bridges = bridge_gaps(loop, {false, true, false}, 0.01, square());
+    LONGS_EQUAL(4, loop.size());
+    DOUBLES_EQUAL(8, bridges.longest_point, 1e-12);
+    DOUBLES_EQUAL(56, area_of(loop), 1e-9);
+}
+
+// Two edges leave a vertex almost along each other, and cross 0.05 mm beside it.
+TEST(TrimRepair, CutsACuspWhoseEdgesCrossByRounding)
+{
+    const Vec2d tip{8, 2};
+    // near the tip the lower edge lies up to 0.0003 mm above the upper one
+    std::vector<Curve> loop{parabola({1, 1}, {6, 2.05}, tip), parabola(tip, {6, 2}, {4, 9}),
+                            line({4, 9}, {1, 1})};
+    const double before = std::abs(area_of(loop));
+    STRCMP_CONTAINS("cross", test::refusal([&] { trim_loops(loop, square(), "face 1"); }).c_str());
+    CHECK(cut_cusps(loop, square()));
+    LONGS_EQUAL(4, loop.size());
+    LONGS_EQUAL(1, trim_loops(loop, square(), "face 1").size());
+    DOUBLES_EQUAL(before, area_of(loop), 1e-3);
+}
+
+TEST(TrimRepair, LeavesCornersAsTheyAre)
+{
+    std::vector<Curve> loop{line({1, 1}, {9, 1}), line({9, 1}, {9, 8}), line({9, 8}, {1, 1})};
+    CHECK_FALSE(cut_cusps(loop, square()));
+    LONGS_EQUAL(3, loop.size());
+}
