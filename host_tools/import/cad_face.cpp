@@ -275,7 +275,7 @@ void add_trims(const TopoDS_Face& face,
                CadModel& model)
 {
     std::vector<std::vector<Curve>> loops;
-    Bridges most;
+    LoopGaps most;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
         if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
             continue;
@@ -286,9 +286,9 @@ void add_trims(const TopoDS_Face& face,
             continue;
         }
         tidy(loop, surface);
-        const Bridges bridges = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
-        most = {std::max(most.longest_point, bridges.longest_point),
-                std::max(most.widest_gap, bridges.widest_gap)};
+        const LoopGaps gaps = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
+        most = {std::max(most.longest_point, gaps.longest_point),
+                std::max(most.widest_gap, gaps.widest_gap)};
         loops.push_back(std::move(loop));
     }
     surface.trims = trims_without_cusps(std::move(loops), surface, place);

@@ -15,9 +15,10 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr int kLooks = 256;      // along half a curve
-constexpr double kApart = 5e-5;  // of the domain's longer side; trims are told apart from 1e-5 on
-constexpr double kSlender = 4;   // a tip is longer than its width by this
+constexpr int kPlaces = 256;  // along half a curve
+constexpr double kApart =
+    5e-5;                       // of the domain's longer side; trims less than 1e-5 apart may cross
+constexpr double kSlender = 4;  // a tip is longer than its width by this
 constexpr double kMostWidth = 0.01;  // mm
 
 // The part of a clamped curve between two parameters of its domain.
@@ -48,8 +49,8 @@ struct Place {
 std::vector<Place> places_from(const Curve& curve, bool from_end)
 {
     std::vector<Place> places;
-    for (int k = 0; k <= kLooks; ++k) {
-        const double t = 0.5 * k * k / (kLooks * kLooks);
+    for (int k = 0; k <= kPlaces; ++k) {
+        const double t = 0.5 * k * k / (kPlaces * kPlaces);
         const double share = from_end ? 1 - t : t;
         const double parameter = curve.domain_begin() * (1 - share) + curve.domain_end() * share;
         places.push_back({parameter, point_at(curve, parameter)});

@@ -116,16 +116,16 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-Bridges bridge_gaps(std::vector<Curve>& loop,
-                    const std::vector<bool>& point_follows,
-                    double gap,
-                    const Surface& s)
+LoopGaps bridge_gaps(std::vector<Curve>& loop,
+                     const std::vector<bool>& point_follows,
+                     double gap,
+                     const Surface& s)
 {
     const auto within = [&s](Vec3d end, Vec3d next, double share) {
         return std::array{std::abs(end.x - next.x) <= share * (s.u_end() - s.u_begin()),
                           std::abs(end.y - next.y) <= share * (s.v_end() - s.v_begin())};
     };
-    Bridges bridges;
+    LoopGaps gaps;
     for (std::size_t i = loop.size(); i-- > 0;) {
         const Vec3d end = loop[i].points.back();
         const Vec3d next = loop[(i + 1) % loop.size()].points.front();
@@ -137,13 +137,13 @@ Bridges bridge_gaps(std::vector<Curve>& loop,
         const auto [near_u, near_v] = within(end, next, kNearVertex);
         const bool is_point = point_follows[i] || ((same_u || same_v) && length < kSamePole);
         if (is_point || (near_u && near_v && length <= gap)) {
-            double& most = is_point ? bridges.longest_point : bridges.widest_gap;
+            double& most = is_point ? gaps.longest_point : gaps.widest_gap;
             most = std::max(most, length);
             loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                         Curve{1, {0, 0, 1, 1}, {end, next}, {1, 1}});
         }
     }
-    return bridges;
+    return gaps;
 }
 
 }  // namespace cusp::import
