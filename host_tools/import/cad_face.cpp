@@ -275,7 +275,7 @@ void add_trims(const TopoDS_Face& face,
                CadModel& model)
 {
     std::vector<std::vector<Curve>> loops;
-    LoopGaps most;
+    LoopRepair most;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
         if (bounds_all(TopoDS::Wire(wires.Current()), face)) {
             continue;
@@ -286,7 +286,7 @@ void add_trims(const TopoDS_Face& face,
             continue;
         }
         tidy(loop, surface);
-        const LoopGaps gaps = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
+        const LoopRepair gaps = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
         most = {std::max(most.longest_point, gaps.longest_point),
                 std::max(most.widest_gap, gaps.widest_gap)};
         loops.push_back(std::move(loop));

@@ -116,16 +116,16 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-LoopGaps bridge_gaps(std::vector<Curve>& loop,
-                     const std::vector<bool>& point_follows,
-                     double gap,
-                     const Surface& s)
+LoopRepair bridge_gaps(std::vector<Curve>& loop,
+                       const std::vector<bool>& point_follows,
+                       double gap,
+                       const Surface& s)
 {
     const auto within = [&s](Vec3d end, Vec3d next, double share) {
         return std::array{std::abs(end.x - next.x) <= share * (s.u_end() - s.u_begin()),
                           std::abs(end.y - next.y) <= share * (s.v_end() - s.v_begin())};
     };
-    LoopGaps gaps;
+    LoopRepair gaps;
     for (std::size_t i = loop.size(); i-- > 0;) {
         const Vec3d end = loop[i].points.back();
         const Vec3d next = loop[(i + 1) % loop.size()].points.front();

@@ -54,7 +54,7 @@ TEST(TrimRepair, ClosesAGapThatTheFileAllows)
     const Vec2d beside{5.03, 8.04};  // 0.05 from c
     for (const double allowed : {0.06, 0.04}) {
         std::vector<Curve> loop{line(a, b), line(b, c), line(beside, a)};
-        const LoopGaps gaps = bridge_gaps(loop, {false, false, false}, allowed, square());
+        const LoopRepair gaps = bridge_gaps(loop, {false, false, false}, allowed, square());
         LONGS_EQUAL(allowed > 0.05 ? 4 : 3, loop.size());
         DOUBLES_EQUAL(allowed > 0.05 ? 0.05 : 0, gaps.widest_gap, 1e-12);
         DOUBLES_EQUAL(0, gaps.longest_point, 0);
@@ -64,7 +64,7 @@ TEST(TrimRepair, ClosesAGapThatTheFileAllows)
 TEST(TrimRepair, TakesALineForAnEdgeThatIsAPoint)
 {
     std::vector<Curve> loop{line({1, 1}, {9, 1}), line({9, 1}, {9, 8}), line({1, 8}, {1, 1})};
-    const LoopGaps gaps = bridge_gaps(loop, {false, true, false}, 0.01, square());
+    const LoopRepair gaps = bridge_gaps(loop, {false, true, false}, 0.01, square());
     LONGS_EQUAL(4, loop.size());
     DOUBLES_EQUAL(8, gaps.longest_point, 1e-12);
     DOUBLES_EQUAL(56, area_of(loop), 1e-9);
