@@ -51,9 +51,6 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-// mm: the widest gap that is closed, however large the file's own tolerance.
-constexpr double kMostGap = 0.1;
-
 // The least u and v of all ends of edges.
 gp_Pnt2d least_corner(const TopoDS_Face& face)
 {
@@ -286,7 +283,7 @@ void add_trims(const TopoDS_Face& face,
             continue;
         }
         tidy(loop, surface);
-        const LoopRepair gaps = bridge_gaps(loop, point_follows, std::min(gap, kMostGap), surface);
+        const LoopRepair gaps = bridge_gaps(loop, point_follows, gap, surface);
         most = {std::max(most.longest_point, gaps.longest_point),
                 std::max(most.widest_gap, gaps.widest_gap)};
         loops.push_back(std::move(loop));
@@ -360,7 +357,7 @@ void add_spline_face(const SolidFace& found,
     try {
         const double beside = check_conversion(found.face, face, place);
         model.faces.push_back(
-            trimmed_surface(face, allowed_off(found.face), surface, place, model));
+            trimmed_surface(face, allowed_gap(found.face), surface, place, model));
         model.beside.add(beside);
         model.outwards.push_back(found.solid ? outwards : 0.0);
     } catch (const InputError&) {

@@ -1,5 +1,7 @@
 #include "host_tools/import/cad_face_patches.hpp"
 
+#include <algorithm>
+
 #include "host_tools/import/cad_face_pieces.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/revolved_patches.hpp"
@@ -57,7 +59,7 @@ std::optional<FacePatches> patches_of(const TopoDS_Face& face, const std::string
     const bool mirrored = !position.Direct();
     const bool inwards = (face.Orientation() == TopAbs_REVERSED) != mirrored;
     const std::vector<FaceEdge> edges = edges_in_space(face, mirrored);
-    const double gap = allowed_off(face);
+    const double gap = std::max(allowed_off(face), allowed_gap(face));
     return FacePatches{type == GeomAbs_Sphere ? sphere_patches({vec_of(position.Location()),
                                                                 adaptor.Sphere().Radius()},
                                                                edges, gap, place)

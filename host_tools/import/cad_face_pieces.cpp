@@ -130,6 +130,14 @@ double allowed_off(const TopoDS_Face& face)
                     kMore * BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
 }
 
+double allowed_gap(const TopoDS_Face& face)
+{
+    constexpr double kLeast = 0.01;  // mm
+    constexpr double kMost = 0.1;    // mm
+    const double tolerance = BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_VERTEX);
+    return std::clamp(2 * tolerance, kLeast, kMost);
+}
+
 std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards)
 {
     std::vector<FaceEdge> edges;

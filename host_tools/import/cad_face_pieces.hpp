@@ -28,6 +28,10 @@ Vec3d area_vector(const nurbs::Surface& surface);
 // mm: how far its edges may lie beside a face: 0.01, and 1.5 times the tolerance of the file.
 double allowed_off(const TopoDS_Face& face);
 
+// mm: how far ends of edges that meet may lie apart: 0.01, and twice the tolerance of the file's vertices,
+// 0.1 at most.
+double allowed_gap(const TopoDS_Face& face);
+
 // The edges of a face, forward oriented, without seams and poles. Seen from where the normal of its
 // surface points to, the face lies on their left; on their right with `backwards`.
 std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
