@@ -27,6 +27,8 @@
 #include "opencascade/Geom2d_TrimmedCurve.hxx"
 #include "opencascade/GeomConvert.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/Geom_Plane.hxx"
+#include "opencascade/Geom_RectangularTrimmedSurface.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
@@ -73,14 +75,17 @@ gp_Pnt2d least_corner(const TopoDS_Face& face)
 // The part of the surface that the face uses, with clamped ends.
 Surface surface_of(const TopoDS_Face& face)
 {
-    const Handle(Geom_BSplineSurface) found =
-        GeomConvert::SurfaceToBSplineSurface(BRep_Tool::Surface(face));
-    const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(found->Copy());
     double u0 = 0;
     double u1 = 0;
     double v0 = 0;
     double v1 = 0;
     BRepTools::UVBounds(face, u0, u1, v0, v1);
+    Handle(Geom_Surface) whole = BRep_Tool::Surface(face);
+    if (whole->IsKind(STANDARD_TYPE(Geom_Plane))) {
+        whole = new Geom_RectangularTrimmedSurface(whole, u0, u1, v0, v1);  // it has no end
+    }
+    const Handle(Geom_BSplineSurface) found = GeomConvert::SurfaceToBSplineSurface(whole);
+    const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(found->Copy());
     double low_u = 0;
     double high_u = 0;
     double low_v = 0;
@@ -382,13 +387,15 @@ void add_whole_face(const SolidFace& found,
     }
 }
 
-// As add_whole_face(), for a face that needs no conversion; that may spoil it. Returns false for others.
+// As add_whole_face(), for a spline or a plane, whose (u, v) need no conversion; that may spoil them.
+// Returns false for others.
 bool add_unconverted(const SolidFace& found,
                      bool all_faces,
                      const std::string& place,
                      CadModel& model)
 {
-    if (BRepAdaptor_Surface{found.face}.GetType() != GeomAbs_BSplineSurface) {
+    const GeomAbs_SurfaceType type = BRepAdaptor_Surface{found.face}.GetType();
+    if (type != GeomAbs_BSplineSurface && type != GeomAbs_Plane) {
         return false;
     }
     try {

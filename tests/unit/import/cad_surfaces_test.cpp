@@ -23,6 +23,7 @@
 #include "opencascade/Geom2d_Line.hxx"
 #include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/Geom_Plane.hxx"
 #include "opencascade/Geom_SphericalSurface.hxx"
 #include "opencascade/IGESControl_Controller.hxx"
 #include "opencascade/IGESControl_Writer.hxx"
@@ -42,6 +43,7 @@
 #include "opencascade/gp_Ax2.hxx"
 #include "opencascade/gp_Ax3.hxx"
 #include "opencascade/gp_Circ.hxx"
+#include "opencascade/gp_Elips.hxx"
 #include "opencascade/gp_Trsf.hxx"
 #include "opencascade/gp_Vec.hxx"
 // CppUTest's macros come last
@@ -390,6 +392,26 @@ TEST(CadSurfaces, OfAFaceWithASideThatIsSaidToBeAPointAreWhole)
     DOUBLES_EQUAL(std::sqrt(101.0), model.points.most, 1e-6);
     STRCMP_CONTAINS("1 face has an edge that the file makes a point",
                     notes_of(model, file)[0].c_str());
+}
+
+// Open CASCADE's conversion fails for it: a plane across a slanting cylinder's end.
+TEST(CadSurfaces, OfAPlaneThatCannotBeConvertedAreWhole)
+{
+    constexpr double kLong = 6.2351349603589998;
+    constexpr double kShort = 4.3871293139610001;
+    const gp_Ax3 place(gp_Pnt(42.340891819465, 22.024950930548, 11.313183136676),
+                       gp_Dir(0.17056289113890785, -0.16165909426091266, 0.9719951838404749),
+                       gp_Dir(0.9849505701344754, 7.3656358789975229e-14, -0.17283626468936453));
+    const TopoDS_Edge edge =
+        BRepBuilderAPI_MakeEdge(gp_Elips(place.Ax2(), kLong, kShort), -8.43769498715119e-14,
+                                6.2831853071795);
+    const TopoDS_Face face = BRepBuilderAPI_MakeFace(Handle(Geom_Plane)(new Geom_Plane(place)),
+                                                     BRepBuilderAPI_MakeWire(edge), true);
+    const std::string file = folder.file("plane.brep");
+    CHECK(BRepTools::Write(face, file.c_str()));
+    constexpr double kPi = 3.141592653589793;
+    DOUBLES_EQUAL(kPi * kLong * kShort * place.Direction().Z(),
+                  seen_from_above(read_surfaces(file)).area, 0.1);
 }
 
 // A wire of the ring crosses both its seams. The area of all faces in plan is twice that of the upper
