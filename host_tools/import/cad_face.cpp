@@ -17,7 +17,6 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
-#include "opencascade/BRepAdaptor_Surface.hxx"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRepTools_WireExplorer.hxx"
@@ -387,20 +386,19 @@ void add_whole_face(const SolidFace& found,
     }
 }
 
-// As add_whole_face(), for a spline or a plane, whose (u, v) need no conversion; that may spoil them.
-// Returns false for others.
+// As add_whole_face(), for a face whose (u, v) need no conversion; that may spoil them. Returns false for
+// others.
 bool add_unconverted(const SolidFace& found,
                      bool all_faces,
                      const std::string& place,
                      CadModel& model)
 {
-    const GeomAbs_SurfaceType type = BRepAdaptor_Surface{found.face}.GetType();
-    if (type != GeomAbs_BSplineSurface && type != GeomAbs_Plane) {
-        return false;
-    }
     try {
-        const TopoDS_Shape forward = found.face.Oriented(TopAbs_FORWARD);
-        add_spline_face(found, TopoDS::Face(forward), all_faces, place, model);
+        const std::optional<TopoDS_Face> face = spline_with_same_trims(found.face);
+        if (!face) {
+            return false;
+        }
+        add_spline_face(found, *face, all_faces, place, model);
     } catch (const InputError&) {
         return false;
     } catch (const Standard_Failure&) {

@@ -8,12 +8,15 @@
 #include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
+#include "opencascade/BRepAdaptor_Surface.hxx"
 #include "opencascade/BRepGProp.hxx"
+#include "opencascade/BRepTools.hxx"
 #include "opencascade/BRep_Tool.hxx"
 #include "opencascade/GProp_GProps.hxx"
 #include "opencascade/Geom2d_Curve.hxx"
 #include "opencascade/Geom_Curve.hxx"
 #include "opencascade/Geom_Surface.hxx"
+#include "opencascade/ShapeCustom.hxx"
 #include "opencascade/ShapeUpgrade_ShapeDivideAngle.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
@@ -52,6 +55,28 @@ double off_edges(const TopoDS_Face& face)
             most = std::max(
                 most,
                 curve->Value(from + t * (to - from)).Distance(surface->Value(uv.X(), uv.Y())));
+        }
+    }
+    return most;
+}
+
+// mm: how far the surfaces of two faces with the same (u, v) lie apart at most, in the bounds of the first.
+double apart(const TopoDS_Face& face, const TopoDS_Face& other)
+{
+    constexpr int kLooks = 60;
+    const Handle(Geom_Surface) a = BRep_Tool::Surface(face);
+    const Handle(Geom_Surface) b = BRep_Tool::Surface(other);
+    double u0 = 0;
+    double u1 = 0;
+    double v0 = 0;
+    double v1 = 0;
+    BRepTools::UVBounds(face, u0, u1, v0, v1);
+    double most = 0;
+    for (int k = 0; k <= kLooks; ++k) {
+        for (int m = 0; m <= kLooks; ++m) {
+            const double u = u0 + (u1 - u0) * k / kLooks;
+            const double v = v0 + (v1 - v0) * m / kLooks;
+            most = std::max(most, a->Value(u, v).Distance(b->Value(u, v)));
         }
     }
     return most;
@@ -125,9 +150,10 @@ Vec3d area_vector(const nurbs::Surface& s)
 double allowed_off(const TopoDS_Face& face)
 {
     constexpr double kLeast = 0.01;  // mm
+    constexpr double kMost = 1.0;    // mm
     constexpr double kMore = 1.5;    // of the file's own tolerance
-    return std::max(kLeast,
-                    kMore * BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE));
+    return std::clamp(kMore * BRep_Tool::MaxTolerance(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE),
+                      kLeast, kMost);
 }
 
 double allowed_gap(const TopoDS_Face& face)
@@ -177,6 +203,26 @@ double check_conversion(const TopoDS_Face& original,
                         place, off, allowed));
     }
     return off;
+}
+
+std::optional<TopoDS_Face> spline_with_same_trims(const TopoDS_Face& face)
+{
+    constexpr double kSame = 1e-4;  // mm
+    const GeomAbs_SurfaceType type = BRepAdaptor_Surface{face}.GetType();
+    const TopoDS_Shape forward = face.Oriented(TopAbs_FORWARD);
+    if (type == GeomAbs_BSplineSurface || type == GeomAbs_Plane) {
+        return TopoDS::Face(forward);
+    }
+    if (type != GeomAbs_SurfaceOfExtrusion && type != GeomAbs_SurfaceOfRevolution) {
+        return std::nullopt;
+    }
+    const TopoDS_Shape splines = ShapeCustom::ConvertToBSpline(forward, true, true, true, false);
+    const TopExp_Explorer at{splines, TopAbs_FACE};
+    if (!at.More()) {
+        return std::nullopt;
+    }
+    const TopoDS_Face spline = TopoDS::Face(at.Current().Oriented(TopAbs_FORWARD));
+    return apart(face, spline) <= kSame ? std::optional{spline} : std::nullopt;
 }
 
 std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)

@@ -1,6 +1,7 @@
 // Faces of a CAD model that Open CASCADE converts to splines badly, in pieces that it converts well.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ double area_of(const TopoDS_Shape& shape);
 Vec3d area_vector(const TopoDS_Face& face);
 Vec3d area_vector(const nurbs::Surface& surface);
 
-// mm: how far its edges may lie beside a face: 0.01, and 1.5 times the tolerance of the file.
+// mm: how far its edges may lie beside a face: 0.01, and 1.5 times the tolerance of the file, 1 at most.
 double allowed_off(const TopoDS_Face& face);
 
 // mm: how far ends of edges that meet may lie apart: 0.01, and twice the tolerance of the file's vertices,
@@ -44,6 +45,10 @@ std::vector<FaceEdge> edges_in_space(const TopoDS_Face& face, bool backwards);
 double check_conversion(const TopoDS_Face& original,
                         const TopoDS_Face& converted,
                         const std::string& place);
+
+// The face, forward oriented, with a spline for its surface and the same (u, v): a spline, a plane, and
+// what is swept along a line or about an axis, if it can be had within 1e-4 mm. None for others.
+std::optional<TopoDS_Face> spline_with_same_trims(const TopoDS_Face& face);
 
 // The pieces of a face, cut at every `turn` (radians) about its axis; none where that fails or is not
 // the same face.

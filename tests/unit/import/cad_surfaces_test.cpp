@@ -402,9 +402,8 @@ TEST(CadSurfaces, OfAPlaneThatCannotBeConvertedAreWhole)
     const gp_Ax3 place(gp_Pnt(42.340891819465, 22.024950930548, 11.313183136676),
                        gp_Dir(0.17056289113890785, -0.16165909426091266, 0.9719951838404749),
                        gp_Dir(0.9849505701344754, 7.3656358789975229e-14, -0.17283626468936453));
-    const TopoDS_Edge edge =
-        BRepBuilderAPI_MakeEdge(gp_Elips(place.Ax2(), kLong, kShort), -8.43769498715119e-14,
-                                6.2831853071795);
+    const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Elips(place.Ax2(), kLong, kShort),
+                                                     -8.43769498715119e-14, 6.2831853071795);
     const TopoDS_Face face = BRepBuilderAPI_MakeFace(Handle(Geom_Plane)(new Geom_Plane(place)),
                                                      BRepBuilderAPI_MakeWire(edge), true);
     const std::string file = folder.file("plane.brep");
