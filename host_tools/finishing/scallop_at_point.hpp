@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host_tools/finishing/gouge_free_path.hpp"
@@ -61,6 +62,10 @@ public:
     void add(const Points& tips) { swept_->add(tips); }
 
     const SweptVolume& swept() const { return *swept_; }
+
+    // Drops of searches, which copies share: see ReachableHeight.
+    ReachableHeight::Drops take_drops() { return reach_.take_drops(); }
+    void share(ReachableHeight::Drops drops) { reach_.share(std::move(drops)); }
 
     // mm: stepover on level ground that leaves the scallop.
     double step() const { return step_; }
