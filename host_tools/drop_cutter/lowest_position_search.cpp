@@ -63,6 +63,12 @@ const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings
                                                                     std::int64_t j)
 {
     const std::uint64_t key = key_of(halvings, i, j);
+    if (known_ != nullptr) {
+        const auto known = known_->find(key);
+        if (known != known_->end()) {
+            return known->second;
+        }
+    }
     const auto found = nodes_.find(key);
     if (found != nodes_.end()) {
         return found->second;

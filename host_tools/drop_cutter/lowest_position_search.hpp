@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "host_tools/drop_cutter/approach_directions.hpp"
@@ -35,6 +36,8 @@ public:
         Vec3d contact;
     };
     using Drop = std::function<DroppedTool(double x, double y)>;
+    // Drops at nodes of the grid, by node.
+    using Nodes = std::unordered_map<std::uint64_t, DroppedTool>;
 
     // tool      that cuts
     // growth    mm: how much the tool of `drop` is larger all round
@@ -66,6 +69,12 @@ public:
     // How low the tool with this centre cuts over the point: z, mm; kInfinite where it misses it.
     double height_under(Vec3d centre, Vec3d place) const;
     double pitch() const { return pitch_; }
+
+    // Drops of other searches with the same grid and tool, which this one does not make again. They
+    // must live, and not change, while this one searches.
+    void use(const Nodes* known) { known_ = known; }
+    // The drops made since the last call.
+    Nodes take_nodes() { return std::exchange(nodes_, {}); }
 
 private:
     // Certificate that no lower ball position exists: parts of all directions, each with the
@@ -104,7 +113,8 @@ private:
     double pitch_;
     double agreement_;
     Drop drop_;
-    std::unordered_map<std::uint64_t, DroppedTool> nodes_;
+    const Nodes* known_{nullptr};
+    Nodes nodes_;
     std::vector<Vec3d> contacts_;                      // near the point of the query
     std::unordered_map<std::uint64_t, Proof> proofs_;  // the last one of each square of the grid
     std::size_t parts_{};                              // of all proofs

@@ -241,7 +241,7 @@ void MeshScallopCheck::check()
     std::vector<Cell> cells;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
-        if (!is_upright(corners, facet.normal)) {
+        if (!is_upright(facet.normal)) {
             divide({corners, facet.normal}, kFacetSharedHalvings, cells);
         }
     }

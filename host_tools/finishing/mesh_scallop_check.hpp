@@ -100,7 +100,7 @@ private:
     void check_cell(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;
-    bool is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const;
+    bool is_upright(Vec3d normal) const;
     Points trace_level(const Place& from) const;
     std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;

@@ -42,7 +42,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
 
 std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
 {
-    if (places_.is_upright(at.point.point, at.normal) || is_hidden(at)) {
+    if (places_.is_upright(at.normal) || is_hidden(at)) {
         return std::nullopt;
     }
     const ScallopAtPoint::LowerTip better =
@@ -243,7 +243,7 @@ void ScallopCheck::measure_beside_edges(const std::vector<Cell>& cells)
     for (const Cell& cell : cells) {
         for (const Place& place : places_of(cell)) {
             const Corner at = corner(cell.surface, place.u, place.v);
-            if (!places_.is_upright(at.point.point, at.normal) && !is_hidden(at)) {
+            if (!places_.is_upright(at.normal) && !is_hidden(at)) {
                 scallop_over_reachable(at, std::max(scallop_, left_beside_edges_));
             }
         }

@@ -19,6 +19,8 @@ constexpr double kLeastOffBrink = 5e-4;  // mm
 constexpr double kMostOffBrink = 0.1;    // of the pitch
 constexpr int kWays = 8;
 
+constexpr std::size_t kMostShared = 300'000;  // drops: 26 MB, and those of one copy more
+
 }  // namespace
 
 ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
@@ -39,12 +41,29 @@ ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
                                  return drop_at(x, y, Edges::kMovedClear);
                              }}
 {
+    use(std::make_shared<Drops>());
 }
 
 ReachableHeight::ReachableHeight(const ReachableHeight& other)
     : ReachableHeight{other.surfaces_, other.path_fitter_, other.search_.pitch(), other.accuracy_}
 {
     shared_floor_ = other.shared_floor_;
+    use(other.shared_drops_);
+}
+
+void ReachableHeight::use(std::shared_ptr<Drops> drops)
+{
+    shared_drops_ = std::move(drops);
+    search_.use(&shared_drops_->any);
+    search_clear_of_edges_.use(&shared_drops_->clear_of_edges);
+}
+
+void ReachableHeight::share(Drops drops)
+{
+    if (shared_drops_->any.size() + shared_drops_->clear_of_edges.size() < kMostShared) {
+        shared_drops_->any.merge(drops.any);
+        shared_drops_->clear_of_edges.merge(drops.clear_of_edges);
+    }
 }
 
 // An edge that the tool would gouge counts as one more contact.

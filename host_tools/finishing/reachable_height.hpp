@@ -25,7 +25,7 @@ public:
                     const GougeFreePathFitter& path_fitter,
                     double pitch,
                     double accuracy);
-    // For another thread: shares the surfaces and their trims, searches on its own.
+    // For another thread: shares the surfaces, their trims and drops, searches on its own.
     ReachableHeight(const ReachableHeight& other);
     ReachableHeight& operator=(const ReachableHeight&) = delete;
 
@@ -49,10 +49,22 @@ public:
 
     double pitch() const { return search_.pitch(); }
 
+    // Drops on the grids, which the copies of one ReachableHeight share.
+    struct Drops {
+        drop_cutter::LowestPositionSearch::Nodes any;
+        drop_cutter::LowestPositionSearch::Nodes clear_of_edges;
+    };
+    // The drops that this one made and does not share yet.
+    Drops take_drops() { return {search_.take_nodes(), search_clear_of_edges_.take_nodes()}; }
+    // Shares drops of a copy, up to a number; of those at one node the first ones given. No copy may
+    // search meanwhile.
+    void share(Drops drops);
+
 private:
     // Whether tips that gouge rims and creases from the side are excluded.
     enum class Edges : std::uint8_t { kIgnored, kMovedClear };
 
+    void use(std::shared_ptr<Drops> drops);
     drop_cutter::LowestPositionSearch::DroppedTool drop_at(double x, double y, Edges edges);
     std::optional<Position> exact_over(Vec3d place, double x, double y, Edges edges) const;
     std::optional<Position> beside(Vec3d place, Vec3d brink, double exact_below, Edges edges);
@@ -70,6 +82,7 @@ private:
     const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;
     std::shared_ptr<SharedFloor> shared_floor_{std::make_shared<SharedFloor>()};
+    std::shared_ptr<Drops> shared_drops_;
     std::optional<drop_cutter::DropCutter> floor_;
     double accuracy_;
     double radius_;

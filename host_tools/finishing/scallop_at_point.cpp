@@ -88,20 +88,17 @@ bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
 bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share) const
 {
     const double allowed = share * scallop_;
-    if ((swept_->lowest(point.x, point.y).height - point.z) * normal.z <= allowed) {
-        return true;
-    }
     const Vec3d top = raised(point, normal, allowed, false);
     swept_->near_or_below(centre_under(top, normal, allowed, radius_), near_);
     return std::any_of(near_.begin(), near_.end(),
                        [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
 }
 
-bool ScallopAtPoint::is_upright(Vec3d point, Vec3d normal) const
+bool ScallopAtPoint::is_upright(Vec3d normal) const
 {
-    return normal.z < kUprightNormal &&
-           (normal.z < kLevelWall ||
-            (path_fitter_.model().box_high().z - point.z) * normal.z <= kPlaceShare * scallop_);
+    const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
+    return normal.z < kLevelWall ||
+           (normal.z < kUprightNormal && height * normal.z <= kPlaceShare * scallop_);
 }
 
 // mm: the stock over a point from `height` up to `now`, along the normal; at most the radius.
@@ -171,8 +168,7 @@ ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
 
 ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, double share) const
 {
-    if (normal.z < kUprightNormal &&
-        (is_upright(point, normal) || is_wall_cut(point, normal, share))) {
+    if (normal.z < kUprightNormal && (is_upright(normal) || is_wall_cut(point, normal, share))) {
         return {};
     }
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
@@ -200,7 +196,7 @@ bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
 
 ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double resolution) const
 {
-    if (is_upright(point, normal)) {
+    if (is_upright(normal)) {
         return {};
     }
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host_tools/finishing/gouge_free_path.hpp"
@@ -62,6 +63,10 @@ public:
 
     const SweptVolume& swept() const { return *swept_; }
 
+    // Drops of searches, which copies share: see ReachableHeight.
+    ReachableHeight::Drops take_drops() { return reach_.take_drops(); }
+    void share(ReachableHeight::Drops drops) { reach_.share(std::move(drops)); }
+
     // mm: stepover on level ground that leaves the scallop.
     double step() const { return step_; }
 
@@ -73,13 +78,14 @@ public:
     // normal  unit vector, upward
     bool is_covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
 
-    // As is_covered(), for walls steeper than kUprightNormal: the cut of the shank counts, and stock
-    // that is high but thin.
+    // As is_covered(), for walls steeper than kUprightNormal: the cut of the shank counts. Stock is
+    // measured along the normal: little over the point may be much beside it, where the wall leans
+    // out under it.
     bool is_wall_cut(Vec3d point, Vec3d normal, double share) const;
 
-    // Whether nothing thicker than the scallop fits between a wall and a vertical line from the point
-    // up to the top of the model.
-    bool is_upright(Vec3d point, Vec3d normal) const;
+    // Whether nothing thicker than the scallop would fit between a wall and a vertical line if the wall
+    // were as high as the model.
+    bool is_upright(Vec3d normal) const;
 
     struct LowerTip {
         std::optional<Vec3d> tip;  // none where no tip removes more than the share

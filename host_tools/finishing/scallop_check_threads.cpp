@@ -49,6 +49,9 @@ void ScallopCheck::share_out(const std::vector<Cell>& cells,
     const auto shares = shares_of_neighbours(middles, kCellShares);
     std::mutex guard;
     std::size_t done = 0;
+    // Later calls look near the same places.
+    places_.share(places_.take_drops());
+    std::vector<ReachableHeight::Drops> drops(shares.size());
     {
         const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
         parallel::for_each(shares.size(), [&](std::size_t share) {
@@ -63,12 +66,16 @@ void ScallopCheck::share_out(const std::vector<Cell>& cells,
                 }
                 work(copy, k);
             }
+            drops[share] = copy.places_.take_drops();
             const std::lock_guard lock{guard};
             done += shares[share].size();
             progress(static_cast<double>(done) / static_cast<double>(cells.size()));
         });
     }
     path_fitter_.model().forget_queries();
+    for (ReachableHeight::Drops& some : drops) {
+        places_.share(std::move(some));
+    }
 }
 
 void ScallopCheck::divide(const Cell& cell, int depth, std::vector<Cell>& out) const

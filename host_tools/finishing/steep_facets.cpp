@@ -17,16 +17,14 @@ Vec3d level_along(Vec3d normal)
 
 }  // namespace
 
-// Whether the facet is so steep that nothing thicker than the scallop fits between it and a
-// vertical line from its foot, up to the top of the model.
-bool MeshScallopCheck::is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const
+// Whether the facet is so steep that nothing thicker than the scallop would fit between it and a
+// vertical line if it were as high as the model. Less than that would not do: the facets under it
+// lean out farther, and the tool passes at their foot.
+bool MeshScallopCheck::is_upright(Vec3d normal) const
 {
-    if (normal.z >= kUprightNormal) {
-        return false;
-    }
-    const double low = std::min({corners[0].z, corners[1].z, corners[2].z});
+    const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
     return normal.z < kLevelFacet ||
-           (path_fitter_.model().box_high().z - low) * normal.z <= kPlaceShare * scallop_;
+           (normal.z < kUprightNormal && height * normal.z <= kPlaceShare * scallop_);
 }
 
 // On a steep wall rounding may raise the wall itself over the point.

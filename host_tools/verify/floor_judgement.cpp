@@ -238,25 +238,70 @@ struct Sums {
     std::vector<std::size_t> seen;  // points where some stock was cut
 };
 
+// mm from the stock's top at a point to what no tool can cut, by columns around the point that are
+// nearer together than the grid's: an eighth of the distance, which is too high by no more.
+//
+// distance    mm: as stock_distance() has it
+// sufficient  mm: results up to this may be too high
+double fine_distance(ToolAccess& reach, Vec3d top, double distance, double sufficient)
+{
+    constexpr int kColumns = 8;      // in each direction
+    constexpr double kNearer = 0.9;  // a round that gains less is the last
+    std::vector<Vec2d> around;       // in distances
+    for (int i = -kColumns; i <= kColumns; ++i) {
+        for (int j = -kColumns; j <= kColumns; ++j) {
+            around.push_back(
+                {static_cast<double>(i) / kColumns, static_cast<double>(j) / kColumns});
+        }
+    }
+    std::stable_sort(around.begin(), around.end(),
+                     [](Vec2d a, Vec2d b) { return std::hypot(a.x, a.y) < std::hypot(b.x, b.y); });
+    double least = distance;
+    double before = kInfinite;
+    while (least > sufficient && least < kNearer * before) {
+        before = least;
+        for (const Vec2d at : around) {
+            const double out = before * std::hypot(at.x, at.y);
+            if (out >= least || least <= sufficient) {
+                break;
+            }
+            const Vec3d place{top.x + before * at.x, top.y + before * at.y, top.z - before};
+            const double height = reach.lowest_over(place, {0, 0, 1}, top.z);
+            least = std::min(least, std::hypot(out, std::max(0.0, top.z - height)));
+        }
+    }
+    return least;
+}
+
 // The greatest distance of the stock's top from the material that stays, of points in falling order
-// of their height along the normal.
+// of their height along the normal. Where the columns of the grid say more than the bound, nearer
+// ones are asked.
 double highest_scallop(const FloorQuestion& q,
+                       const std::vector<double>& floor,
                        const Ideal& ideal,
                        const std::vector<double>& left,
                        const std::vector<std::size_t>& falling)
 {
+    const FloorSamples samples{q.grid, floor};
+    ToolAccess reach{q.surfaces, q.mesh, q.tools, q.walls, samples, 0.0};
     double most = std::min(left[falling.front()], 0.0);
     for (const std::size_t k : falling) {
         if (left[k] <= most) {
             break;
         }
-        const double top = std::min(q.cut[k], q.top);
-        most = std::max(most, stock_distance(q.grid, ideal.height, k, top, left[k], most));
+        const Vec3d top{q.grid.x(k / q.grid.ny, k % q.grid.ny),
+                        q.grid.y(k / q.grid.ny, k % q.grid.ny), std::min(q.cut[k], q.top)};
+        const double distance = stock_distance(q.grid, ideal.height, k, top.z, left[k], most);
+        const double sufficient = std::max(most, q.scallop.value_or(kInfinite));
+        most =
+            std::max(most, distance > sufficient ? fine_distance(reach, top, distance, sufficient)
+                                                 : distance);
     }
     return most;
 }
 
 void fill_figures(const FloorQuestion& q,
+                  const std::vector<double>& floor,
                   const Ideal& ideal,
                   const std::vector<double>& left,
                   const Sums& sums,
@@ -276,7 +321,7 @@ void fill_figures(const FloorQuestion& q,
     std::vector<std::size_t> falling = sums.seen;
     std::sort(falling.begin(), falling.end(),
               [&](std::size_t a, std::size_t b) { return left[a] > left[b]; });
-    figures.scallop_max = highest_scallop(q, ideal, left, falling);
+    figures.scallop_max = highest_scallop(q, floor, ideal, left, falling);
     const std::size_t last = falling.size() - 1;
     const double place = 0.99 * static_cast<double>(last);
     const auto low = static_cast<std::size_t>(place);
@@ -368,7 +413,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     if (q.scallop) {
         find_thickest(q, ideal, clear, left, figures);
     }
-    fill_figures(q, ideal, left, sums, cells, figures);
+    fill_figures(q, part.z, ideal, left, sums, cells, figures);
     fill_beyond_walls(q, clear, part);
     return {std::move(left), std::move(gouge), std::move(part.z)};
 }

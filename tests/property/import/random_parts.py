@@ -73,7 +73,7 @@ def judge(cusp, maker, seed, folder):
     claimed = json.loads((folder / "plan.json").read_text())["operations"][0]["scallop_bound_mm"]
     gouge = max(seen["gouge_max_mm"], seen["ball_gouge_max_mm"])
     most = claimed + TOLERANCE + MESH
-    holds = verify.returncode == 0 and gouge <= TOLERANCE + MESH and seen["scallop_p99_mm"] <= most
+    holds = verify.returncode == 0 and gouge <= TOLERANCE + MESH and seen["scallop_max_mm"] <= most
     print(f"{what}: gouge {gouge:.4f}, scallop {seen['scallop_p99_mm']:.3f} (99 of 100), {seen['scallop_max_mm']:.3f} at "
           f"most, claimed {claimed:.3f}, verify {verify.returncode}; {seconds:.1f} s{'' if holds else '  BROKEN'}")
     return holds
