@@ -79,7 +79,7 @@ bool is_corner(const Edge& before, const Edge& after)
 // The tool can not be there before a pass.
 bool is_in_stock(Vec2d place, const WallSpace& space)
 {
-    constexpr double kSunk = 0.02;  // radii
+    constexpr double kSunk = 0.005;  // radii: less stays beside a path that was cut
     return space.swept.engagement(place, {1.0, 0.0}, -kSunk * space.swept.radius(), 0.5 * kPi) >
            0.0;
 }
