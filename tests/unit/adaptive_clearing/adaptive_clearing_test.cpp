@@ -141,12 +141,6 @@ TEST(AdaptiveClearing, CornersAreCutInThinSlices)
                           line_edge({60, 0}, {40, 12}), line_edge({40, 12}, {0, 0})}}};
     const AdaptivePath sharp = clear_adaptively(kite, settings(60.0));
     CHECK(sharp.engagement_bound <= 60.0 * kDegree);
-    {
-        std::printf("over sharp %.4f\n", over(sharp));
-        for (auto& o : sharp.over)
-            std::printf("  %.3f,%.3f %.1f deg %.4f mm\n", o.at.x, o.at.y, o.engagement / kDegree,
-                        o.length);
-    }
     CHECK(over(sharp) < 0.7);
 }
 
