@@ -288,9 +288,8 @@ private:
                 }
             }
         }
-        const int most_halvings = from > kFine * radius_                ? 3
-                                  : turns_by(opened(to), spot) > kSharp ? 2
-                                                                        : 1;
+        const int most_halvings =
+            (from > kFine * radius_ ? 3 : 1) + (turns_by(opened(to), spot) > kSharp ? 1 : 0);
         if (!left || depth >= most_halvings || from <= 1.05 * to) {
             return;
         }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::adaptive_clearing {
 
 using offset::Box2d;
@@ -69,15 +71,24 @@ std::vector<Box2d> spots_along(const std::vector<const Region2d*>& regions, cons
 
 double turns_by(const Region2d& region, const Box2d& spot)
 {
+    constexpr double kSame = 1e-6;  // mm
     double most = 0.0;
     for (const Contour& contour : region.contours) {
-        for (const Edge& edge : contour) {
-            if (edge.turn > 0 && meet(box_of(edge), spot)) {
-                most = std::max(most, sweep(edge));
+        // The contour may begin within an arc.
+        double turn = 0.0;
+        const Edge* before = &contour.back();
+        for (int round = 0; round < 2; ++round) {
+            for (const Edge& edge : contour) {
+                const bool goes_on = before->turn > 0 && norm(before->centre - edge.centre) < kSame;
+                turn = edge.turn <= 0 ? 0.0 : (goes_on ? turn : 0.0) + sweep(edge);
+                if (turn > most && meet(box_of(edge), spot)) {
+                    most = turn;
+                }
+                before = &edge;
             }
         }
     }
-    return most;
+    return std::min(most, 2 * kPi);
 }
 
 Box2d take_nearest(std::vector<Box2d>& spots, Vec2d place)

@@ -21,7 +21,7 @@ std::vector<offset::Box2d> joined(const std::vector<offset::Box2d>& boxes);
 std::vector<offset::Box2d> spots_along(const std::vector<const offset::Region2d*>& regions,
                                        const WallSpace& space);
 
-// Radians: the sharpest turn to the left of one arc that meets the spot; 0 where there is none.
+// Radians: the greatest turn to the left about one centre in the spot; 0 where there is none.
 double turns_by(const offset::Region2d& region, const offset::Box2d& spot);
 
 // Takes the spot nearest to the place out of them. Precondition: there is one.
