@@ -16,7 +16,7 @@ double distance_to(const offset::Box2d& box, Vec2d p);
 // Stock in one corner has a box for each of its pieces: such that hardly differ become one.
 std::vector<offset::Box2d> joined(const std::vector<offset::Box2d>& boxes);
 
-// Around the stock that stands along the contours of the regions in the spot of the space, and half
+// Around the stock left along the contours of the regions in the spot of the space, and half
 // a radius of the tool more.
 std::vector<offset::Box2d> spots_along(const std::vector<const offset::Region2d*>& regions,
                                        const WallSpace& space);

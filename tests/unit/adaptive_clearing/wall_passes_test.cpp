@@ -22,7 +22,7 @@ Contour box_from(double x0, double y0, double x1, double y1, double first_x)
 
 TEST_GROUP(WallPasses){};
 
-// 1 mm of stock stands from x = 15 to 25 along a wall that is clear elsewhere.
+// 1 mm of stock is left from x = 15 to 25 along a wall that is clear elsewhere.
 TEST(WallPasses, StockAboutTheBeginningOfAContourIsOnePass)
 {
     SweptArea swept{{0, 0, 60, 40}, 3.0};
