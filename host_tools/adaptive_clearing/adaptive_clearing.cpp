@@ -50,7 +50,7 @@ constexpr double kWide = 1.0;                    // turning radius of the first 
 constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
 constexpr double kRatio = 0.2;                   // from one opening to the next
 constexpr double kFine = 0.05;                   // with smaller radii what is over is short
-constexpr double kSpot = 0.5;                    // around stock in a corner
+constexpr double kSharp = 0.6 * kPi;             // radians: the turn in a corner of 72 degrees
 constexpr double kHelix = 0.3;
 constexpr double kLeastNeck = 0.02;  // room of the tool's centre in a neck
 constexpr double kMostNeck = 0.52;   // wider ones are steered through
@@ -89,18 +89,18 @@ public:
                 break;
             }
             if (opened > 0.0) {
-                narrow(opened, turn, least_sliver());
+                narrow(opened, turn, least_sliver(), box_);
             }
             steer(turn,
                   opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
             cut_walls(turn, turn, box_, 0);
             if (opened <= 0.0) {
-                narrow(kWide * radius_, turn, least_sliver());
+                narrow(kWide * radius_, turn, least_sliver(), box_);
                 open_necks();
             }
             opened = turn;
         }
-        narrow(opened, finest, least_sliver());
+        narrow(opened, finest, least_sliver(), box_);
         cut_rest();
         cut_slivers();
         return std::move(result_);
@@ -254,41 +254,31 @@ private:
         return true;
     }
 
-    // Finds the places where the region opened by the radius `to` still has stock thicker than
-    // `sliver` (mm). Cuts each by passes along its walls, with turning radii that fall from `from`
-    // to `to`.
-    void narrow(double from, double to, double sliver)
+    // Finds the places in the box where the region opened by the radius `to` still has stock thicker
+    // than `sliver` (mm). Cuts each by passes along its walls, with turning radii that fall from
+    // `from` to `to`.
+    void narrow(double from, double to, double sliver, const Box2d& box)
     {
-        std::vector<Box2d> spots;
-        for (const Contour& contour : opened(to).contours) {
-            for (const std::vector<Edge>& path : stretches(contour, sliver, 2 * kPi, box_).paths) {
-                spots.push_back(grown_box(box_of(Region2d{{path}}), kSpot * radius_));
-            }
+        if (from <= to) {
+            return;
         }
-        spots = joined(spots);
-        while (!spots.empty()) {
-            const auto next =
-                std::min_element(spots.begin(), spots.end(), [&](const Box2d& a, const Box2d& b) {
-                    return distance_to(a, at_) < distance_to(b, at_);
-                });
-            const Box2d spot = *next;
-            spots.erase(next);
-            double before = from;
-            for (double at = kRatio * from; before > to; at = std::max(kRatio * at, to)) {
-                cut_walls(before, std::max(at, to), spot, 0);
-                before = std::max(at, to);
-            }
+        const double next = std::max(kRatio * from, to);
+        for (auto spots = spots_along({&opened(to)}, wall_space(sliver, 2 * kPi, box));
+             !spots.empty();) {
+            const Box2d spot = take_nearest(spots, at_);
+            cut_walls(from, next, spot, 0);
+            narrow(next, to, sliver, spot);
         }
     }
 
     // Passes along the walls of the region opened by the radius `to`, inside the box. `from` is the
-    // radius of the passes before; if the engagement is too large, radii in between come first.
+    // radius of the passes before; where the engagement is too large, radii in between come first.
     void cut_walls(double from, double to, const Box2d& spot, int depth)
     {
         bool left = false;
         for (const Contour& contour : opened(to).contours) {
-            const WallPasses passes =
-                stretches(contour, least_sliver(), settings_.max_engagement, spot);
+            const WallPasses passes = uncut_stretches(
+                contour, wall_space(least_sliver(), settings_.max_engagement, spot));
             left = left || passes.left;
             for (const std::vector<Edge>& path : passes.paths) {
                 if (is_bounded(path)) {
@@ -298,10 +288,16 @@ private:
                 }
             }
         }
-        const int most_halvings = from > kFine * radius_ ? 3 : 1;
-        if (left && depth < most_halvings && from > 1.05 * to) {
-            cut_walls(from, std::sqrt(from * to), spot, depth + 1);
-            cut_walls(std::sqrt(from * to), to, spot, depth + 1);
+        const int most_halvings =
+            (from > kFine * radius_ ? 3 : 1) + (turns_by(opened(to), spot) > kSharp ? 1 : 0);
+        if (!left || depth >= most_halvings || from <= 1.05 * to) {
+            return;
+        }
+        for (auto spots = spots_along({&opened(to)}, wall_space(least_sliver(), 2 * kPi, spot));
+             !spots.empty();) {
+            const Box2d corner = take_nearest(spots, at_);
+            cut_walls(from, std::sqrt(from * to), corner, depth + 1);
+            cut_walls(std::sqrt(from * to), to, corner, depth + 1);
         }
     }
 
@@ -311,13 +307,17 @@ private:
     {
         const Region2d& finest = opened(finest_turn());
         const Region2d whole = walls_.at(settings_.wall_clearance);
-        for (const Region2d* region : {&finest, &whole}) {
-            const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
-            for (const Contour& contour : region->contours) {
-                for (const std::vector<Edge>& path :
-                     stretches(contour, sliver, 2 * kPi, box_).paths) {
-                    enter_at(path.front().start);
-                    cut(path);
+        for (auto spots = spots_along({&finest, &whole}, wall_space(least_sliver(), 2 * kPi, box_));
+             !spots.empty();) {
+            const Box2d spot = take_nearest(spots, at_);
+            for (const Region2d* region : {&finest, &whole}) {
+                const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
+                for (const Contour& contour : region->contours) {
+                    for (const std::vector<Edge>& path :
+                         uncut_stretches(contour, wall_space(sliver, 2 * kPi, spot)).paths) {
+                        enter_at(path.front().start);
+                        cut(path);
+                    }
                 }
             }
         }
@@ -368,13 +368,9 @@ private:
         return std::max(settings_.corner / (std::sqrt(2.0) - 1.0), 1e-3 * radius_);
     }
 
-    WallPasses stretches(const Contour& contour,
-                         double sliver,
-                         double most,
-                         const Box2d& spot) const
+    WallSpace wall_space(double sliver, double most, const Box2d& spot) const
     {
-        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance, sliver, most,
-                                         settings_.tolerance, spot});
+        return {swept_, walls_, settings_.wall_clearance, sliver, most, settings_.tolerance, spot};
     }
 
     bool is_bounded(const std::vector<Edge>& path) const

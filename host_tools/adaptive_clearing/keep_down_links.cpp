@@ -142,7 +142,7 @@ std::optional<offset::Edge> KeepDownLinks::approach(Vec2d start) const
 std::vector<LinkLeg> KeepDownLinks::between(Vec2d from, Vec2d to)
 {
     const double size = norm(to - from);
-    if (size < 0.5 * radius_ && is_open(from, to)) {
+    if (size < radius_ && is_open(from, to)) {
         return {{to, false}};
     }
     const std::optional<Vec2d> first = beside(from);

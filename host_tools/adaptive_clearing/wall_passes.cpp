@@ -79,7 +79,7 @@ bool is_corner(const Edge& before, const Edge& after)
 // The tool can not be there before a pass.
 bool is_in_stock(Vec2d place, const WallSpace& space)
 {
-    constexpr double kSunk = 0.02;  // radii
+    constexpr double kSunk = 0.005;  // radii: less stays beside a path that was cut
     return space.swept.engagement(place, {1.0, 0.0}, -kSunk * space.swept.radius(), 0.5 * kPi) >
            0.0;
 }
@@ -155,7 +155,7 @@ public:
         return std::move(found_);
     }
 
-    bool has_barrier() const { return barrier_end_ > 0.0; }
+    bool has_barrier() const { return barrier_end_ > -kUnbounded; }
 
 private:
     bool has_stock(const Edge& edge, double share) const
@@ -183,9 +183,8 @@ private:
             barrier_end_ = end;
             return;
         }
-        const Stretch stock{
-            std::max(begin - kBeyond * radius, barrier_end_ > 0.0 ? barrier_end_ : -kUnbounded),
-            end + kBeyond * radius};
+        const Stretch stock{std::max(begin - kBeyond * radius, barrier_end_),
+                            end + kBeyond * radius};
         if (!found_.empty() && barrier_end_ <= found_.back().to &&
             stock.from < found_.back().to + kJoined * radius &&
             barrier_end_ <= found_.back().from) {
@@ -210,7 +209,7 @@ private:
     const WallSpace& space_;
     std::vector<Stretch> found_;
     double first_barrier_{kUnbounded};
-    double barrier_end_{0.0};
+    double barrier_end_{-kUnbounded};  // of the last one; none before 0
 };
 
 // Behind a corner in stock there is none to start from: the stretch from the first place that a

@@ -35,7 +35,7 @@ constexpr double kDegrees = 3.14159265358979323846 / 180.0;
 constexpr double kPitch = 1.0 / 40;  // radii
 constexpr double kStep = 1.0 / 30;   // radii between places of the tool
 // The turns of trochoids may be as small as a cell: what is over there is looked at again.
-constexpr double kFiner = 4.0;
+constexpr double kFiner[] = {1.0, 4.0, 8.0};
 constexpr double kTolerance = 0.005;  // mm
 // Of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
 constexpr double kRasterDegrees = 4.0;
@@ -131,7 +131,9 @@ Found judge(const Region2d& region,
         } else {
             found.rapid += rapid_in_stock(cutter, run.link, tool, run.path.front().start, step);
             found.rapid +=
-                run.link.empty() && cutter.meets_stock(run.path.front().start) ? step : 0;
+                run.link.empty() && cutter.meets_stock(run.path.front().start, kPitch * radius)
+                    ? step
+                    : 0;
             cutter.cut(run.path.front().start);
         }
         for (std::size_t k = 0; k < run.path.size(); ++k) {
@@ -181,9 +183,12 @@ bool holds(const Region2d& region,
            const Region2d& air = {})
 {
     const AdaptivePath path = clear_adaptively(region, settings);
-    Found found = judge(region, air, settings, path, 1.0);
-    if (found.over > 0.001 * found.way) {
-        found = judge(region, air, settings, path, kFiner);
+    Found found;
+    for (const double finer : kFiner) {
+        found = judge(region, air, settings, path, finer);
+        if (found.over <= 0.001 * found.way) {
+            break;
+        }
     }
     double listed = 0.0;
     for (const OverEngagement& over : path.over) {
@@ -389,9 +394,10 @@ TEST(RandomAdaptiveClearing, SeedsThatOnceFailed)
     for (const unsigned number : {1001U, 50016U, 60001U, 81010U}) {
         CHECK(closed_pocket_holds(number));
     }
-    for (const unsigned number : {43U, 107U, 50016U, 50069U}) {
+    for (const unsigned number : {43U, 107U, 50016U, 50069U, 82019U}) {
         CHECK(open_pocket_holds(number).value());
     }
+    CHECK(slot_holds(50128));
     CHECK(slot_holds(80020));
 }
 

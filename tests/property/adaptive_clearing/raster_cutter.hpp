@@ -39,15 +39,17 @@ public:
 
     void remove_disc(Vec2d at, double radius)
     {
-        const int n = static_cast<int>(radius / pitch_) + 1;
-        const int i0 = static_cast<int>(std::floor((at.x - corner_.x) / pitch_));
-        const int j0 = static_cast<int>(std::floor((at.y - corner_.y) / pitch_));
-        for (int j = std::max(0, j0 - n); j <= std::min(rows_ - 1, j0 + n); ++j) {
-            for (int i = std::max(0, i0 - n); i <= std::min(columns_ - 1, i0 + n); ++i) {
-                const Vec2d d = centre(i, j) - at;
-                if (dot(d, d) <= radius * radius) {
-                    metal_[index(i, j)] = 0;
-                }
+        const double y = (at.y - corner_.y) / pitch_ - 0.5;
+        const double r = radius / pitch_;
+        const int j1 = std::min(rows_ - 1, static_cast<int>(std::floor(y + r)));
+        for (int j = std::max(0, static_cast<int>(std::ceil(y - r))); j <= j1; ++j) {
+            const double x = (at.x - corner_.x) / pitch_ - 0.5;
+            const double half = std::sqrt(std::max(0.0, r * r - (j - y) * (j - y)));
+            const int i0 = std::max(0, static_cast<int>(std::ceil(x - half)));
+            const int i1 = std::min(columns_ - 1, static_cast<int>(std::floor(x + half)));
+            if (i0 <= i1) {
+                std::fill_n(metal_.begin() + static_cast<std::ptrdiff_t>(index(i0, j)), i1 - i0 + 1,
+                            std::uint8_t{0});
             }
         }
     }
@@ -64,10 +66,10 @@ public:
         }
     }
 
-    // Whether the tool there, smaller by a cell, is in stock.
-    bool meets_stock(Vec2d at) const
+    // Whether the tool there, smaller by `depth` (mm), is in stock.
+    bool meets_stock(Vec2d at, double depth) const
     {
-        const double radius = radius_ - pitch_;
+        const double radius = radius_ - depth;
         const int n = static_cast<int>(radius / pitch_) + 1;
         for (int j = -n; j <= n; ++j) {
             for (int i = -n; i <= n; ++i) {

@@ -141,13 +141,39 @@ TEST(AdaptiveClearing, CornersAreCutInThinSlices)
                           line_edge({60, 0}, {40, 12}), line_edge({40, 12}, {0, 0})}}};
     const AdaptivePath sharp = clear_adaptively(kite, settings(60.0));
     CHECK(sharp.engagement_bound <= 60.0 * kDegree);
-    {
-        std::printf("over sharp %.4f\n", over(sharp));
-        for (auto& o : sharp.over)
-            std::printf("  %.3f,%.3f %.1f deg %.4f mm\n", o.at.x, o.at.y, o.engagement / kDegree,
-                        o.length);
-    }
     CHECK(over(sharp) < 0.7);
+}
+
+// Links of more than `far` (mm).
+int long_links(const AdaptivePath& path, double far)
+{
+    int found = 0;
+    Vec2d at{};
+    for (const AdaptiveRun& run : path.runs) {
+        double way = 0.0;
+        for (const LinkLeg& leg : run.link) {
+            way += distance(at, leg.end);
+            at = leg.end;
+        }
+        found += way > far ? 1 : 0;
+        at = run.path.empty() ? run.helix->centre : run.path.back().end;
+    }
+    return found;
+}
+
+TEST(AdaptiveClearing, OneCornerIsFinishedBeforeTheNext)
+{
+    Contour star;
+    const auto corner = [](int k) {
+        const double angle = 36.0 * k * kDegree;
+        return Vec2d{std::cos(angle), std::sin(angle)} * (k % 2 == 0 ? 38.0 : 17.0);
+    };
+    for (int k = 0; k < 10; ++k) {
+        star.push_back(line_edge(corner(k), corner((k + 1) % 10)));
+    }
+    // Its tips are 45 mm apart and more. Four ways to each: along its walls, and for three turning
+    // radii.
+    CHECK(long_links(clear_adaptively(Region2d{{star}}, settings(60.0)), 25.0) <= 20);
 }
 
 // The stretch that the rounding leaves is shorter than half the way between two looks.
