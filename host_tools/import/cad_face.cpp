@@ -243,9 +243,12 @@ bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
     return any;
 }
 
+// Adds how far edges of cusps were apart, mm, to the gaps of the model.
 std::vector<std::vector<Curve>> trims_without_cusps(std::vector<std::vector<Curve>> loops,
+                                                    double gap,
                                                     const Surface& surface,
-                                                    const std::string& place)
+                                                    const std::string& place,
+                                                    CadModel& model)
 {
     const auto grouped = [&] {
         std::vector<Curve> curves;
@@ -257,15 +260,17 @@ std::vector<std::vector<Curve>> trims_without_cusps(std::vector<std::vector<Curv
     try {
         return grouped();
     } catch (const InputError&) {
-        bool any = false;
+        double widest = 0;
         for (std::vector<Curve>& loop : loops) {
-            any = cut_cusps(loop, surface) || any;
+            widest = std::max(widest, cut_cusps(loop, gap, surface));
         }
-        if (!any) {
+        if (widest <= 0) {
             throw;
         }
+        std::vector<std::vector<Curve>> trims = grouped();
+        model.gaps.add(widest);
+        return trims;
     }
-    return grouped();
 }
 
 // gap  mm: how far the file lets ends that meet lie apart
@@ -292,7 +297,7 @@ void add_trims(const TopoDS_Face& face,
                 std::max(most.widest_gap, gaps.widest_gap)};
         loops.push_back(std::move(loop));
     }
-    surface.trims = trims_without_cusps(std::move(loops), surface, place);
+    surface.trims = trims_without_cusps(std::move(loops), gap, surface, place, model);
     model.points.add(most.longest_point);
     model.gaps.add(most.widest_gap);
     const double whole =

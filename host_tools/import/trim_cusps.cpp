@@ -19,7 +19,6 @@ constexpr int kPlaces = 256;  // along half a curve
 constexpr double kApart =
     5e-5;                       // of the domain's longer side; trims less than 1e-5 apart may cross
 constexpr double kSlender = 4;  // a tip is longer than its width by this
-constexpr double kMostWidth = 0.01;  // mm
 
 // The part of a clamped curve between two parameters of its domain.
 Curve part_of(const Curve& curve, double from, double to)
@@ -83,17 +82,17 @@ std::size_t after_crossings(const std::vector<Place>& first, const std::vector<P
 }
 
 struct Cusp {
-    double end;    // parameter of the first curve
-    double begin;  // of the next one
+    double end;     // parameter of the first curve
+    double begin;   // of the next one
+    double widest;  // mm
 };
 
 // Where the tip between two curves is as wide as `width`, after their last crossing; none where they meet
-// at a wider angle, or are apart by more than kMostWidth before.
-std::optional<Cusp> cusp_between(const Curve& first,
-                                 const Curve& next,
-                                 double width,
-                                 const Surface& surface)
+// at a wider angle, or are apart by more than `gap` before.
+std::optional<Cusp> cusp_between(
+    const Curve& first, const Curve& next, double width, double gap, const Surface& surface)
 {
+    double widest = 0;
     const std::vector<Place> ends = places_from(first, true);
     const std::vector<Place> begins = places_from(next, false);
     const std::size_t crossed = after_crossings(ends, begins);
@@ -103,14 +102,15 @@ std::optional<Cusp> cusp_between(const Curve& first,
             begins.begin(), begins.end(),
             [&](const Place& a, const Place& b) { return norm(a.uv - at) < norm(b.uv - at); });
         const Vec3d beside = nearest->uv;
-        if (norm(point_at(surface, at.x, at.y) - point_at(surface, beside.x, beside.y)) >
-            kMostWidth) {
+        widest = std::max(
+            widest, norm(point_at(surface, at.x, at.y) - point_at(surface, beside.x, beside.y)));
+        if (widest > gap) {
             return std::nullopt;
         }
         if (k >= crossed && norm(beside - at) >= width) {
             const bool slender = norm(at - ends[0].uv) > kSlender * width &&
                                  nearest != begins.begin() && nearest + 1 != begins.end();
-            return slender ? std::optional{Cusp{ends[k].parameter, nearest->parameter}}
+            return slender ? std::optional{Cusp{ends[k].parameter, nearest->parameter, widest}}
                            : std::nullopt;
         }
     }
@@ -119,14 +119,14 @@ std::optional<Cusp> cusp_between(const Curve& first,
 
 }  // namespace
 
-bool cut_cusps(std::vector<Curve>& loop, const Surface& surface)
+double cut_cusps(std::vector<Curve>& loop, double gap, const Surface& surface)
 {
     const double width =
         kApart * std::max(surface.u_end() - surface.u_begin(), surface.v_end() - surface.v_begin());
-    bool any = false;
+    double widest = 0;
     for (std::size_t i = 0; i < loop.size() && loop.size() > 1; ++i) {
         const std::size_t following = (i + 1) % loop.size();
-        const auto cusp = cusp_between(loop[i], loop[following], width, surface);
+        const auto cusp = cusp_between(loop[i], loop[following], width, gap, surface);
         if (!cusp) {
             continue;
         }
@@ -139,9 +139,9 @@ bool cut_cusps(std::vector<Curve>& loop, const Surface& surface)
         loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                     Curve{1, {0, 0, 1, 1}, {from, to}, {1, 1}});
         ++i;
-        any = true;
+        widest = std::max(widest, cusp->widest);
     }
-    return any;
+    return widest;
 }
 
 }  // namespace cusp::import

@@ -8,11 +8,12 @@
 namespace cusp::import {
 
 // Where two edges of a blend meet almost along each other, rounding makes them cross near the vertex. Cuts
-// both where they are 5e-5 of the domain apart, if that is at most 0.01 mm, and joins them by a line.
+// both where they are 5e-5 of the domain apart after the last crossing, and joins them by a line.
 //
 // loop  each curve starts at the end of the one before it, the first one at the end of the last one
+// gap   mm: how far apart they may be up to there
 //
-// Returns whether there was such a place.
-bool cut_cusps(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
+// Returns how far apart they are at most, mm; 0 where there is no such place.
+double cut_cusps(std::vector<nurbs::Curve>& loop, double gap, const nurbs::Surface& surface);
 
 }  // namespace cusp::import
