@@ -76,8 +76,8 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
     };
     note(model.points, "an edge that the file makes a point, but which is up to",
          "long; the faces end there as their surfaces do");
-    note(model.gaps, "edges whose ends lie up to",
-         "apart, within the file's own tolerance; joined");
+    note(model.gaps, "edges that miss each other at a vertex by up to",
+         "within the file's own tolerance; joined");
     note(model.beside, "edges up to", "beside the surface, within the file's own tolerance");
     return notes;
 }
