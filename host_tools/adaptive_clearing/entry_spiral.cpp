@@ -8,6 +8,8 @@ namespace cusp::adaptive_clearing {
 
 using offset::arc_edge;
 using offset::Edge;
+using offset::point_on;
+using offset::tangent_on;
 
 namespace {
 
@@ -34,6 +36,21 @@ Edge half_turn(Vec2d centre, double from, double to, double side)
     const Vec2d start{centre.x + side * from, centre.y};
     const Vec2d end{centre.x - side * to, centre.y};
     return arc_edge(start, end, (start + end) * 0.5, 1);
+}
+
+// Whether the tool meets no more along the edge than what stays beside a path.
+bool is_clear(const Edge& edge, const SweptArea& swept)
+{
+    constexpr int kLooks = 32;
+    constexpr double kCusp = 0.005;  // radii
+    for (int i = 0; i <= kLooks; ++i) {
+        const double share = static_cast<double>(i) / kLooks;
+        if (swept.engagement(point_on(edge, share), tangent_on(edge, share),
+                             -kCusp * swept.radius()) > 0.0) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
@@ -87,10 +104,12 @@ EntrySpiral entry_spiral(SweptArea& swept,
         whole = at;
         add(to);
     }
-    if (whole < at && bound(at) <= limits.max_engagement) {
+    // Half a turn at the last radius, and one more where the spiral grew so fast that the first half
+    // of its last turn is inside of that.
+    for (int i = 0; i < 2 && whole < at && bound(at) <= limits.max_engagement; ++i) {
         spiral.engagement_bound = std::max(spiral.engagement_bound, bound(at));
         add(at);
-        whole = at;
+        whole = i > 0 || is_clear(half_turn(centre, at, at, side), swept) ? at : whole;
     }
     swept.add_disc(centre, swept.radius() + std::max(whole - limits.tolerance, 0.0));
     spiral.radius = whole;

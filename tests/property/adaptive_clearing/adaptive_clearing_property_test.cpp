@@ -399,6 +399,7 @@ TEST(RandomAdaptiveClearing, SeedsThatOnceFailed)
     }
     CHECK(slot_holds(50128));
     CHECK(slot_holds(80020));
+    CHECK(slot_holds(90001));
 }
 
 // The stock is a star of lines and arcs, with a hole in every other case, about a place in the

@@ -73,6 +73,22 @@ TEST(EntrySpirals, SweepTheWholeHole)
     }
 }
 
+// By the path alone.
+TEST(EntrySpirals, CutTheWholeHoleHoweverFastTheyGrow)
+{
+    for (const double degrees : {40.0, 60.0, 80.0, 100.0, 150.0}) {
+        const Spiral spiral{0.9, degrees};
+        SweptArea swept{{-10, -10, 10, 10}, 3.0};
+        for (const Edge& edge : spiral.found.path) {
+            swept.add(edge, 0.002);
+        }
+        for (int i = 0; i < 720; ++i) {
+            const Vec2d at = Vec2d{std::cos(i * 0.5 * kDegrees), std::sin(i * 0.5 * kDegrees)};
+            CHECK(swept.contains(Vec2d{1, 2} + at * (3.0 + spiral.found.radius - 0.02)));
+        }
+    }
+}
+
 TEST(EntrySpirals, OfAHoleWithHardlyRoomAreAFirstTurnAlone)
 {
     for (const double radius : {0.03, 0.06, 0.12}) {
