@@ -144,6 +144,31 @@ double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
     return height_under({at.x, at.y, centre}, place);
 }
 
+// Whether lowest_known() is `height` or more.
+//
+// first  number of the contact to ask first: the one that decided last usually decides again
+bool LowestPositionSearch::known_blocks(double height,
+                                        Vec3d place,
+                                        Vec2d at,
+                                        std::size_t& first) const
+{
+    const double under = square(corner_) - square_off_flat(flat_, at, place);
+    if (under < 0) {
+        return true;
+    }
+    const double depth = std::sqrt(under);
+    const auto blocks = [&](Vec3d contact) {
+        const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
+        return up >= 0 && contact.z + std::sqrt(up) - depth >= height;
+    };
+    if (first < contacts_.size() && blocks(contacts_[first])) {
+        return true;
+    }
+    const auto found = std::find_if(contacts_.begin(), contacts_.end(), blocks);
+    first = static_cast<std::size_t>(found - contacts_.begin());
+    return found != contacts_.end();
+}
+
 // A local minimum of lowest_known() near `at`.
 Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
 {
@@ -304,6 +329,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
     const std::size_t most = open.size() + kMostTriangles;
     int improvements = 0;
     int tries = 0;
+    std::size_t blocking = 0;
     for (std::size_t k = 0; k < open.size() && k < most; ++k) {
         const ApproachDirections::Triangle triangle = open[k];
         if (const auto contact = directions.blocking(triangle)) {
@@ -312,7 +338,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
         }
         const Vec3d middle = directions.centre(ApproachDirections::middle(triangle));
         Vec2d at{middle.x, middle.y};
-        const bool open_middle = lowest_known(place, at) < height;
+        const bool open_middle = !known_blocks(height, place, at, blocking);
         const double edge = norm(triangle[0] - triangle[1]) * radius_;
         std::optional<Position> lower;
         // Returns whether the contact blocks the triangle.

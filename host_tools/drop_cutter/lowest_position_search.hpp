@@ -93,6 +93,7 @@ private:
     const DroppedTool& node(int halvings, std::int64_t i, std::int64_t j);
     const DroppedTool& node_near(double x, double y, double length);
     double lowest_known(Vec3d place, Vec2d at) const;
+    bool known_blocks(double height, Vec3d place, Vec2d at, std::size_t& first) const;
     Vec2d improved(Vec3d place, Vec2d at);
     void improve_from(const Position& start,
                       Vec3d place,

@@ -221,18 +221,25 @@ MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*ta
 {
 }
 
-void MeshScallopCheck::share_out(
-    std::size_t count, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const
+void MeshScallopCheck::share_out(std::size_t count,
+                                 const std::function<void(MeshScallopCheck&, std::size_t)>& work)
 {
     const std::size_t shares = std::min(count, kShares);
+    // Later calls look near the same places.
+    places_.share(places_.take_drops());
+    std::vector<ReachableHeight::Drops> drops(shares);
     parallel::for_each(shares, [&](std::size_t share) {
         MeshScallopCheck copy{*this, ForThread{}};
         path_fitter_.model().forget_queries();
         for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
             work(copy, k);
         }
+        drops[share] = copy.places_.take_drops();
     });
     path_fitter_.model().forget_queries();
+    for (ReachableHeight::Drops& some : drops) {
+        places_.share(std::move(some));
+    }
 }
 
 void MeshScallopCheck::check()

@@ -69,7 +69,7 @@ public:
     // Calls work(copy, k) for each k below count, on several threads, in shares that do not depend on
     // their number. The copies have the passes of this one and no cells.
     void share_out(std::size_t count,
-                   const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
+                   const std::function<void(MeshScallopCheck&, std::size_t)>& work);
 
 private:
     struct Place {
