@@ -7,7 +7,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/import/cad_face_patches.hpp"
-#include "host_tools/import/cad_face_pieces.hpp"
+#include "host_tools/import/cad_face_repair.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/trim_cusps.hpp"
 #include "host_tools/import/trim_loops.hpp"
@@ -412,39 +412,6 @@ bool add_unconverted(const SolidFace& found,
     return true;
 }
 
-// As add_whole_face(), for the pieces of a face. Returns false where one cannot be read, or where
-// they keep another part of the face: Open CASCADE's curves may lie on the wrong side of a seam.
-bool add_pieces(
-    const SolidFace& found, double turn, bool all_faces, const std::string& place, CadModel& model)
-{
-    constexpr double kSameVector = 3e-3;  // of the area
-    CadModel pieces;
-    try {
-        for (const TopoDS_Face& piece : pieces_of(found.face, turn)) {
-            add_whole_face({piece, found.solid}, true, place, pieces);
-        }
-    } catch (const InputError&) {
-        return false;
-    }
-    Vec3d apart = area_vector(found.face);
-    for (const Surface& piece : pieces.faces) {
-        apart = apart - area_vector(piece);
-    }
-    if (pieces.faces.empty() || norm(apart) > kSameVector * std::abs(area_of(found.face))) {
-        return false;
-    }
-    model.points.add(pieces.points);
-    model.gaps.add(pieces.gaps);
-    model.beside.add(pieces.beside);
-    for (std::size_t k = 0; k < pieces.faces.size(); ++k) {
-        if (all_faces || !found.solid || looks_up(pieces.faces[k], pieces.outwards[k])) {
-            model.faces.push_back(std::move(pieces.faces[k]));
-            model.outwards.push_back(pieces.outwards[k]);
-        }
-    }
-    return true;
-}
-
 // As add_whole_face(), for a face whose edges in space are good. Returns false for others.
 bool add_patches(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
 {
@@ -467,20 +434,14 @@ bool add_patches(const SolidFace& found, bool all_faces, const std::string& plac
 
 }  // namespace
 
-// Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain. The
-// patches and pieces of such a face have no seam inside; cuts may meet a wire where they fail, so
-// there are two choices.
+// Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain.
 void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
 {
-    constexpr double kQuarter = 0.5 * kPi;
-    constexpr double kOther = 0.35 * kPi;
     try {
         add_whole_face(found, all_faces, place, model);
     } catch (const InputError&) {
         if (!add_unconverted(found, all_faces, place, model) &&
-            !add_patches(found, all_faces, place, model) &&
-            !add_pieces(found, kQuarter, all_faces, place, model) &&
-            !add_pieces(found, kOther, all_faces, place, model)) {
+            !add_patches(found, all_faces, place, model)) {
             throw;
         }
     }

@@ -1,6 +1,6 @@
 // Converts every face of a CAD model into a B-spline surface with trimming curves.
 #include "host_tools/import/cad_face.hpp"
-#include "host_tools/import/cad_face_pieces.hpp"
+#include "host_tools/import/cad_face_repair.hpp"
 #include "host_tools/import/cad_shape.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/input_error/input_error.hpp"

@@ -113,6 +113,8 @@ bool is_left(const Revolved& surface, const std::vector<FaceEdge>& edges, double
     double side = 0;
     for (const FaceEdge& edge : edges) {
         Vec3d a = edge.begin();
+        double nearest = kInfinite;
+        double left_by = 0;  // of the chord nearest to the point
         for (int k = 1; k <= kEdgeChords; ++k) {
             const Vec3d b = edge.at(parameter_of(edge, k)).point;
             Vec3d along = way(surface, a, b);
@@ -122,15 +124,18 @@ bool is_left(const Revolved& surface, const std::vector<FaceEdge>& edges, double
             a = b;
             const double t = std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0);
             const Vec3d apart = to - along * t;
-            const double distance = norm(apart);
-            // where two chords are equally near, at the point between them, both count
-            if (distance < least - same) {
-                side = 0;
+            if (norm(apart) < nearest) {
+                nearest = norm(apart);
+                left_by = (along.x * apart.y - along.y * apart.x) / norm(along);
             }
-            if (distance < least + same) {
-                side += (along.x * apart.y - along.y * apart.x) / norm(along);
-                least = std::min(least, distance);
-            }
+        }
+        // edges that are equally near, at a vertex, count alike
+        if (nearest < least - same) {
+            side = 0;
+        }
+        if (nearest < least + same) {
+            side += left_by;
+            least = std::min(least, nearest);
         }
     }
     return side > 0;

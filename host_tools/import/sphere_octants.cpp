@@ -62,22 +62,26 @@ bool is_left(const std::vector<FaceEdge>& edges, double gap, Vec3d p)
     double side = 0;
     for (const FaceEdge& edge : edges) {
         Vec3d a = edge.begin();
+        double nearest = kInfinite;
+        double left_by = 0;  // of the chord nearest to the point
         for (int k = 1; k <= kEdgeChords; ++k) {
             const Vec3d b = edge.at(parameter_of(edge, k)).point;
             const Vec3d along = b - a;
             const double t = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
             const Vec3d apart = p - (a + along * t);
-            const Vec3d left = cross(a, along) / norm(along);
-            const double distance = norm(apart);
-            // where two chords are equally near, at the point between them, both count
-            if (distance < least - gap) {
-                side = 0;
-            }
-            if (distance < least + gap) {
-                side += dot(left, apart);
-                least = std::min(least, distance);
+            if (norm(apart) < nearest) {
+                nearest = norm(apart);
+                left_by = dot(cross(a, along) / norm(along), apart);
             }
             a = b;
+        }
+        // edges that are equally near, at a vertex, count alike
+        if (nearest < least - gap) {
+            side = 0;
+        }
+        if (nearest < least + gap) {
+            side += left_by;
+            least = std::min(least, nearest);
         }
     }
     return side > 0;

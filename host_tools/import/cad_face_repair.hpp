@@ -1,4 +1,4 @@
-// Faces of a CAD model that Open CASCADE converts to splines badly, in pieces that it converts well.
+// Faces of a CAD model that Open CASCADE converts to splines badly: how badly, and other ways to read them.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "firmware/base/vec.hpp"
-#include "host_tools/import/sphere_octants.hpp"
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/import/face_edges.hpp"
 
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Shape.hxx"
@@ -19,12 +18,6 @@ inline Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 // mm2, of all faces; negative where edges run round a face the wrong way.
 double area_of(const TopoDS_Shape& shape);
-
-// mm2: the integral of the unit normal over a face, forward oriented, which its edges in space decide:
-// half the sum of r x dr (Stokes). The same of a surface with its trims; they agree if these keep
-// the right side of the edges.
-Vec3d area_vector(const TopoDS_Face& face);
-Vec3d area_vector(const nurbs::Surface& surface);
 
 // mm: how far its edges may lie beside a face: 0.01, and 1.5 times the tolerance of the file, 1 at most.
 double allowed_off(const TopoDS_Face& face);
@@ -49,9 +42,5 @@ double check_conversion(const TopoDS_Face& original,
 // The face, forward oriented, with a spline for its surface and the same (u, v): a spline, a plane, and
 // what is swept along a line or about an axis, if it can be had within 1e-4 mm. None for others.
 std::optional<TopoDS_Face> spline_with_same_trims(const TopoDS_Face& face);
-
-// The pieces of a face, cut at every `turn` (radians) about its axis; none where that fails or is not
-// the same face.
-std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn);
 
 }  // namespace cusp::import

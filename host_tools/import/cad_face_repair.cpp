@@ -1,11 +1,10 @@
-// Open CASCADE divides faces and computes areas; what it makes of edges is judged at places along them.
-#include "host_tools/import/cad_face_pieces.hpp"
+// What Open CASCADE makes of edges is judged at places along them.
+#include "host_tools/import/cad_face_repair.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 #include "opencascade/BRepAdaptor_Surface.hxx"
@@ -17,8 +16,6 @@
 #include "opencascade/Geom_Curve.hxx"
 #include "opencascade/Geom_Surface.hxx"
 #include "opencascade/ShapeCustom.hxx"
-#include "opencascade/ShapeUpgrade_ShapeDivideAngle.hxx"
-#include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
 #include "opencascade/TopoDS_Edge.hxx"
@@ -27,9 +24,6 @@
 namespace cusp::import {
 
 namespace {
-
-// Of an area: sums over a face with a seam are inexact.
-constexpr double kSameArea = 1e-3;
 
 // mm: how far the edges' curves in (u, v) lie beside the edges at most.
 double off_edges(const TopoDS_Face& face)
@@ -89,62 +83,6 @@ double area_of(const TopoDS_Shape& shape)
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(shape, properties);
     return properties.Mass();
-}
-
-Vec3d area_vector(const TopoDS_Face& face)
-{
-    constexpr int kChords = 256;
-    Vec3d sum{};
-    for (TopExp_Explorer at{face.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; at.More(); at.Next()) {
-        const TopoDS_Edge& edge = TopoDS::Edge(at.Current());
-        double from = 0;
-        double to = 0;
-        const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, from, to);
-        if (curve.IsNull() || BRep_Tool::Degenerated(edge)) {
-            continue;
-        }
-        const double sign = edge.Orientation() == TopAbs_REVERSED ? -0.5 : 0.5;
-        Vec3d last = vec_of(curve->Value(from));
-        for (int k = 1; k <= kChords; ++k) {
-            const Vec3d next = vec_of(curve->Value(from + (to - from) * k / kChords));
-            sum = sum + cross(last, next) * sign;
-            last = next;
-        }
-    }
-    return sum;
-}
-
-Vec3d area_vector(const nurbs::Surface& s)
-{
-    constexpr int kChords = 128;  // of a line in (u, v), which may be a whole circle
-    constexpr double kLoop = 1e-4;
-    const double size = std::max(s.u_end() - s.u_begin(), s.v_end() - s.v_begin());
-    std::vector<std::vector<Vec2d>> loops;
-    for (const auto& loop : s.trims) {
-        loops.push_back(job::loop_polyline(loop, kLoop * size));
-    }
-    if (loops.empty()) {
-        loops.push_back({{s.u_begin(), s.v_begin()},
-                         {s.u_end(), s.v_begin()},
-                         {s.u_end(), s.v_end()},
-                         {s.u_begin(), s.v_end()}});
-    }
-    Vec3d sum{};
-    for (std::vector<Vec2d>& loop : loops) {
-        loop.push_back(loop.front());
-        Vec3d last = derivatives_at(s, loop[0].x, loop[0].y).point;
-        for (std::size_t i = 1; i < loop.size(); ++i) {
-            for (int k = 1; k <= kChords; ++k) {
-                const Vec2d at = loop[i - 1] + (loop[i] - loop[i - 1]) * (1.0 * k / kChords);
-                const Vec3d next = derivatives_at(s, std::clamp(at.x, s.u_begin(), s.u_end()),
-                                                  std::clamp(at.y, s.v_begin(), s.v_end()))
-                                       .point;
-                sum = sum + cross(last, next) * 0.5;
-                last = next;
-            }
-        }
-    }
-    return sum;
 }
 
 double allowed_off(const TopoDS_Face& face)
@@ -223,25 +161,6 @@ std::optional<TopoDS_Face> spline_with_same_trims(const TopoDS_Face& face)
     }
     const TopoDS_Face spline = TopoDS::Face(at.Current().Oriented(TopAbs_FORWARD));
     return apart(face, spline) <= kSame ? std::optional{spline} : std::nullopt;
-}
-
-std::vector<TopoDS_Face> pieces_of(const TopoDS_Face& face, double turn)
-{
-    std::vector<TopoDS_Face> out;
-    try {
-        ShapeUpgrade_ShapeDivideAngle divide{turn, face};
-        if (!divide.Perform()) {
-            return {};
-        }
-        for (TopExp_Explorer at{divide.Result(), TopAbs_FACE}; at.More(); at.Next()) {
-            out.push_back(TopoDS::Face(at.Current()));
-        }
-        const double area = area_of(face);
-        const bool same = std::abs(area_of(divide.Result()) - area) <= kSameArea * std::abs(area);
-        return same ? out : std::vector<TopoDS_Face>{};
-    } catch (const Standard_Failure&) {
-        return {};
-    }
 }
 
 }  // namespace cusp::import
