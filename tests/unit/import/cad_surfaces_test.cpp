@@ -53,14 +53,16 @@
 
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/import.hpp"
-#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/unit/import/seen_from_above.hpp"
 
 using namespace cusp;
 using namespace cusp::import;
 using namespace cusp::job;
 using namespace cusp::nurbs;
+using cusp::test::Seen;
+using cusp::test::seen_from_above;
 
 namespace {
 
@@ -89,47 +91,6 @@ Handle(Geom_BSplineSurface) wavy_surface()
         }
     }
     return GeomAPI_PointsToBSplineSurface(points).Surface();
-}
-
-struct Seen {
-    double area{};  // from above, of what the trims leave
-    double low{1e9};
-    double high{-1e9};
-};
-
-// By places spread evenly in (u, v), not in rows: trims that run along rows would count whole rows.
-Seen seen_from_above(const std::vector<Surface>& surfaces)
-{
-    constexpr int kLooks = 200;
-    constexpr double kGolden = 0.61803398874989485;
-    const auto in_row = [](int at, int row) {
-        const double shift = kGolden * row;
-        return at + shift - std::floor(shift);
-    };
-    Seen seen;
-    for (const Surface& s : surfaces) {
-        std::vector<std::vector<Vec2d>> loops;
-        for (const auto& loop : s.trims) {
-            loops.push_back(loop_polyline(loop, 1e-5 * (s.u_end() - s.u_begin())));
-        }
-        const double du = (s.u_end() - s.u_begin()) / kLooks;
-        const double dv = (s.v_end() - s.v_begin()) / kLooks;
-        for (int k = 0; k < kLooks * kLooks; ++k) {
-            const double u = s.u_begin() + in_row(k % kLooks, k / kLooks) * du;
-            const double v = s.v_begin() + in_row(k / kLooks, k % kLooks) * dv;
-            bool inside = loops.empty();
-            for (const auto& loop : loops) {
-                inside = inside != encloses(loop, {u, v});
-            }
-            const SurfacePoint p = derivatives_at(s, u, v);
-            if (inside) {
-                seen.area += std::abs(cross(p.du, p.dv).z) * du * dv;
-                seen.low = std::min(seen.low, p.point.z);
-                seen.high = std::max(seen.high, p.point.z);
-            }
-        }
-    }
-    return seen;
 }
 
 // Open CASCADE keeps its tables to the end of the process: counting leaks is off from the start on.
