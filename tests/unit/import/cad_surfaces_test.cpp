@@ -226,7 +226,7 @@ TEST(CadSurfaces, OfAFaceWhoseEdgesRunTheWrongWayRoundAreNotLeftOut)
 }
 
 // The ball's lower half hangs out beside the block, its pole sometimes on a corner of the face:
-// then Open CASCADE's repairs would keep the wrong part of the ball, and the face is read in pieces.
+// then Open CASCADE's repairs would keep the wrong part of the ball, and the face is read by its edges in space.
 TEST(CadSurfaces, OfABallFusedIntoABlockAreWhole)
 {
     const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, -30), gp_Pnt(60, 40, -15)).Shape();
