@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "host_tools/import/cad_face_repair.hpp"
-#include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/revolved_patches.hpp"
 #include "host_tools/import/sphere_patches.hpp"
 

@@ -96,6 +96,21 @@ private:
     const std::string& place_;
 };
 
+// Whether the face has the boundary of a cell that no edge meets, all of it.
+bool is_boundary_inside(const CellBoundary& boundary,
+                        const std::function<bool(Vec3d)>& is_inside,
+                        const std::string& place)
+{
+    const bool inside = is_inside(boundary.part(0, 0, 1).begin());
+    for (unsigned side = 0; side < boundary.sides(); ++side) {
+        const FaceEdge whole = boundary.part(side, 0, 1);
+        if (is_inside(whole.begin()) != inside || is_inside(whole.at(0.5).point) != inside) {
+            throw InputError(place + ": the edges have the face on both sides");
+        }
+    }
+    return inside;
+}
+
 }  // namespace
 
 std::vector<CellEdge> cut_at_cells(const FaceEdge& edge,
@@ -163,13 +178,14 @@ FaceLoop CellBoundary::between(double from, double to) const
 
 std::vector<FaceLoop> cell_loops(std::vector<CellEdge> edges,
                                  const CellBoundary& boundary,
-                                 bool boundary_inside,
+                                 const std::function<bool(Vec3d)>& is_inside,
                                  double gap,
                                  const std::string& place)
 {
     std::vector<FaceLoop> loops;
-    if (boundary_inside && std::none_of(edges.begin(), edges.end(),
-                                        [](const CellEdge& edge) { return edge.enters; })) {
+    const bool is_met =
+        std::any_of(edges.begin(), edges.end(), [](const CellEdge& edge) { return edge.enters; });
+    if (!is_met && is_boundary_inside(boundary, is_inside, place)) {
         loops.push_back(boundary.between(0, boundary.sides()));
     }
     Walk walk{edges, boundary, gap, place};
@@ -181,20 +197,6 @@ std::vector<FaceLoop> cell_loops(std::vector<CellEdge> edges,
         }
     }
     return loops;
-}
-
-bool is_boundary_inside(const CellBoundary& boundary,
-                        const std::function<bool(Vec3d)>& is_inside,
-                        const std::string& place)
-{
-    const bool inside = is_inside(boundary.part(0, 0, 1).begin());
-    for (unsigned side = 0; side < boundary.sides(); ++side) {
-        const FaceEdge whole = boundary.part(side, 0, 1);
-        if (is_inside(whole.begin()) != inside || is_inside(whole.at(0.5).point) != inside) {
-            throw InputError(place + ": the edges have the face on both sides");
-        }
-    }
-    return inside;
 }
 
 }  // namespace cusp::import

@@ -55,23 +55,17 @@ private:
     unsigned sides_;
 };
 
-// edges            those within the cell
-// boundary_inside  whether the boundary belongs to the face; used where no edge meets it
-// gap              how far ends that meet within the cell may lie apart
-// place            begins the message
+// edges      those within the cell
+// is_inside  whether a point belongs to the face; asked on the boundary, where no edge meets that
+// gap        how far ends that meet within the cell may lie apart
+// place      begins the message
 //
 // Returns closed loops; what they enclose lies on their left. None: no part of the face.
-// Errors: InputError where edges do not close, or bound no face.
+// Errors: InputError where edges do not close, bound no face, or are said to bound both of their sides.
 std::vector<FaceLoop> cell_loops(std::vector<CellEdge> edges,
                                  const CellBoundary& boundary,
-                                 bool boundary_inside,
+                                 const std::function<bool(Vec3d)>& is_inside,
                                  double gap,
                                  const std::string& place);
-
-// Whether the face has the boundary of a cell that no edge meets. `is_inside`: whether a point is on it.
-// Errors: InputError where it has only some of it.
-bool is_boundary_inside(const CellBoundary& boundary,
-                        const std::function<bool(Vec3d)>& is_inside,
-                        const std::string& place);
 
 }  // namespace cusp::import

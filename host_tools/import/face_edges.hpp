@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "firmware/base/vec.hpp"
@@ -32,5 +33,27 @@ inline double parameter_of(const FaceEdge& edge, int chord)
 {
     return edge.from + (edge.to - edge.from) * chord / kEdgeChords;
 }
+
+// Whether a point lies on the left of the edge nearest to it; of edges nearest by the same, at a vertex,
+// by their sum.
+//
+// same   how much farther than the nearest one an edge may lie and count as well
+// way    from one point to another one, on the surface
+// up     out of the surface at a point
+bool is_left_of_nearest(const std::vector<FaceEdge>& edges,
+                        Vec3d point,
+                        double same,
+                        const std::function<Vec3d(Vec3d from, Vec3d to)>& way,
+                        const std::function<Vec3d(Vec3d)>& up);
+
+// off    how far a point lies beside the surface, mm
+// gap    how far points of edges may, mm
+// place  begins the message
+//
+// Errors: InputError where an edge lies farther beside it.
+void check_on_surface(const std::vector<FaceEdge>& edges,
+                      const std::function<double(Vec3d)>& off,
+                      double gap,
+                      const std::string& place);
 
 }  // namespace cusp::import

@@ -103,42 +103,20 @@ private:
     std::array<Vec3d, 4> corners_;
 };
 
-// Whether a point lies on the left of what is nearest to it of all edges, by (u, v). Ends that meet lie
-// up to `gap` mm apart.
+// Whether a point lies on the left of the nearest edge, by (u, v). Ends that meet lie up to `gap` mm apart.
 bool is_left(const Revolved& surface, const std::vector<FaceEdge>& edges, double gap, Vec3d p)
 {
     const double same = gap / (surface.is_ring() ? surface.tube : surface.profile(p.y).x);
     const double across = surface.is_ring() ? 1 : 1 / surface.profile(p.y).x;
-    double least = kInfinite;
-    double side = 0;
-    for (const FaceEdge& edge : edges) {
-        Vec3d a = edge.begin();
-        double nearest = kInfinite;
-        double left_by = 0;  // of the chord nearest to the point
-        for (int k = 1; k <= kEdgeChords; ++k) {
-            const Vec3d b = edge.at(parameter_of(edge, k)).point;
-            Vec3d along = way(surface, a, b);
-            Vec3d to = way(surface, a, p);
-            along.y *= across;
-            to.y *= across;
-            a = b;
-            const double t = std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0);
-            const Vec3d apart = to - along * t;
-            if (norm(apart) < nearest) {
-                nearest = norm(apart);
-                left_by = (along.x * apart.y - along.y * apart.x) / norm(along);
-            }
-        }
-        // edges that are equally near, at a vertex, count alike
-        if (nearest < least - same) {
-            side = 0;
-        }
-        if (nearest < least + same) {
-            side += left_by;
-            least = std::min(least, nearest);
-        }
-    }
-    return side > 0;
+    return is_left_of_nearest(
+        edges, p, same,
+        [&](Vec3d from, Vec3d to) {
+            const Vec3d apart = way(surface, from, to);
+            return Vec3d{apart.x, apart.y * across, 0};
+        },
+        [](Vec3d) {
+            return Vec3d{0, 0, 1};
+        });
 }
 
 // How far an angle lies from where the nearest cell begins.
@@ -280,10 +258,7 @@ std::vector<RevolvedCell> revolved_cells(const Revolved& surface,
             part.edge = near(surface, cell, part.edge);
         }
         const CellRectangle boundary{surface, cell.low, cell.high};
-        const bool is_met = std::any_of(within.begin(), within.end(),
-                                        [](const CellEdge& part) { return part.enters; });
-        const bool inside = !is_met && is_boundary_inside(boundary, is_inside, place);
-        cell.loops = cell_loops(std::move(within), boundary, inside, gap, place);
+        cell.loops = cell_loops(std::move(within), boundary, is_inside, gap, place);
         if (!cell.loops.empty()) {
             cells.push_back(std::move(cell));
         }

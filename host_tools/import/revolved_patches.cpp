@@ -95,23 +95,19 @@ Parameter of_length(double v, double low, double high)
     return {(v - low + more) / size, 1 / size};
 }
 
-void check_edges(const Revolved& surface,
-                 const std::vector<FaceEdge>& edges,
-                 double gap,
-                 const std::string& place)
+// Edges that come near the axis are refused.
+void check_clear_of_axis(const Revolved& surface,
+                         const std::vector<FaceEdge>& edges,
+                         double gap,
+                         const std::string& place)
 {
-    constexpr int kLooks = 24;
-    double least = surface.is_ring() ? surface.radius - surface.tube : kUnbounded;
-    for (const FaceEdge& edge : edges) {
-        for (int k = 0; k <= kLooks; ++k) {
-            const PointAndTangent at = edge.at(edge.from + (edge.to - edge.from) * k / kLooks);
-            const double off = surface.off(at.point);
-            if (!(off <= gap)) {
-                throw InputError(
-                    fmt::format("{}: an edge lies {:.3g} mm beside the surface, allowed {:.3g}",
-                                place, off, gap));
-            }
-            if (!surface.is_ring()) {
+    double least = kUnbounded;
+    if (surface.is_ring()) {
+        least = surface.radius - surface.tube;
+    } else {
+        for (const FaceEdge& edge : edges) {
+            for (int k = 0; k <= kEdgeChords; ++k) {
+                const PointAndTangent at = edge.at(parameter_of(edge, k));
                 least = std::min(least, surface.profile(surface.uv_of(at).point.y).x);
             }
         }
@@ -132,7 +128,9 @@ std::vector<Surface> revolved_patches(const Revolved& surface,
                                       const std::string& place)
 {
     constexpr double kTrim = 1e-5;  // mm
-    check_edges(surface, edges, gap, place);
+    check_on_surface(
+        edges, [&surface](Vec3d p) { return surface.off(p); }, gap, place);
+    check_clear_of_axis(surface, edges, gap, place);
     if (edges.empty() && !surface.is_ring()) {
         throw InputError(place + ": a cone or cylinder has no edge");
     }
@@ -157,13 +155,7 @@ std::vector<Surface> revolved_patches(const Revolved& surface,
                                                    : std::max(surface.profile(cell.low.y).x,
                                                               surface.profile(cell.high.y).x);
         const double steepest = std::max(4 * kTanHalf * outermost, cell.high.y - cell.low.y);
-        std::vector<Curve> curves;
-        for (const FaceLoop& loop : cell.loops) {
-            const std::vector<Curve> fitted = fitted_trims(loop, uv, kTrim / steepest);
-            if (has_width(fitted)) {
-                curves.insert(curves.end(), fitted.begin(), fitted.end());
-            }
-        }
+        const std::vector<Curve> curves = fitted_trims(cell.loops, uv, kTrim / steepest);
         if (!curves.empty()) {
             s.trims = trim_loops(curves, s, place);
             patches.push_back(std::move(s));

@@ -55,38 +55,6 @@ private:
     std::array<Vec3d, 3> corners_{};
 };
 
-// Whether a point lies on the left of what is nearest to it of all edges, whose ends meet within a gap.
-bool is_left(const std::vector<FaceEdge>& edges, double gap, Vec3d p)
-{
-    double least = kInfinite;
-    double side = 0;
-    for (const FaceEdge& edge : edges) {
-        Vec3d a = edge.begin();
-        double nearest = kInfinite;
-        double left_by = 0;  // of the chord nearest to the point
-        for (int k = 1; k <= kEdgeChords; ++k) {
-            const Vec3d b = edge.at(parameter_of(edge, k)).point;
-            const Vec3d along = b - a;
-            const double t = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
-            const Vec3d apart = p - (a + along * t);
-            if (norm(apart) < nearest) {
-                nearest = norm(apart);
-                left_by = dot(cross(a, along) / norm(along), apart);
-            }
-            a = b;
-        }
-        // edges that are equally near, at a vertex, count alike
-        if (nearest < least - gap) {
-            side = 0;
-        }
-        if (nearest < least + gap) {
-            side += left_by;
-            least = std::min(least, nearest);
-        }
-    }
-    return side > 0;
-}
-
 }  // namespace
 
 double cut_quality(const std::vector<FaceEdge>& edges)
@@ -120,18 +88,21 @@ std::array<SphereOctant, 8> sphere_octants(const std::vector<FaceEdge>& edges,
             parts[octant_of(part.edge)].push_back(part);
         }
     }
+    const auto way = [](Vec3d from, Vec3d to) {
+        return to - from;
+    };
+    const auto up = [](Vec3d p) {
+        return p;
+    };
+    const auto is_inside = [&](Vec3d p) {
+        return edges.empty() || is_left_of_nearest(edges, p, gap, way, up);
+    };
     std::array<SphereOctant, 8> octants;
     for (std::size_t i = 0; i < octants.size(); ++i) {
         octants[i].signs = {(i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0,
                             (i & 4U) != 0 ? 1.0 : -1.0};
         const OctantBoundary boundary{octants[i].signs};
-        const bool is_met = std::any_of(parts[i].begin(), parts[i].end(),
-                                        [](const CellEdge& part) { return part.enters; });
-        const bool inside =
-            !is_met &&
-            is_boundary_inside(
-                boundary, [&](Vec3d p) { return edges.empty() || is_left(edges, gap, p); }, place);
-        octants[i].loops = cell_loops(std::move(parts[i]), boundary, inside, gap, place);
+        octants[i].loops = cell_loops(std::move(parts[i]), boundary, is_inside, gap, place);
     }
     return octants;
 }

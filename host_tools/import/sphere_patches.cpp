@@ -125,26 +125,6 @@ PointAndTangent uv_of(const Axes& axes, const PointAndTangent& found)
             {slope(longitude) * turn, slope(latitude) * rise, 0}};
 }
 
-void check_on_sphere(const Sphere& sphere,
-                     const std::vector<FaceEdge>& edges,
-                     double gap,
-                     const std::string& place)
-{
-    constexpr int kLooks = 24;
-    for (const FaceEdge& edge : edges) {
-        for (int k = 0; k <= kLooks; ++k) {
-            const Vec3d p = edge.at(edge.from + (edge.to - edge.from) * k / kLooks).point;
-            const double off = std::abs(norm(p - sphere.centre) - sphere.radius);
-            if (!(off <= gap)) {
-                throw InputError(
-                    fmt::format("{}: an edge lies {:.3g} mm beside the sphere, allowed "
-                                "{:.3g}",
-                                place, off, gap));
-            }
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<Surface> sphere_patches(const Sphere& sphere,
@@ -154,7 +134,10 @@ std::vector<Surface> sphere_patches(const Sphere& sphere,
 {
     constexpr double kTrim = 1e-5;      // mm
     constexpr double kMostSlope = 2.4;  // radians by u or v: 4 tan(30 degrees) and some
-    check_on_sphere(sphere, edges, gap, place);
+    const auto off = [&sphere](Vec3d p) {
+        return std::abs(norm(p - sphere.centre) - sphere.radius);
+    };
+    check_on_surface(edges, off, gap, place);
     const Axes axes = best_axes(edges, sphere.centre);
     const std::vector<FaceEdge> turned = on_unit_sphere(edges, sphere.centre, axes);
     std::vector<Surface> patches;
@@ -171,14 +154,8 @@ std::vector<Surface> sphere_patches(const Sphere& sphere,
         const auto uv = [&local](const PointAndTangent& at) {
             return uv_of(local, at);
         };
-        std::vector<Curve> curves;
-        for (const FaceLoop& loop : octant.loops) {
-            const std::vector<Curve> fitted =
-                fitted_trims(loop, uv, kTrim / (kMostSlope * sphere.radius));
-            if (has_width(fitted)) {
-                curves.insert(curves.end(), fitted.begin(), fitted.end());
-            }
-        }
+        const std::vector<Curve> curves =
+            fitted_trims(octant.loops, uv, kTrim / (kMostSlope * sphere.radius));
         if (curves.empty()) {
             continue;
         }

@@ -80,9 +80,7 @@ private:
     Curve curve_;
 };
 
-}  // namespace
-
-std::vector<Curve> fitted_trims(const FaceLoop& loop, const UvOf& uv_of, double tolerance)
+std::vector<Curve> fitted_loop(const FaceLoop& loop, const UvOf& uv_of, double tolerance)
 {
     std::vector<Curve> curves;
     for (const FaceEdge& edge : loop) {
@@ -104,6 +102,22 @@ bool has_width(const std::vector<Curve>& loop)
         length += norm(closed[i] - closed[i - 1]);
     }
     return std::abs(job::signed_area(closed)) > kLeastWidth * length;
+}
+
+}  // namespace
+
+std::vector<Curve> fitted_trims(const std::vector<FaceLoop>& loops,
+                                const UvOf& uv_of,
+                                double tolerance)
+{
+    std::vector<Curve> curves;
+    for (const FaceLoop& loop : loops) {
+        const std::vector<Curve> fitted = fitted_loop(loop, uv_of, tolerance);
+        if (has_width(fitted)) {
+            curves.insert(curves.end(), fitted.begin(), fitted.end());
+        }
+    }
+    return curves;
 }
 
 }  // namespace cusp::import

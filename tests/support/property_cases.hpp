@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdlib>
+#include <functional>
+#include <string>
 
 namespace cusp::test {
 
@@ -17,6 +19,22 @@ inline unsigned property_seed(unsigned usual)
 {
     const char* const text = std::getenv("CUSP_PROPERTY_FIRST");
     return text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : usual;
+}
+
+// What `wrong_of` says of each seed, a line each of the first 20; nothing where all hold.
+inline std::string broken_cases(unsigned first,
+                                int cases,
+                                const std::function<std::string(unsigned seed)>& wrong_of)
+{
+    constexpr int kMostSaid = 20;
+    std::string wrong;
+    int broken = 0;
+    for (int i = 0; i < cases; ++i) {
+        const std::string found = wrong_of(first + static_cast<unsigned>(i));
+        broken += found.empty() ? 0 : 1;
+        wrong += found.empty() || broken > kMostSaid ? "" : found + "\n";
+    }
+    return wrong;
 }
 
 }  // namespace cusp::test
