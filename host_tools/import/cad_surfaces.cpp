@@ -78,6 +78,8 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
          "long; the faces end there as their surfaces do");
     note(model.gaps, "edges that miss each other at a vertex by up to",
          "within the file's own tolerance; joined");
+    note(model.lobes, "edges that cross each other, with lobes up to",
+         "wide, within the file's own tolerance; cut off");
     note(model.beside, "edges up to", "beside the surface, within the file's own tolerance");
     return notes;
 }

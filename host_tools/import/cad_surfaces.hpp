@@ -55,6 +55,7 @@ struct CadModel {
     std::size_t unread{};  // faces of solids without an upward normal and with broken edges
     FaceFault points;      // edges without length in the file that have one on the surface
     FaceFault gaps;        // ends of edges that should meet
+    FaceFault lobes;       // cut off where edges cross each other
     FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
     std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1

@@ -116,8 +116,12 @@ CadModel model_with_fewest_repairs(const std::string& file,
         if (repaired < (1 - kSamePart) * gentle) {
             throw;
         }
+        try {
+            return model_of(file, Repairs::kAll, placed, all_faces);
+        } catch (const InputError&) {
+        }
+        throw;  // the file as it is
     }
-    return model_of(file, Repairs::kAll, placed, all_faces);
 }
 
 }  // namespace

@@ -10,13 +10,6 @@ namespace {
 
 HomogeneousPoint homogeneous(Vec3d p, double w) { return {p.x * w, p.y * w, p.z * w, w}; }
 
-HomogeneousPoint blend(const HomogeneousPoint& a, const HomogeneousPoint& b, double share)
-{
-    const double rest = 1 - share;
-    return {rest * a.x + share * b.x, rest * a.y + share * b.y, rest * a.z + share * b.z,
-            rest * a.w + share * b.w};
-}
-
 // Source: Boehm 1980; Piegl and Tiller (5.11), one knot at a time.
 void insert_once(ControlRows& rows, double u)
 {
@@ -41,30 +34,6 @@ void insert_once(ControlRows& rows, double u)
     }
     rows.points = std::move(points);
     rows.knots.insert(above, u);
-}
-
-void set_rows_along_u(const ControlRows& rows, Surface& surface)
-{
-    const Curve net = to_curve(rows);
-    surface.knots_u = rows.knots;
-    surface.size_u = static_cast<int>(rows.rows());
-    surface.points = net.points;
-    surface.weights = net.weights;
-}
-
-void set_rows_along_v(const ControlRows& rows, Surface& surface)
-{
-    surface.knots_v = rows.knots;
-    surface.size_v = static_cast<int>(rows.rows());
-    surface.points.clear();
-    surface.weights.clear();
-    for (std::size_t i = 0; i < rows.width; ++i) {
-        for (std::size_t j = 0; j < rows.rows(); ++j) {
-            const HomogeneousPoint& h = rows.points[j * rows.width + i];
-            surface.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
-            surface.weights.push_back(h.w);
-        }
-    }
 }
 
 }  // namespace
@@ -100,6 +69,37 @@ ControlRows control_rows_along_v(const Surface& surface)
         }
     }
     return rows;
+}
+
+HomogeneousPoint blend(const HomogeneousPoint& a, const HomogeneousPoint& b, double share)
+{
+    const double rest = 1 - share;
+    return {rest * a.x + share * b.x, rest * a.y + share * b.y, rest * a.z + share * b.z,
+            rest * a.w + share * b.w};
+}
+
+void set_rows_along_u(const ControlRows& rows, Surface& surface)
+{
+    const Curve net = to_curve(rows);
+    surface.knots_u = rows.knots;
+    surface.size_u = static_cast<int>(rows.rows());
+    surface.points = net.points;
+    surface.weights = net.weights;
+}
+
+void set_rows_along_v(const ControlRows& rows, Surface& surface)
+{
+    surface.knots_v = rows.knots;
+    surface.size_v = static_cast<int>(rows.rows());
+    surface.points.clear();
+    surface.weights.clear();
+    for (std::size_t i = 0; i < rows.width; ++i) {
+        for (std::size_t j = 0; j < rows.rows(); ++j) {
+            const HomogeneousPoint& h = rows.points[j * rows.width + i];
+            surface.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
+            surface.weights.push_back(h.w);
+        }
+    }
 }
 
 Curve to_curve(const ControlRows& rows)

@@ -13,6 +13,9 @@ struct HomogeneousPoint {
     double x, y, z, w;  // x, y, z carry the factor w
 };
 
+// From a (share 0) to b (share 1).
+HomogeneousPoint blend(const HomogeneousPoint& a, const HomogeneousPoint& b, double share);
+
 // One direction of a tensor product: control row i is `width` points from points[i * width] on.
 struct ControlRows {
     int degree{};
@@ -29,6 +32,9 @@ ControlRows control_rows_along_u(const Surface& surface);
 ControlRows control_rows_along_v(const Surface& surface);
 
 Curve to_curve(const ControlRows& rows);
+// Replaces the surface's knots and control points in one direction.
+void set_rows_along_u(const ControlRows& rows, Surface& surface);
+void set_rows_along_v(const ControlRows& rows, Surface& surface);
 
 // The shape with knots of multiplicity degree + 1 at all ends.
 Surface clamped(const Surface& surface);

@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/nurbs/extension.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
@@ -342,6 +343,24 @@ TEST(RandomNurbs, ClampedEndsLeaveTheShape)
         const double b = random.between(s.v_begin(), s.v_end());
         check_near(oracle(s, a, b), point_at(trimmed, a, b), kTight);
         check_near(oracle(s, s.u_begin(), s.v_begin()), trimmed.points.front(), kTight);
+    }
+}
+
+TEST(RandomNurbs, AnExtendedSurfaceGoesOnAsItsEndsDo)
+{
+    constexpr double kExtended = 1e-8;  // beyond the domain rounding grows
+    for (int n = 0; n < 1000; ++n) {
+        const Surface s = clamped(random.surface());
+        const double more_u = 0.1 * (s.u_end() - s.u_begin());
+        const double more_v = 0.1 * (s.v_end() - s.v_begin());
+        const Surface larger =
+            extended(s, s.u_begin() - more_u, s.u_end(), s.v_begin() - more_v, s.v_end() + more_v);
+        DOUBLES_EQUAL(s.u_begin() - more_u, larger.u_begin(), 0);
+        DOUBLES_EQUAL(s.u_end(), larger.u_end(), 0);
+        DOUBLES_EQUAL(s.v_end() + more_v, larger.v_end(), 0);
+        const double a = random.between(larger.u_begin(), larger.u_end());
+        const double b = random.between(larger.v_begin(), larger.v_end());
+        check_near(oracle(s, a, b), point_at(larger, a, b), kExtended);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/import/trim_cusps.hpp"
+#include "host_tools/import/trim_lobes.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
@@ -92,4 +93,40 @@ TEST(TrimRepair, LeavesCornersAsTheyAre)
     std::vector<Curve> loop{line({1, 1}, {9, 1}), line({9, 1}, {9, 8}), line({9, 8}, {1, 1})};
     DOUBLES_EQUAL(0, cut_cusps(loop, 0.1, square()), 0);
     LONGS_EQUAL(3, loop.size());
+}
+
+// The edge from (9, 1) overshoots (9, 8) by 0.5 mm and comes back 0.02 mm beside itself.
+TEST(TrimRepair, CutsALobeWhereAnEdgeOvershootsItsVertex)
+{
+    const std::vector<Curve> loop{line({1, 1}, {9, 1}), line({9, 1}, {9, 8.5}),
+                                  line({9, 8.5}, {9.02, 8}), line({9.02, 8}, {1, 8}),
+                                  line({1, 8}, {1, 1})};
+    STRCMP_CONTAINS("cross", test::refusal([&] { trim_loops(loop, square(), "face 1"); }).c_str());
+    CHECK_FALSE(cut_lobes(loop, 0.005, square()).has_value());
+    const auto cut = cut_lobes(loop, 0.1, square());
+    CHECK(cut.has_value());
+    LONGS_EQUAL(1, cut->loops.size());
+    LONGS_EQUAL(1, trim_loops(cut->loops[0], square(), "face 1").size());
+    DOUBLES_EQUAL(56, area_of(cut->loops[0]), 1e-9);
+    DOUBLES_EQUAL(4 * (0.5 * 0.5 * 0.02) / (0.5 + 0.02 + std::hypot(0.5, 0.02)), cut->widest, 1e-6);
+}
+
+// Two edges change sides twice: between the crossings they enclose a lobe 0.02 mm wide.
+TEST(TrimRepair, KeepsWhatLiesBeyondALobe)
+{
+    const std::vector<Curve> loop{line({1, 1}, {4, 1}),    line({4, 1}, {5, 2.01}),
+                                  line({5, 2.01}, {6, 1}), line({6, 1}, {9, 1}),
+                                  line({9, 1}, {9, 3}),    line({9, 3}, {6, 3}),
+                                  line({6, 3}, {5, 1.99}), line({5, 1.99}, {4, 3}),
+                                  line({4, 3}, {1, 3}),    line({1, 3}, {1, 1})};
+    const auto cut = cut_lobes(loop, 0.1, square());
+    CHECK(cut.has_value());
+    LONGS_EQUAL(2, cut->loops.size());
+    std::vector<Curve> all;
+    for (const std::vector<Curve>& one : cut->loops) {
+        CHECK(area_of(one) > 6.9);
+        all.insert(all.end(), one.begin(), one.end());
+    }
+    LONGS_EQUAL(2, trim_loops(all, square(), "face 1").size());
+    CHECK(cut->widest > 0.005 && cut->widest < 0.03);
 }
