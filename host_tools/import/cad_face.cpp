@@ -155,6 +155,12 @@ TopoDS_Face converted(const TopoDS_Face& face)
     return TopoDS::Face(spline.Oriented(TopAbs_FORWARD));
 }
 
+// +1 if du x dv points out of the solid.
+double outwards_of(const SolidFace& found)
+{
+    return found.face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
+}
+
 // face  the found one or its conversion, forward oriented
 void add_spline_face(const SolidFace& found,
                      const TopoDS_Face& face,
@@ -167,23 +173,15 @@ void add_spline_face(const SolidFace& found,
         throw InputError(place + ": its edges run round it the wrong way");
     }
     const Surface surface = surface_of(face);
-    const double outwards = found.face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
-    const bool is_below = found.solid && !looks_up(surface, outwards);
-    if (is_below && !all_faces) {
+    const double outwards = outwards_of(found);
+    if (found.solid && !all_faces && !looks_up(surface, outwards)) {
         return;
     }
-    try {
-        const double beside = check_conversion(found.face, face, place);
-        model.faces.push_back(trimmed_surface(
-            face, {allowed_off(found.face), allowed_gap(found.face)}, surface, place, model));
-        model.beside.add(beside);
-        model.outwards.push_back(found.solid ? outwards : 0.0);
-    } catch (const InputError&) {
-        if (!is_below) {
-            throw;
-        }
-        ++model.unread;
-    }
+    const double beside = check_conversion(found.face, face, place);
+    model.faces.push_back(trimmed_surface(face, {allowed_off(found.face), allowed_gap(found.face)},
+                                          surface, place, model));
+    model.beside.add(beside);
+    model.outwards.push_back(found.solid ? outwards : 0.0);
 }
 
 // As add_spline_face(); what Open CASCADE cannot convert is an InputError, too.
@@ -241,6 +239,20 @@ bool add_patches(const SolidFace& found, bool all_faces, const std::string& plac
     return true;
 }
 
+// Whether a face of a solid has no upward normal; false where its edges run round it the wrong way.
+bool looks_down(const SolidFace& found)
+{
+    if (!found.solid) {
+        return false;
+    }
+    try {
+        const TopoDS_Face face = converted(found.face);
+        return area_of(face) >= 0 && !looks_up(surface_of(face), outwards_of(found));
+    } catch (const Standard_Failure&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 // Wires that cross a seam or run round a pole may not close in (u, v), or leave the domain.
@@ -251,7 +263,10 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     } catch (const InputError&) {
         if (!add_unconverted(found, all_faces, place, model) &&
             !add_patches(found, all_faces, place, model)) {
-            throw;
+            if (!looks_down(found)) {
+                throw;
+            }
+            ++model.unread;
         }
     }
 }
