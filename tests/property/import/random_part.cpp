@@ -1,5 +1,6 @@
-// random_part SEED PART.step MESH.stl: a block with boxes, cylinders, cones, balls and rings added or cut
-// away, some edges rounded or chamfered, sometimes turned; and Open CASCADE's own mesh of it. Prints the
+// random_part SEED PART.step MESH.stl [swept]: a block with boxes, cylinders, cones, balls and rings, or with
+// what is swept, lofted or free, added or cut away, some edges rounded or chamfered, sometimes turned; and
+// Open CASCADE's own mesh of it. Prints the
 // largest tolerance of its edges and vertices, mm: Open CASCADE may shrink a short side of a fillet to a
 // vertex with a tolerance of half its length, and the mesh is no truer than that.
 //
@@ -7,8 +8,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
+#include "tests/property/import/swept_bodies.hpp"
 #include "tests/support/draw.hpp"
 
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
@@ -37,6 +40,7 @@
 #include "opencascade/gp_Trsf.hxx"
 
 using cusp::test::Draw;
+using cusp::test::random_axis;
 
 namespace {
 
@@ -48,16 +52,6 @@ gp_Pnt random_point(Draw& draw, double low, double high)
     const double x = draw.uniform(-5, 60);
     const double y = draw.uniform(-5, 40);
     return {x, y, draw.uniform(low, high)};
-}
-
-gp_Dir random_axis(Draw& draw)
-{
-    if (draw.whole(0, 2) == 0) {
-        return {0, 0, 1};
-    }
-    const double x = draw.uniform(-1, 1);
-    const double y = draw.uniform(-1, 1);
-    return {x, y, draw.uniform(0.2, 1)};
 }
 
 TopoDS_Shape random_body(Draw& draw)
@@ -118,13 +112,13 @@ TopoDS_Shape with_a_blend(Draw& draw, const TopoDS_Shape& shape)
     });
 }
 
-TopoDS_Shape random_part(Draw& draw)
+TopoDS_Shape random_part(Draw& draw, bool swept)
 {
     TopoDS_Shape part = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
     for (int k = draw.whole(2, 6); k > 0; --k) {
         const bool added = draw.whole(0, 1) > 0;
         part = changed(part, [&] {
-            const TopoDS_Shape body = random_body(draw);
+            const TopoDS_Shape body = swept ? cusp::test::swept_body(draw) : random_body(draw);
             return added ? BRepAlgoAPI_Fuse(part, body).Shape()
                          : BRepAlgoAPI_Cut(part, body).Shape();
         });
@@ -137,7 +131,7 @@ TopoDS_Shape random_part(Draw& draw)
         turn.SetRotation(gp_Ax1(gp_Pnt(30, 20, 0), random_axis(draw)), draw.uniform(0, 0.3));
         part = BRepBuilderAPI_Transform(part, turn, true).Shape();
     }
-    return part;
+    return swept ? changed(part, [&] { return cusp::test::stretched(draw, part); }) : part;
 }
 
 TopoDS_Shape placed(const TopoDS_Shape& part)
@@ -158,12 +152,13 @@ TopoDS_Shape placed(const TopoDS_Shape& part)
 
 int main(int count, char** words)
 {
-    if (count != 4) {
-        std::fputs("usage: random_part SEED PART.step MESH.stl\n", stderr);
+    const bool swept = count == 5 && std::strcmp(words[4], "swept") == 0;
+    if (count != 4 && !swept) {
+        std::fputs("usage: random_part SEED PART.step MESH.stl [swept]\n", stderr);
         return 2;
     }
     Draw draw{std::mt19937{static_cast<unsigned>(std::strtoul(words[1], nullptr, 10))}};
-    const TopoDS_Shape part = placed(random_part(draw));
+    const TopoDS_Shape part = placed(random_part(draw, swept));
     STEPControl_Writer step;
     step.Transfer(part, STEPControl_AsIs);
     const bool written = step.Write(words[2]) == IFSelect_RetDone;

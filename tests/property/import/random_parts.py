@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Random STEP parts, planned from their faces and judged against Open CASCADE's mesh of the same part.
 
-usage: random_parts.py CUSP RANDOM_PART [--first SEED] [--count N] [--keep FOLDER]
+usage: random_parts.py CUSP RANDOM_PART [--first SEED] [--count N] [--swept] [--keep FOLDER]
 
 RANDOM_PART (random_part.cpp) makes a part and its mesh, which never goes through the reading of STEP. The part is
 finished by a random strategy with a random ball, and the program is verified over the mesh. Exit status 1 where a
@@ -42,7 +42,7 @@ def run(*words):
     return subprocess.run([str(w) for w in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
-def judge(cusp, maker, seed, folder):
+def judge(cusp, maker, seed, kind, folder):
     """Whether the part of a seed is read, and its program holds; says what it found."""
     rng = random.Random(seed)
     words = {
@@ -51,8 +51,8 @@ def judge(cusp, maker, seed, folder):
         "scallop": rng.choice([0.05, 0.1]),
         "tolerance": TOLERANCE
     }
-    what = f"seed {seed} {words['strategy']} R {words['diameter'] / 2} scallop {words['scallop']}"
-    made = run(maker, seed, folder / "part.step", folder / "mesh.stl")
+    what = f"seed {seed}{' swept' if kind else ''} {words['strategy']} R {words['diameter'] / 2} scallop {words['scallop']}"
+    made = run(maker, seed, folder / "part.step", folder / "mesh.stl", *kind)
     if made.returncode != 0:
         print(f"{what}: Open CASCADE makes no part, status {made.returncode}")
         return True
@@ -85,6 +85,7 @@ def main():
     parser.add_argument("maker")
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--count", type=int, default=4)
+    parser.add_argument("--swept", action="store_true", help="bodies that are swept, lofted or free")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the cases, instead of a temporary one")
     options = parser.parse_args()
     good = True
@@ -92,7 +93,7 @@ def main():
         with tempfile.TemporaryDirectory() as name:
             folder = options.keep / str(seed) if options.keep else pathlib.Path(name)
             folder.mkdir(parents=True, exist_ok=True)
-            good = judge(options.cusp, options.maker, seed, folder) and good
+            good = judge(options.cusp, options.maker, seed, ['swept'] if options.swept else [], folder) and good
     return 0 if good else 1
 
 
