@@ -6,17 +6,21 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/grid_pocket/run_entry.hpp"
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
 namespace cusp::grid_pocket {
 
+using adaptive_clearing::AdaptivePathWriter;
 using clearing::AxialDepthTracker;
 using job::CutDirection;
 using job::Operation;
+using job::OutputForm;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
+using offset::RegionOffset;
 using offset::reversed;
 using toolpath::EntryKind;
 using toolpath::EntrySettings;
@@ -112,22 +116,83 @@ void GridPasses::layer(double plane)
     // Cells that the layers above have cut down to the floor are omitted. The others are cut as low
     // as the layer and the floor allow, so that no fin is left between layers on a slope.
     const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
+    ClPathFitter floor = pocket_.rough.above(plane);
+    cut_cells(
+        plane, [&](Cell c) { return pocket_.rough_heights[pocket_.grid.index(c)] < above; }, floor);
+    wall_level(above, floor);
+    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.rough_allowance);
+    last_plane_ = plane;
+}
+
+void GridPasses::cut_cells(double plane,
+                           const std::function<bool(Cell)>& free,
+                           ClPathFitter& floor)
+{
     NavigationRules rules;
     rules.free = [&](Cell c) {
-        return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
+        return pocket_.grid.inside(c) && free(c);
     };
     pocket_.add_clearances(rules);
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
-    ClPathFitter floor = pocket_.rough.above(plane);
     follow_navigation(navigation, floor);
     for (const NavigationStep& step : navigation.steps) {
         const std::size_t cell = pocket_.grid.index(step.cell);
         stock_tops_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
     }
+}
+
+void GridPasses::adaptive_layer(const AdaptiveLayers& layers, const AdaptiveLayer& layer)
+{
+    const Operation& operation = pocket_.operation;
+    AdaptivePathWriter cutter{writer_,
+                              {operation.output != OutputForm::kLines, layers.chord,
+                               operation.entry == EntryKind::kPlunge, layers.scallops}};
+    cutter.write(layer.path, layer.above, layer.z);
+    passes_ += static_cast<int>(layer.path.runs.size());
+    adaptive_entries_ += cutter.entries();
+    const std::vector<char> reached = lower_stock(layers, layer);
+    const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
+    ClPathFitter floor = pocket_.rough.above(layer.z);
+    cut_cells(
+        layer.z,
+        [&](Cell c) {
+            const std::size_t i = pocket_.grid.index(c);
+            return reached[i] == 0 && pocket_.rough_heights[i] <= layer.z;
+        },
+        floor);
     wall_level(above, floor);
-    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.operation.allowance);
-    last_plane_ = plane;
+    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.rough_allowance);
+    last_plane_ = layer.z + layers.scallops;
+}
+
+std::vector<char> GridPasses::lower_stock(const AdaptiveLayers& layers, const AdaptiveLayer& layer)
+{
+    constexpr double kBesides = 0.05;  // mm: slices keep so much more than the allowance
+    const CellGrid& grid = pocket_.grid;
+    std::vector<char> reached(grid.size(), 0);
+    if (layer.path.runs.empty()) {
+        return reached;
+    }
+    const RegionOffset region{layer.region};
+    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const Cell cell = grid.cell(i);
+        if (!grid.inside(cell) || pocket_.rough_heights[i] > layer.above) {
+            continue;
+        }
+        const Vec2d at = grid.centre(cell);
+        const bool sliver =
+            std::any_of(layer.path.left.begin(), layer.path.left.end(), [&](Vec2d left) {
+                return norm(left - at) < pocket_.operation.tool.radius + half;
+            });
+        const double inside = region.clearance(at);
+        reached[i] = !sliver && inside > -(pocket_.rough_allowance + kBesides) ? 1 : 0;
+        if (!sliver && inside >= half - layers.clears) {
+            stock_tops_[i] = std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
+        }
+    }
+    return reached;
 }
 
 void GridPasses::main_path(const Navigation& navigation)
