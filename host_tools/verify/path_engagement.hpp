@@ -22,9 +22,9 @@ struct PathEngagement {
 // the grid and at the spacing of verify().
 //
 // paths   none is null; each starts with a rapid move
-// limits  degrees, of each path; places over them are cut again on finer grids
+// limits  degrees, of each path
 //
-// Accuracy: as EngagementTrace.
+// Accuracy: as EngagementTrace; verify() looks at places over a limit again, on finer grids.
 std::vector<PathEngagement> path_engagement(const job::Job& job,
                                             const std::vector<const toolpath::Toolpath*>& paths,
                                             const std::vector<std::optional<double>>& limits,
