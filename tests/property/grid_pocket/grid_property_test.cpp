@@ -52,6 +52,8 @@ void check_pocket(const Job& job)
     }
     const VerifyFigures figures = cut_in_memory(job, plan);
     const OperationStats& stats = plan.front().stats;
+    std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
+                figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);
     CHECK(stats.gouge_bound_mm <= 1e-6);
     CHECK(figures.gouge_max <= 2e-3);
     CHECK(figures.ball_gouge_max.value_or(0) <= 1e-3);
@@ -63,8 +65,6 @@ void check_pocket(const Job& job)
     }
     // Resolution of the height map in memory.
     CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);
-    std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
-                figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ TEST(GridProperty, RandomPocketsAreCutToTheComputedRoughnessWithoutGouge)
 
 TEST(GridProperty, SoAreRandomPocketsWithLayersOfBoundedEngagement)
 {
-    for (int i = 0; i < property_cases(8); ++i) {
+    for (int i = 0; i < property_cases(4); ++i) {
         const unsigned seed = property_seed(1001) + static_cast<unsigned>(i);
         std::printf("random adaptive pocket seed %u\n", seed);
         Random random{seed};
