@@ -135,7 +135,8 @@ TEST(GridPlan, LayersOfBoundedEngagementNeverCutInNorDeeperThanAllowed)
     Operation operation = operation_of(9, OutputForm::kArcs);
     operation.max_depth = 3;
     operation.max_engagement = 60;
-    operation.islands = {loop_of({{25, 13}, {28, 13}, {28, 16}, {25, 16}})};
+    operation.boundary = loop_of({{10, 8}, {28, 8}, {30, 22}, {10, 20}});
+    operation.islands = {loop_of({{19, 13}, {20, 13}, {20, 14}, {19, 14}})};
     operation.island_files = {"island"};
     for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0},
                              Tool{1, ToolShape::kBull, 3, 1}}) {
