@@ -188,7 +188,8 @@ std::vector<char> GridPasses::lower_stock(const AdaptiveLayers& layers, const Ad
             });
         const double inside = region.clearance(at);
         reached[i] = !sliver && inside > -(pocket_.rough_allowance + kBesides) ? 1 : 0;
-        if (!sliver && inside >= half - layers.clears) {
+        // There the tip has been, and around it to the cell's corners is nothing over the scallops.
+        if (!sliver && inside >= std::max(0.0, half - layers.clears)) {
             stock_tops_[i] = std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
         }
     }
