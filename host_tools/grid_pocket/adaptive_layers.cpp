@@ -129,7 +129,8 @@ private:
         std::vector<double> planes;
         double above = top;
         for (const double end : ends) {
-            const double count = above > end ? std::max(1.0, std::ceil((above - end) / most - 1e-9)) : 0.0;
+            const double count =
+                above > end ? std::max(1.0, std::ceil((above - end) / most - 1e-9)) : 0.0;
             for (double k = 1; k <= count; ++k) {
                 planes.push_back(above + (end - above) * k / count);
             }
@@ -148,9 +149,9 @@ private:
                 return std::move(*region);
             }
         }
-        refuse_grid_pocket(pocket_.job, "clearing \"adaptive\": the layer at z = " +
-                                            length_text(pocket_.job, z) +
-                                            " can't be cleared; try another max_depth");
+        refuse_grid_pocket(
+            pocket_.job, "clearing \"adaptive\": the layer at z = " + length_text(pocket_.job, z) +
+                             " can't be cleared; try another max_depth");
     }
 
     AdaptiveSettings settings(double radius) const

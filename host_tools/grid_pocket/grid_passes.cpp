@@ -124,9 +124,7 @@ void GridPasses::layer(double plane)
     last_plane_ = plane;
 }
 
-void GridPasses::cut_cells(double plane,
-                           const std::function<bool(Cell)>& free,
-                           ClPathFitter& floor)
+void GridPasses::cut_cells(double plane, const std::function<bool(Cell)>& free, ClPathFitter& floor)
 {
     NavigationRules rules;
     rules.free = [&](Cell c) {
@@ -182,15 +180,15 @@ std::vector<char> GridPasses::lower_stock(const AdaptiveLayers& layers, const Ad
             continue;
         }
         const Vec2d at = grid.centre(cell);
-        const bool sliver =
-            std::any_of(layer.path.left.begin(), layer.path.left.end(), [&](Vec2d left) {
-                return norm(left - at) < pocket_.operation.tool.radius + half;
-            });
+        const bool sliver = std::any_of(
+            layer.path.left.begin(), layer.path.left.end(),
+            [&](Vec2d left) { return norm(left - at) < pocket_.operation.tool.radius + half; });
         const double inside = region.clearance(at);
         reached[i] = !sliver && inside > -(pocket_.rough_allowance + kBesides) ? 1 : 0;
         // There the tip has been, and around it to the cell's corners is nothing over the scallops.
         if (!sliver && inside >= std::max(0.0, half - layers.clears)) {
-            stock_tops_[i] = std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
+            stock_tops_[i] =
+                std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
         }
     }
     return reached;

@@ -86,8 +86,9 @@ void check_adaptive_levels(const JobTable& table, const Operation& operation)
     }
     if (operation.strategy == "grid_pocket") {
         if (!operation.max_depth && operation.layers.empty()) {
-            table.refuse("clearing", "\"adaptive\" needs max_depth or layers: without them nothing "
-                                     "is roughed");
+            table.refuse("clearing",
+                         "\"adaptive\" needs max_depth or layers: without them nothing "
+                         "is roughed");
         }
         return;
     }

@@ -31,7 +31,7 @@ namespace {
 constexpr double kRasterPitch = 1.0 / 40;  // radii
 constexpr double kRasterStep = 1.0 / 30;   // radii between places of the tool
 constexpr double kRasterDegrees = 6.0;
-constexpr double kFoot = 0.5;       // radii of way at an entry's foot
+constexpr double kFoot = 0.5;     // radii of way at an entry's foot
 constexpr double kHigher = 1e-3;  // mm over the plane is stock
 
 struct Judged {
@@ -72,8 +72,9 @@ public:
             };
             const double way = norm(next.tip - places[k - 1].tip);
             since_entry_ = next.kind == MoveKind::kPlunge ? 0.0 : since_entry_ + way;
-            if (since_entry_ > kFoot * operation_.tool.radius && next.kind == MoveKind::kCut && is_level(places[k - 1]) && is_level(next) &&
-                !layer.region.contours.empty() && region.clearance(in_plan(next.tip)) > 0.0) {
+            if (since_entry_ > kFoot * operation_.tool.radius && next.kind == MoveKind::kCut &&
+                is_level(places[k - 1]) && is_level(next) && !layer.region.contours.empty() &&
+                region.clearance(in_plan(next.tip)) > 0.0) {
                 judge(places, k, layer.z + kHigher);
             }
             const double deep =
@@ -166,9 +167,10 @@ void check_layers(const Job& job)
         }
     }
     const Judged& found = judge.found;
-    std::printf("  %d layers, %.0f mm in stock, %.2f mm over %.1f degrees, %.2f listed, %.1f mm deep\n",
-                static_cast<int>(layers.layers.size()), found.way, found.over,
-                *operation.max_engagement, listed, found.deepest);
+    std::printf(
+        "  %d layers, %.0f mm in stock, %.2f mm over %.1f degrees, %.2f listed, %.1f mm deep\n",
+        static_cast<int>(layers.layers.size()), found.way, found.over, *operation.max_engagement,
+        listed, found.deepest);
     CHECK(found.over <= listed + 1e-3 * found.way);
     CHECK(found.deepest <= *operation.max_depth + 0.01);
     CHECK(found.rapid <= 0.01);
