@@ -7,6 +7,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/offset/region_overlay.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/waterline_slices/fitted_edges.hpp"
 #include "host_tools/waterline_slices/waterline_slices.hpp"
 
@@ -18,6 +19,7 @@ using job::Operation;
 using offset::Box2d;
 using offset::common;
 using offset::Region2d;
+using offset::RegionOffset;
 using part_model::PartModel;
 using toolpath::Tool;
 using waterline_slices::fitted_region;
@@ -36,7 +38,7 @@ constexpr double kOverFloor = 0.01;    // mm: of the last plane over the lowest 
 constexpr double kPitchOfRadius = 15;  // radius over the finest pitch of slices
 constexpr double kScallop = 0.15;      // of the corner radius
 constexpr double kScallopOfDepth = 0.2;
-constexpr double kLeastStep = 0.5;  // of max_depth: distance of planes
+constexpr double kLeastApart = 0.5;  // of max_depth: distance of planes
 constexpr double kMostLayers = 1e4;
 
 double scallop_height(const Operation& operation)
@@ -66,6 +68,7 @@ public:
     AdaptiveLayers plan()
     {
         AdaptiveLayers out;
+        out.max_engagement = *pocket_.operation.max_engagement;
         out.scallops = scallops_;
         out.clears = cleared_radius(pocket_.operation.tool, scallops_);
         out.chord = kChord;
@@ -106,7 +109,7 @@ private:
         const double band = band_height(follow) * (follow.both_sides ? 2 : 1);
         const double depth = *operation.max_depth - kWritten;
         const double step = depth - std::max(scallops_, pocket_.rough_allowance + band);
-        return std::min(depth - scallops_, std::max({step, kLeastStep * *operation.max_depth,
+        return std::min(depth - scallops_, std::max({step, kLeastApart * *operation.max_depth,
                                                      operation.min_depth.value_or(0)}));
     }
 
@@ -177,5 +180,39 @@ private:
 }  // namespace
 
 AdaptiveLayers adaptive_layers(const PocketSpace& pocket) { return LayerPlanner{pocket}.plan(); }
+
+std::vector<LayerReach> reach_of(const AdaptiveLayer& layer,
+                                 const AdaptiveLayers& layers,
+                                 const PocketSpace& pocket)
+{
+    constexpr double kBesides = 0.05;  // mm: slices keep so much more than the allowance
+    const CellGrid& grid = pocket.grid;
+    std::vector<LayerReach> out(grid.size(), LayerReach::kNone);
+    if (layer.path.runs.empty()) {
+        return out;
+    }
+    const RegionOffset region{layer.region};
+    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
+    const double near_sliver = pocket.operation.tool.radius + half;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const Cell cell = grid.cell(i);
+        if (!grid.inside(cell) || pocket.rough_heights[i] > layer.above) {
+            continue;
+        }
+        const Vec2d at = grid.centre(cell);
+        const double inside = region.clearance(at);
+        const auto& slivers = layer.path.left;
+        if (std::any_of(slivers.begin(), slivers.end(),
+                        [&](Vec2d sliver) { return norm(sliver - at) < near_sliver; })) {
+            continue;
+        }
+        if (inside >= std::max(0.0, half - layers.clears)) {
+            out[i] = LayerReach::kCut;
+        } else if (inside > -(pocket.rough_allowance + kBesides)) {
+            out[i] = LayerReach::kBeside;
+        }
+    }
+    return out;
+}
 
 }  // namespace cusp::grid_pocket

@@ -5,6 +5,7 @@
 // AxialDepthTracker to see it, so the limit of the axial depth holds there too.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
@@ -21,6 +22,7 @@ struct AdaptiveLayer {
 
 struct AdaptiveLayers {
     std::vector<AdaptiveLayer> layers;  // from the top down
+    double max_engagement{};            // degrees, as asked
     double scallops{};                  // mm: left between passes by a round end
     double clears{};                    // mm: radius that is cleared to the scallops
     double chord{};                     // mm: tolerance of arcs written as lines
@@ -28,5 +30,16 @@ struct AdaptiveLayers {
 
 // Errors: InputError where the job has more than 10000 layers, or one can't be cleared.
 AdaptiveLayers adaptive_layers(const PocketSpace& pocket);
+
+enum class LayerReach : std::uint8_t {
+    kNone,
+    kBeside,  // but for the allowance
+    kCut,     // the tip has been there, and nothing over the scallops is left in the cell
+};
+
+// How far the layer's passes reach, by cell.
+std::vector<LayerReach> reach_of(const AdaptiveLayer& layer,
+                                 const AdaptiveLayers& layers,
+                                 const PocketSpace& pocket);
 
 }  // namespace cusp::grid_pocket

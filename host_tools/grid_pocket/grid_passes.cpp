@@ -20,7 +20,6 @@ using job::OutputForm;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
-using offset::RegionOffset;
 using offset::reversed;
 using toolpath::EntryKind;
 using toolpath::EntrySettings;
@@ -149,49 +148,25 @@ void GridPasses::adaptive_layer(const AdaptiveLayers& layers, const AdaptiveLaye
     cutter.write(layer.path, layer.above, layer.z);
     passes_ += static_cast<int>(layer.path.runs.size());
     adaptive_entries_ += cutter.entries();
-    const std::vector<char> reached = lower_stock(layers, layer);
+    const std::vector<LayerReach> reached = reach_of(layer, layers, pocket_);
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (reached[i] == LayerReach::kCut) {
+            stock_tops_[i] =
+                std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
+        }
+    }
     const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
     ClPathFitter floor = pocket_.rough.above(layer.z);
     cut_cells(
         layer.z,
         [&](Cell c) {
             const std::size_t i = pocket_.grid.index(c);
-            return reached[i] == 0 && pocket_.rough_heights[i] <= layer.z;
+            return reached[i] == LayerReach::kNone && pocket_.rough_heights[i] <= layer.z;
         },
         floor);
     wall_level(above, floor);
     pocket_.finish.add_bound(floor.gouge_bound() - pocket_.rough_allowance);
     last_plane_ = layer.z + layers.scallops;
-}
-
-std::vector<char> GridPasses::lower_stock(const AdaptiveLayers& layers, const AdaptiveLayer& layer)
-{
-    constexpr double kBesides = 0.05;  // mm: slices keep so much more than the allowance
-    const CellGrid& grid = pocket_.grid;
-    std::vector<char> reached(grid.size(), 0);
-    if (layer.path.runs.empty()) {
-        return reached;
-    }
-    const RegionOffset region{layer.region};
-    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-        const Cell cell = grid.cell(i);
-        if (!grid.inside(cell) || pocket_.rough_heights[i] > layer.above) {
-            continue;
-        }
-        const Vec2d at = grid.centre(cell);
-        const bool sliver = std::any_of(
-            layer.path.left.begin(), layer.path.left.end(),
-            [&](Vec2d left) { return norm(left - at) < pocket_.operation.tool.radius + half; });
-        const double inside = region.clearance(at);
-        reached[i] = !sliver && inside > -(pocket_.rough_allowance + kBesides) ? 1 : 0;
-        // There the tip has been, and around it to the cell's corners is nothing over the scallops.
-        if (!sliver && inside >= std::max(0.0, half - layers.clears)) {
-            stock_tops_[i] =
-                std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
-        }
-    }
-    return reached;
 }
 
 void GridPasses::main_path(const Navigation& navigation)

@@ -73,8 +73,6 @@ private:
     double stock_top_under(Vec2d at) const;
     // Cuts the free cells as low as plane and floor allow.
     void cut_cells(double plane, const std::function<bool(Cell)>& free, ClPathFitter& floor);
-    // Sets the stock over cells that an adaptive layer has reached. Returns whether it has, by cell.
-    std::vector<char> lower_stock(const AdaptiveLayers& layers, const AdaptiveLayer& layer);
     void count(const Navigation& navigation);
     // Whether the steps before and after `i` have the same direction, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);

@@ -137,6 +137,41 @@ void fill_report(const PocketSpace& pocket,
     warn_of_entries(planner.writer(), stats);
 }
 
+// Cuts the layers of the job; sets `layers` where their engagement is bounded, and the planes.
+void cut_layers(const PocketSpace& pocket,
+                GridPasses& planner,
+                AdaptiveLayers& layers,
+                LayerPlanes& planes)
+{
+    if (pocket.operation.max_engagement) {
+        layers = adaptive_layers(pocket);
+        for (const AdaptiveLayer& layer : layers.layers) {
+            planner.adaptive_layer(layers, layer);
+            planes.z.push_back(layer.z);
+        }
+        return;
+    }
+    planes = layer_planes(pocket);
+    for (std::size_t i = 0; i < planes.z.size(); ++i) {
+        planner.layer(planes.z[i]);
+        pocket.job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
+                                             static_cast<double>(planes.z.size()));
+    }
+}
+
+void report_engagement(const AdaptiveLayers& layers,
+                       const GridPasses& planner,
+                       OperationStats& stats)
+{
+    EngagementReport engagement{layers.max_engagement};
+    for (const AdaptiveLayer& layer : layers.layers) {
+        engagement.add(layer.path, 1, layer.z);
+    }
+    stats.counts.emplace_back("entries", planner.adaptive_entries());
+    stats.counts.emplace_back("lifts", planner.retracts());
+    engagement.write(stats);
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& operation)
@@ -170,20 +205,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     if (!operation.layers.empty() || operation.max_depth) {
         pocket.rough_heights =
             pocket.rough_allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
-        if (operation.max_engagement) {
-            layers = adaptive_layers(pocket);
-            for (const AdaptiveLayer& layer : layers.layers) {
-                planner.adaptive_layer(layers, layer);
-                planes.z.push_back(layer.z);
-            }
-        } else {
-            planes = layer_planes(pocket);
-        }
-        for (std::size_t i = 0; !operation.max_engagement && i < planes.z.size(); ++i) {
-            planner.layer(planes.z[i]);
-            job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
-                                          static_cast<double>(planes.z.size()));
-        }
+        cut_layers(pocket, planner, layers, planes);
     }
     job.report_progress(0.5);
     planner.main_path(navigation);
@@ -197,13 +219,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     job.report_progress(1);
     fill_report(pocket, planes, planner, roughness, out);
     if (operation.max_engagement) {
-        EngagementReport engagement{*operation.max_engagement};
-        for (const AdaptiveLayer& layer : layers.layers) {
-            engagement.add(layer.path, 1, layer.z);
-        }
-        out.stats.counts.emplace_back("entries", planner.adaptive_entries());
-        out.stats.counts.emplace_back("lifts", planner.retracts());
-        engagement.write(out.stats);
+        report_engagement(layers, planner, out.stats);
     }
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));

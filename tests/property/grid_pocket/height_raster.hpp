@@ -63,8 +63,8 @@ public:
                 const Vec2d left{-pose.heading.y, pose.heading.x};
                 return pose.at + (pose.heading * std::cos(angle) + left * std::sin(angle)) * out;
             };
-            const bool stands = stock_at(at(now, radius + 0.75 * pitch_)) > z;
-            count += stands && stock_at(at(next, radius)) > z ? 1 : 0;
+            const bool ahead_of_it = stock_at(at(now, radius + 0.75 * pitch_)) > z;
+            count += ahead_of_it && stock_at(at(next, radius)) > z ? 1 : 0;
         }
         return count * 180.0 / 181.0;
     }
