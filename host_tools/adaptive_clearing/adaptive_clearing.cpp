@@ -56,6 +56,9 @@ constexpr double kLeastNeck = 0.02;  // room of the tool's centre in a neck
 constexpr double kMostNeck = 0.52;   // wider ones are steered through
 constexpr double kMostMouth = 0.8;
 constexpr double kLeastHelix = 0.02;
+constexpr double kRound = 0.6;  // of a part's area in its greatest circle
+constexpr double kLeastRound = 2.0;
+constexpr double kPoleStep = 0.5;
 constexpr double kPiece = 0.1;
 constexpr double kPart = 0.0125;  // of pieces over the limit
 constexpr double kTargetMargin = 0.2;
@@ -63,10 +66,17 @@ constexpr double kSteerShare = 0.995;  // of the engagement
 constexpr double kMoreLength = 1.3;    // times the area over the width of a straight cut
 constexpr double kMostProgress = 0.99;
 
+// The first way out of a hole at the foot of an entry.
+enum class Widening {
+    kSteered,
+    kSpiral,  // to the walls, in round parts
+};
+
 class Planner {
 public:
-    Planner(const Region2d& region, const AdaptiveSettings& settings)
+    Planner(const Region2d& region, const AdaptiveSettings& settings, Widening widening)
         : settings_{settings},
+          widening_{widening},
           radius_{settings.tool_radius},
           walls_{region},
           box_{grown_box(box_of(region), settings.tool_radius)},
@@ -106,6 +116,9 @@ public:
         return std::move(result_);
     }
 
+    // Whether a part that is entered by a helix is round enough for a spiral to its walls.
+    bool is_round() const { return is_round_; }
+
 private:
     // The part of the region that a turn of this radius reaches.
     const Region2d& opened(double radius)
@@ -136,7 +149,7 @@ private:
             starts.add(place);
         }
         for (const RegionPart& part : connected_parts(centres)) {
-            enter(centres, part, starts);
+            enter(centres, part, turn + strip, starts);
             for (;;) {
                 const std::optional<Pose> pose = starts.next(at_, space);
                 if (!pose) {
@@ -157,18 +170,34 @@ private:
     }
 
     // Enters the part by a helix, unless a hole is swept there already, or it is open.
-    void enter(const Region2d& centres, const RegionPart& part, PassStarts& starts)
+    //
+    // inset  mm: of the part from where the tool may be
+    void enter(const Region2d& centres, const RegionPart& part, double inset, PassStarts& starts)
     {
-        const Vec2d pole = deepest_place(centres, part, walls_);
+        Vec2d pole = deepest_place(centres, part, walls_);
         if (swept_.contains(pole) || std::any_of(open_.begin(), open_.end(), [&](Vec2d place) {
                 return is_inside(centres, part, place);
             })) {
             return;
         }
-        const double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
+        double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
+        const double in_part = room - inset;
+        const bool is_round = in_part > kLeastRound * radius_ &&
+                              kPi * in_part * in_part >
+                                  kRound * std::abs(area(centres.contours[part.outer]));
+        is_round_ = is_round_ || is_round;
+        const bool spiral = is_round && widening_ == Widening::kSpiral;
+        if (spiral) {
+            pole = deepest_near(pole, kPoleStep * radius_, walls_);
+            room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
+        }
         double r = std::min(kHelix * radius_, room);
         r = r < kLeastHelix * radius_ ? 0.0 : r;
-        const double reached = add_helix(pole, r);
+        const double reached = add_helix(pole, r, spiral ? room - kStrip * radius_ : r);
+        if (reached > r) {
+            starts.add(result_.runs.back().path);
+            return;
+        }
         for (int i = 0; i < 16; ++i) {
             const double angle = 2 * kPi * i / 16;
             const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * reached;
@@ -177,8 +206,9 @@ private:
         }
     }
 
-    // Returns how far from its centre the tool is free to go, at most r (mm).
-    double add_helix(Vec2d centre, double r)
+    // The helix has the radius r (mm). Returns how far from its centre the tool is free to go, at
+    // most `widest` (mm).
+    double add_helix(Vec2d centre, double r, double widest)
     {
         link_.clear();
         double reached = 0.0;
@@ -188,7 +218,7 @@ private:
             result_.runs.emplace_back();
         } else {
             const EntrySpiral spiral =
-                entry_spiral(swept_, centre, r, {settings_.max_engagement, settings_.tolerance});
+                entry_spiral(swept_, centre, widest, {settings_.max_engagement, settings_.tolerance});
             result_.engagement_bound = std::max(result_.engagement_bound, spiral.engagement_bound);
             add_run(spiral.path);
             reached = spiral.radius;
@@ -230,8 +260,8 @@ private:
                 way.begin() + static_cast<std::ptrdiff_t>(stock.last) + 1,
                 [](const NeckPlace& a, const NeckPlace& b) { return a.room < b.room; }) -
             way.begin());
-        const double room =
-            add_helix(way[widest].centre, std::min(kHelix * radius_, way[widest].room));
+        const double r = std::min(kHelix * radius_, way[widest].room);
+        const double room = add_helix(way[widest].centre, r, r);
         cut_neck(way, widest, last, room, space);
         cut_neck(way, widest, first, room, space);
     }
@@ -353,7 +383,7 @@ private:
         if (swept_.engagement(place, {1.0, 0.0}, -0.01 * radius_, kPi) < 0.1) {
             return;
         }
-        add_helix(place, 0.0);
+        add_helix(place, 0.0, 0.0);
     }
 
     // mm: at least the width that the swept area, made of discs and chords, misses.
@@ -458,6 +488,8 @@ private:
     }
 
     const AdaptiveSettings& settings_;
+    Widening widening_;
+    bool is_round_{false};
     double radius_;
     RegionOffset walls_;
     Box2d box_;
@@ -472,18 +504,54 @@ private:
     Vec2d at_{};
 };
 
+// mm at the feed that would take as long.
+double effort(const AdaptivePath& path, double radius)
+{
+    constexpr double kRapidShare = 0.2;
+    constexpr double kLift = 10.0;  // radii
+    constexpr double kOver = 10.0;  // times the way that is over the limit
+    double sum = path.length;
+    Vec2d at{};
+    for (const AdaptiveRun& run : path.runs) {
+        sum += run.link.empty() ? kLift * radius : 0.0;
+        for (const LinkLeg& leg : run.link) {
+            sum += norm(leg.end - at) * (leg.free ? kRapidShare : 1.0);
+            at = leg.end;
+        }
+        at = run.path.empty() ? at : run.path.back().end;
+    }
+    for (const OverEngagement& over : path.over) {
+        sum += kOver * over.length;
+    }
+    return sum;
+}
+
+// Round regions are planned in both ways: which is shorter depends on where the last passes meet the
+// walls.
+AdaptivePath shorter_path(const Region2d& region, const AdaptiveSettings& settings)
+{
+    Planner steered{region, settings, Widening::kSteered};
+    AdaptivePath path = steered.plan();
+    if (!steered.is_round()) {
+        return path;
+    }
+    AdaptivePath other = Planner{region, settings, Widening::kSpiral}.plan();
+    const double radius = settings.tool_radius;
+    return effort(other, radius) < effort(path, radius) ? other : path;
+}
+
 }  // namespace
 
 AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& settings)
 {
     if (settings.direction == CutDirection::kClimb) {
-        return Planner{region, settings}.plan();
+        return shorter_path(region, settings);
     }
     AdaptiveSettings other = settings;
     for (Region2d& open : other.open) {
         open = mirrored(open);
     }
-    AdaptivePath path = Planner{mirrored(region), other}.plan();
+    AdaptivePath path = shorter_path(mirrored(region), other);
     mirror(path);
     return path;
 }
