@@ -43,4 +43,28 @@ Vec2d deepest_place(const Region2d& region, const RegionPart& part, const Region
     return best;
 }
 
+Vec2d deepest_near(Vec2d place, double step, const RegionOffset& walls)
+{
+    constexpr int kWays = 8;
+    constexpr double kFinest = 0.002;
+    Vec2d deepest = place;
+    double best = walls.nearest(place, kUnbounded);
+    for (const double least = kFinest * step; step > least;) {
+        const Vec2d from = deepest;
+        bool found = false;
+        for (int i = 0; i < kWays; ++i) {
+            const double angle = 2.0 * kPi * i / kWays;
+            const Vec2d to = from + Vec2d{std::cos(angle), std::sin(angle)} * step;
+            const double room = walls.nearest(to, kUnbounded);
+            if (room > best && walls.contains(to)) {
+                best = room;
+                deepest = to;
+                found = true;
+            }
+        }
+        step = found ? step : 0.5 * step;
+    }
+    return deepest;
+}
+
 }  // namespace cusp::adaptive_clearing

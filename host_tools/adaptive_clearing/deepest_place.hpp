@@ -14,4 +14,8 @@ Vec2d deepest_place(const offset::Region2d& region,
                     const offset::RegionPart& part,
                     const offset::RegionOffset& walls);
 
+// The place that is farthest from the walls among those that lead to it from `place` in ever smaller
+// steps, from `step` (mm) to a five-hundredth of it.
+Vec2d deepest_near(Vec2d place, double step, const offset::RegionOffset& walls);
+
 }  // namespace cusp::adaptive_clearing

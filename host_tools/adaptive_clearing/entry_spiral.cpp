@@ -22,6 +22,10 @@ constexpr int kWidthBisections = 10;
 // of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
 
+constexpr double kWide = 0.3;  // radii: the gap is thick there
+constexpr double kWideShare = 0.995;
+constexpr double kSteps[] = {1.6, 1.2, 1.1, 1.03, 1.01, 1.0, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4};
+
 // mm: the radius of the first turn. Stock of up to `missed`, that discs and chords leave beside a
 // turn already made, must be small beside it at the angle `most`.
 double first_turn(double tool_radius, double most, double tolerance)
@@ -91,8 +95,33 @@ EntrySpiral entry_spiral(SweptArea& swept,
         }
         return good;
     };
+    // Farther out half turns grow by nearly the same step: one that is kept is found beside it.
+    double step = 0.0;
+    const auto widest_beside = [&](double limit) {
+        const auto keeps = [&](double to) {
+            return swept.keeps(half_turn(centre, at, to, side), limit, limits.tolerance);
+        };
+        for (const double share : kSteps) {
+            const double to = std::min(radius, at + share * step);
+            if (to > at && keeps(to)) {
+                return to;
+            }
+        }
+        return at;
+    };
     double whole = at;  // mm: radius of the largest whole turn
     while (at < radius) {
+        if (at > kWide * swept.radius() && step > 0.0) {
+            const double limit = kWideShare * limits.max_engagement;
+            const double to = widest_beside(limit);
+            if (to > at) {
+                spiral.engagement_bound = std::max(spiral.engagement_bound, limit);
+                step = to - at;
+                whole = at;
+                add(to);
+                continue;
+            }
+        }
         double to = widest(most);
         if (to < kLeastGrowth * at) {
             to = widest(limits.max_engagement);
@@ -102,6 +131,7 @@ EntrySpiral entry_spiral(SweptArea& swept,
         }
         spiral.engagement_bound = std::max(spiral.engagement_bound, bound(to));
         whole = at;
+        step = to - at;
         add(to);
     }
     // Half a turn at the last radius, and one more where the spiral grew so fast that the first half

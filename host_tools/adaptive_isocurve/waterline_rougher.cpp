@@ -10,7 +10,6 @@
 
 #include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/adaptive_clearing/engagement_report.hpp"
-#include "host_tools/adaptive_isocurve/fitted_edges.hpp"
 #include "host_tools/adaptive_isocurve/rest_regions.hpp"
 #include "host_tools/adaptive_isocurve/waterline_adaptive.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
@@ -21,6 +20,8 @@
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/parallel/parallel.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/waterline_slices/fitted_edges.hpp"
+#include "host_tools/waterline_slices/waterline_slices.hpp"
 
 #include "fmt/format.h"
 
@@ -39,7 +40,6 @@ using clearing::PassStart;
 using clearing::rest_offset_between_tools;
 using job::EntryKind;
 using job::OutputForm;
-using offset::area;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
@@ -53,6 +53,10 @@ using toolpath::Tool;
 using toolpath::ToolMove;
 using toolpath::Toolpath;
 using toolpath::ToolpathWriter;
+using waterline_slices::fitted_edges;
+using waterline_slices::fitted_region;
+using waterline_slices::SliceSettings;
+using waterline_slices::WaterlineSlices;
 
 namespace {
 
@@ -213,18 +217,6 @@ private:
         int plunges;
         int entries;  // of adaptive paths
     };
-
-    static Region2d fitted_region(const Region2d& slice, double fit)
-    {
-        Region2d out;
-        for (const Contour& contour : slice.contours) {
-            Contour edges = fitted_edges(contour, fit, true);
-            if (edges.size() >= 2 && std::abs(area(edges)) > fit * length(edges)) {
-                out.contours.push_back(std::move(edges));
-            }
-        }
-        return out;
-    }
 
     // The next levels.
     std::vector<std::optional<Level>> cleared_levels(const WaterlineSlices& slices,

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "host_tools/adaptive_isocurve/rough_depths.hpp"
-#include "host_tools/adaptive_isocurve/waterline_slices.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::adaptive_isocurve {

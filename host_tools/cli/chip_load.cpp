@@ -196,6 +196,18 @@ void add_removal(const PathEngagement& found, double seconds, toolpath::Operatio
                               seconds > 0 ? found.removed_mm3 / seconds * kSecondsPerMinute : 0.0);
 }
 
+// Of operations that cut with a bound and without one: the plan can't know what is over in all.
+std::vector<std::optional<double>> limits_of(const Job& job, const Plan& plan)
+{
+    std::vector<std::optional<double>> out;
+    for (const PlannedOperation& planned : plan.operations) {
+        const Operation& operation = operation_of(job, planned);
+        out.push_back(operation.strategy == "grid_pocket" ? operation.max_engagement
+                                                          : std::nullopt);
+    }
+    return out;
+}
+
 }  // namespace
 
 double feed_by_load(double feed, double degrees, const ChipLoad& limits)
@@ -225,11 +237,12 @@ void put_feeds_by_load(const Job& job,
     for (const PlannedOperation& planned : plan.operations) {
         paths.push_back(&planned.path);
     }
+    const std::vector<std::optional<double>> limits = limits_of(job, plan);
     std::vector<PathEngagement> found;
     {
         cancellation::set_work("looking for the engagement");
         const ShareProgress progress{"engagement", kQuiet};
-        found = path_engagement(job, paths, progress);
+        found = path_engagement(job, paths, limits, progress);
     }
     seconds();
     std::vector<double> before;
@@ -238,9 +251,9 @@ void put_feeds_by_load(const Job& job,
     for (std::size_t k = 0; k < plan.operations.size(); ++k) {
         PlannedOperation& planned = plan.operations[k];
         before.push_back(plan.measures[k].estimated_s);
-        const auto& limits = operation_of(job, planned).chip_load;
-        if (limits && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
-            ranges[k] = put_feeds(found[k], *limits, planned.path);
+        const auto& chip_load = operation_of(job, planned).chip_load;
+        if (chip_load && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
+            ranges[k] = put_feeds(found[k], *chip_load, planned.path);
             scaled = true;
         }
     }
@@ -256,6 +269,9 @@ void put_feeds_by_load(const Job& job,
         toolpath::OperationStats& stats = plan.operations[k].stats;
         if (operation_of(job, plan.operations[k]).max_engagement) {
             add_removal(found[k], plan.measures[k].estimated_s, stats);
+            if (limits[k]) {
+                stats.counts.emplace_back("found_over_engagement_mm", found[k].over_mm);
+            }
         }
         if (ranges[k].high > 0) {
             stats.counts.emplace_back("chip_load_before_s", before[k]);

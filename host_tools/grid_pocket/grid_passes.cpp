@@ -6,14 +6,17 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/grid_pocket/run_entry.hpp"
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
 namespace cusp::grid_pocket {
 
+using adaptive_clearing::AdaptivePathWriter;
 using clearing::AxialDepthTracker;
 using job::CutDirection;
 using job::Operation;
+using job::OutputForm;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
@@ -112,22 +115,58 @@ void GridPasses::layer(double plane)
     // Cells that the layers above have cut down to the floor are omitted. The others are cut as low
     // as the layer and the floor allow, so that no fin is left between layers on a slope.
     const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
+    ClPathFitter floor = pocket_.rough.above(plane);
+    cut_cells(
+        plane, [&](Cell c) { return pocket_.rough_heights[pocket_.grid.index(c)] < above; }, floor);
+    wall_level(above, floor);
+    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.rough_allowance);
+    last_plane_ = plane;
+}
+
+void GridPasses::cut_cells(double plane, const std::function<bool(Cell)>& free, ClPathFitter& floor)
+{
     NavigationRules rules;
     rules.free = [&](Cell c) {
-        return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
+        return pocket_.grid.inside(c) && free(c);
     };
     pocket_.add_clearances(rules);
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
-    ClPathFitter floor = pocket_.rough.above(plane);
     follow_navigation(navigation, floor);
     for (const NavigationStep& step : navigation.steps) {
         const std::size_t cell = pocket_.grid.index(step.cell);
         stock_tops_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
     }
+}
+
+void GridPasses::adaptive_layer(const AdaptiveLayers& layers, const AdaptiveLayer& layer)
+{
+    const Operation& operation = pocket_.operation;
+    AdaptivePathWriter cutter{writer_,
+                              {operation.output != OutputForm::kLines, layers.chord,
+                               operation.entry == EntryKind::kPlunge, layers.scallops}};
+    cutter.write(layer.path, layer.above, layer.z);
+    passes_ += static_cast<int>(layer.path.runs.size());
+    adaptive_entries_ += cutter.entries();
+    const std::vector<LayerReach> reached = reach_of(layer, layers, pocket_);
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (reached[i] == LayerReach::kCut) {
+            stock_tops_[i] =
+                std::min(stock_tops_[i], static_cast<float>(layer.z + layers.scallops));
+        }
+    }
+    const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
+    ClPathFitter floor = pocket_.rough.above(layer.z);
+    cut_cells(
+        layer.z,
+        [&](Cell c) {
+            const std::size_t i = pocket_.grid.index(c);
+            return reached[i] == LayerReach::kNone && pocket_.rough_heights[i] <= layer.z;
+        },
+        floor);
     wall_level(above, floor);
-    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.operation.allowance);
-    last_plane_ = plane;
+    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.rough_allowance);
+    last_plane_ = layer.z + layers.scallops;
 }
 
 void GridPasses::main_path(const Navigation& navigation)

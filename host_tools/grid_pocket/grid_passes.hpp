@@ -1,9 +1,11 @@
 // The passes of the pocket and the moves between them: layers, main path, wall, zigzags.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "host_tools/grid_pocket/adaptive_layers.hpp"
 #include "host_tools/grid_pocket/depth_limiter.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
@@ -16,6 +18,10 @@ public:
 
     // One roughing layer: the navigation over the cells that the floor leaves free, then the wall.
     void layer(double plane);
+
+    // One layer of bounded engagement: its passes, then the cells that they do not reach, then the
+    // wall.
+    void adaptive_layer(const AdaptiveLayers& layers, const AdaptiveLayer& layer);
 
     // Pass P of the paper: the whole navigation over the floor.
     void main_path(const Navigation& navigation);
@@ -33,6 +39,7 @@ public:
     int lifts() const { return lifts_; }
     int passes() const { return passes_; }
     int steps() const { return steps_; }
+    int adaptive_entries() const { return adaptive_entries_; }
     int retracts() const { return writer_.retracts(); }
     const toolpath::ToolpathWriter& writer() const { return writer_; }
     // mm; none if everything is cut in one layer.
@@ -56,6 +63,7 @@ private:
     int lifts_{0};
     int passes_{0};
     int steps_{0};
+    int adaptive_entries_{0};
 
     double stock_top_at(Cell c) const
     {
@@ -63,6 +71,8 @@ private:
     }
     // z at which a descending tool may first touch stock at a place.
     double stock_top_under(Vec2d at) const;
+    // Cuts the free cells as low as plane and floor allow.
+    void cut_cells(double plane, const std::function<bool(Cell)>& free, ClPathFitter& floor);
     void count(const Navigation& navigation);
     // Whether the steps before and after `i` have the same direction, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);

@@ -7,12 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "host_tools/adaptive_clearing/engagement_report.hpp"
 #include "host_tools/clearing/plunge_feed_limit.hpp"
 #include "host_tools/grid_pocket/grid_passes.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
 namespace cusp::grid_pocket {
 
+using adaptive_clearing::EngagementReport;
 using clearing::limit_plunge_feed;
 using job::Job;
 using job::Operation;
@@ -135,6 +137,41 @@ void fill_report(const PocketSpace& pocket,
     warn_of_entries(planner.writer(), stats);
 }
 
+// Cuts the layers of the job; sets `layers` where their engagement is bounded, and the planes.
+void cut_layers(const PocketSpace& pocket,
+                GridPasses& planner,
+                AdaptiveLayers& layers,
+                LayerPlanes& planes)
+{
+    if (pocket.operation.max_engagement) {
+        layers = adaptive_layers(pocket);
+        for (const AdaptiveLayer& layer : layers.layers) {
+            planner.adaptive_layer(layers, layer);
+            planes.z.push_back(layer.z);
+        }
+        return;
+    }
+    planes = layer_planes(pocket);
+    for (std::size_t i = 0; i < planes.z.size(); ++i) {
+        planner.layer(planes.z[i]);
+        pocket.job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
+                                             static_cast<double>(planes.z.size()));
+    }
+}
+
+void report_engagement(const AdaptiveLayers& layers,
+                       const GridPasses& planner,
+                       OperationStats& stats)
+{
+    EngagementReport engagement{layers.max_engagement};
+    for (const AdaptiveLayer& layer : layers.layers) {
+        engagement.add(layer.path, 1, layer.z);
+    }
+    stats.counts.emplace_back("entries", planner.adaptive_entries());
+    stats.counts.emplace_back("lifts", planner.retracts());
+    engagement.write(stats);
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& operation)
@@ -164,15 +201,11 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     set_tool(out.path, job, operation.tool);
     GridPasses planner{pocket, out.path};
     LayerPlanes planes{};
+    AdaptiveLayers layers;
     if (!operation.layers.empty() || operation.max_depth) {
         pocket.rough_heights =
-            operation.allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
-        planes = layer_planes(pocket);
-        for (std::size_t i = 0; i < planes.z.size(); ++i) {
-            planner.layer(planes.z[i]);
-            job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
-                                          static_cast<double>(planes.z.size()));
-        }
+            pocket.rough_allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
+        cut_layers(pocket, planner, layers, planes);
     }
     job.report_progress(0.5);
     planner.main_path(navigation);
@@ -185,6 +218,9 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     planner.finish();
     job.report_progress(1);
     fill_report(pocket, planes, planner, roughness, out);
+    if (operation.max_engagement) {
+        report_engagement(layers, planner, out.stats);
+    }
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));
     limit_plunge_feed(result, job, box_of(walls.region));

@@ -93,6 +93,18 @@ void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 
 }  // namespace
 
+double roughing_allowance(const Operation& operation)
+{
+    constexpr double kOfRadius = 0.1;  // over the pitch of the map
+    constexpr double kOfDepth = 0.25;  // most, of max_depth
+    if (!operation.max_engagement) {
+        return operation.allowance;
+    }
+    return std::max(operation.allowance,
+                    std::min(kOfRadius * operation.tool.radius,
+                             kOfDepth * operation.max_depth.value_or(kUnbounded)));
+}
+
 FollowSettings follow_settings(const Operation& operation)
 {
     FollowSettings s;
@@ -112,13 +124,14 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
     : job{j},
       operation{o},
       kept{o.tool.radius + pocket.wall_error},
+      rough_allowance{roughing_allowance(o)},
       walls{pocket.region},
       centres{walls.at(kept + kWallRounding)},
       centre_edges{edges_of(centres)},
       grid{walls, o.grid_x, o.grid_y, kept},
       finish{o.floor, o.tool, 0, follow_settings(o)},
-      rough{o.allowance > 0 ? ClPathFitter{o.floor, o.tool, o.allowance, follow_settings(o)}
-                            : finish}
+      rough{rough_allowance > 0 ? ClPathFitter{o.floor, o.tool, rough_allowance, follow_settings(o)}
+                                : finish}
 {
 }
 
@@ -241,7 +254,7 @@ std::optional<Cliff> highest_cliff(const PocketSpace& pocket)
     return highest;
 }
 
-LayerPlanes layer_planes(const PocketSpace& pocket)
+double lowest_of_tip(const PocketSpace& pocket)
 {
     double lowest = kUnbounded;
     for (const double z : pocket.rough_heights) {
@@ -252,6 +265,12 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
             lowest = std::min(lowest, pocket.rough.height(p).value_or(lowest));
         }
     }
+    return lowest;
+}
+
+LayerPlanes layer_planes(const PocketSpace& pocket)
+{
+    const double lowest = lowest_of_tip(pocket);
     std::vector<double> planes;
     const Operation& operation = pocket.operation;
     if (!operation.layers.empty()) {

@@ -14,6 +14,10 @@ namespace cusp::grid_pocket {
 // mm beyond the radius, so that rounded G-code still keeps the distance.
 constexpr double kWallRounding = 5e-4;
 
+// mm: what roughing leaves over the floor, along the normal, and where it clears adaptively at the
+// walls. There it is more than the job asks for, so that the stock height map can see it.
+double roughing_allowance(const job::Operation& operation);
+
 // The settings that follow from the operation's tolerances and output.
 FollowSettings follow_settings(const job::Operation& operation);
 
@@ -21,7 +25,8 @@ FollowSettings follow_settings(const job::Operation& operation);
 struct PocketSpace {
     const job::Job& job;
     const job::Operation& operation;
-    double kept;  // mm: least distance of the axis from the walls
+    double kept;             // mm: least distance of the axis from the walls
+    double rough_allowance;  // mm
     offset::RegionOffset walls;
     offset::Region2d centres;  // the wall pass is its border
     offset::EdgeTree centre_edges;
@@ -66,6 +71,9 @@ struct Cliff {
 // The highest cliff between neighbouring cells, if any is higher than the tool's radius: the
 // roughness does not include stock left beside it.
 std::optional<Cliff> highest_cliff(const PocketSpace& pocket);
+
+// z: the lowest of the tip in layers. Needs the rough heights.
+double lowest_of_tip(const PocketSpace& pocket);
 
 struct LayerPlanes {
     std::vector<double> z;  // descending

@@ -85,10 +85,12 @@ void check_adaptive_levels(const JobTable& table, const Operation& operation)
         table.refuse("overlap", "does not go with clearing = \"adaptive\", which has no lines");
     }
     if (operation.strategy == "grid_pocket") {
-        table.refuse(
-            "clearing",
-            "grid_pocket does not have \"adaptive\": its passes follow the floor from cell to cell "
-            "in slots of their own: rough with hull_rough, then finish with grid_pocket");
+        if (!operation.max_depth && operation.layers.empty()) {
+            table.refuse("clearing",
+                         "\"adaptive\" needs max_depth or layers: without them nothing "
+                         "is roughed");
+        }
+        return;
     }
     if (operation.strategy != "hull_rough" && !operation.roughing) {
         table.refuse("clearing",

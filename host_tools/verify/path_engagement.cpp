@@ -2,6 +2,7 @@
 #include "host_tools/verify/path_engagement.hpp"
 
 #include "host_tools/verify/earlier_programs.hpp"
+#include "host_tools/verify/engagement.hpp"
 #include "host_tools/verify/path_positions.hpp"
 #include "host_tools/verify/stock_grid.hpp"
 #include "host_tools/verify/uncut_stock.hpp"
@@ -13,6 +14,7 @@ using toolpath::Toolpath;
 
 std::vector<PathEngagement> path_engagement(const Job& job,
                                             const std::vector<const Toolpath*>& paths,
+                                            const std::vector<std::optional<double>>& limits,
                                             const Progress& progress)
 {
     const double spacing = position_spacing(job);
@@ -32,11 +34,11 @@ std::vector<PathEngagement> path_engagement(const Job& job,
             },
             &trace);
         found.run = trace.finish();
-        for (std::size_t i = 1; i < found.run.kinds.size(); ++i) {
-            if (found.run.kinds[i] == StepKind::kAir) {
-                found.air_mm += norm(found.positions.tips[i] - found.positions.tips[i - 1]);
-            }
-        }
+        set_limit(paths[k]->tool, limits[k], grid.pitch, found.run);
+        EngagementFigures figures;
+        add_engagement(found.positions, limits[k], found.run, figures);
+        found.air_mm = figures.air_length;
+        found.over_mm = figures.over_length.value_or(0.0);
         found.removed_mm3 = stock.removed_volume() - removed;
         removed = stock.removed_volume();
     }

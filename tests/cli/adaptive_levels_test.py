@@ -76,6 +76,31 @@ class AdaptiveLevels(CuspCase):
         self.judge("adaptive_isocurve", FLAT12 + BALL10.replace("shape", "number = 3\nshape"), 9.4,
                    "roughing = true\ntool = 3\ntools = [1]\nscallop = 0.5", measured=False)
 
+    # Its finish has no bound: it is counted.
+    def test_grid_pocket(self):
+        def planned(keys):
+            tool = 'units = "inch"\n[[tool]]\nshape = "flat"\ndiameter = 0.25\n'
+            (self.folder / "job.toml").write_text(JOB.format(
+                tools=tool, top=0, strategy="grid_pocket", part=PARTS / "choi-polygon-floor.json", depth=0.15,
+                keys=f'boundary = "{PARTS / "choi-polygon-boundary.json"}"\ngrid = [0.125, 0.0625]\n' + keys)
+                .replace("allowance = 0.3", "").replace("feed = 1000", "feed = 40"))
+            self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+            self.cusp(0, "verify", "job.toml", "p.ngc", "--max-engagement", str(ANGLE), "--stats", "v.json")
+            return [json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json")]
+        _, cells = planned("")
+        plan, found = planned(f'clearing = "adaptive"\nmax_engagement = {ANGLE}')
+        operation = plan["operations"][0]
+        self.assertLessEqual(operation["engagement_bound_deg"], ANGLE + 1e-6)
+        self.assertLess(operation["over_engagement_mm"], 5)
+        self.assertGreater(found["over_engagement_mm"], 100 * operation["over_engagement_mm"])
+        self.assertLess(found["over_engagement_mm"], 0.5 * cells["over_engagement_mm"])
+        # The height map of the plan is not looked at again where trochoids are.
+        self.assertGreater(operation["found_over_engagement_mm"], 0.95 * found["over_engagement_mm"])
+        self.assertLess(operation["found_over_engagement_mm"], 1.5 * found["over_engagement_mm"])
+        self.assertLess(found["cut_depth_max_mm"], 0.15 * 25.4)
+        self.assertEqual(found["rapid_cut_max_mm"], 0)
+        self.assertGreater(found["removed_mm3"], 0.997 * cells["removed_mm3"])
+
     def test_what_has_no_meaning_is_refused(self):
         def refused(strategy, keys):
             self.job(strategy=strategy, tools=FLAT12, depth=4, keys=keys)
@@ -83,7 +108,10 @@ class AdaptiveLevels(CuspCase):
         adaptive = 'clearing = "adaptive"\n'
         self.assertIn("overlap: does not go with", refused("hull_rough", adaptive + "overlap = 1"))
         grid = f'boundary = "{PARTS / "choi-polygon-boundary.json"}"\ngrid = [1, 1]\n'
-        self.assertIn("rough with hull_rough, then finish", refused("grid_pocket", adaptive + grid))
+        self.job(strategy="grid_pocket", tools=FLAT12, depth=4, keys=adaptive + grid)
+        job = self.folder / "job.toml"
+        job.write_text(job.read_text().replace("max_depth = 4", "").replace("allowance = 0.3", ""))
+        self.assertIn("needs max_depth or layers", self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
         self.assertIn('clearing: "adaptive" needs roughing = true',
                       refused("parallel_planes", adaptive + "scallop = 0.1"))
         self.assertIn("max_engagement: needs clearing", refused("hull_rough", "max_engagement = 60"))

@@ -357,6 +357,27 @@ bool closed_pocket_holds(unsigned number)
     return holds(region, random_settings(random, number), number);
 }
 
+// An oval of lines, with or without a part cut off by a chord: most are cleared by a spiral.
+bool round_pocket_holds(unsigned number)
+{
+    constexpr int kSides = 60;
+    Random random{number};
+    const AdaptiveSettings settings = random_settings(random, number);
+    const double half = settings.tool_radius * uniform(random, 4.0, 9.0);
+    const double narrow = uniform(random, 0.65, 1.0);
+    const double cut_off = uniform(random, 0.4, 1.6);
+    std::vector<Vec2d> corners;
+    for (int i = 0; i < kSides; ++i) {
+        const double angle = 360.0 * kDegrees * i / kSides;
+        corners.push_back(
+            {half * std::min(std::cos(angle), cut_off), narrow * half * std::sin(angle)});
+    }
+    corners.erase(std::unique(corners.begin(), corners.end(),
+                              [](Vec2d a, Vec2d b) { return distance(a, b) < 1e-6; }),
+                  corners.end());
+    return holds({{polygon(corners)}}, settings, number);
+}
+
 bool slot_holds(unsigned number)
 {
     Random random{number};
@@ -469,6 +490,18 @@ TEST(RandomAdaptiveClearing, ComesInFromOpenSides)
 }
 
 // And little of their way is over the angle: corners.
+TEST(RandomAdaptiveClearing, KeepsItsBoundInRoundPockets)
+{
+    const unsigned first = test::property_seed(26);
+    const int cases = property_cases(3);
+    int wrong = 0;
+    std::printf("%d round pockets, seeds from %u\n", cases, first);
+    for (int i = 0; i < cases; ++i) {
+        wrong += round_pocket_holds(first + static_cast<unsigned>(i)) ? 0 : 1;
+    }
+    LONGS_EQUAL(0, wrong);
+}
+
 TEST(RandomAdaptiveClearing, OpensSlots)
 {
     const unsigned first = test::property_seed(26);

@@ -38,11 +38,8 @@ VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>&
     return verify::verify(job, file, settings, [](double) {}).figures;
 }
 
-void check_pocket(unsigned seed)
+void check_pocket(const Job& job)
 {
-    std::printf("random pocket seed %u\n", seed);
-    Random random{seed};
-    const Job job = random_pocket(random);
     const Operation& operation = job.operations.front();
     std::vector<PlannedOperation> plan;
     try {
@@ -55,6 +52,8 @@ void check_pocket(unsigned seed)
     }
     const VerifyFigures figures = cut_in_memory(job, plan);
     const OperationStats& stats = plan.front().stats;
+    std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
+                figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);
     CHECK(stats.gouge_bound_mm <= 1e-6);
     CHECK(figures.gouge_max <= 2e-3);
     CHECK(figures.ball_gouge_max.value_or(0) <= 1e-3);
@@ -66,8 +65,6 @@ void check_pocket(unsigned seed)
     }
     // Resolution of the height map in memory.
     CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);
-    std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
-                figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);
 }
 
 }  // namespace
@@ -77,7 +74,20 @@ TEST_GROUP(GridProperty){};
 TEST(GridProperty, RandomPocketsAreCutToTheComputedRoughnessWithoutGouge)
 {
     for (int i = 0; i < property_cases(8); ++i) {
-        check_pocket(static_cast<unsigned>(i) + 1);
+        const auto seed = static_cast<unsigned>(i) + 1;
+        std::printf("random pocket seed %u\n", seed);
+        Random random{seed};
+        check_pocket(random_pocket(random));
+    }
+}
+
+TEST(GridProperty, SoAreRandomPocketsWithLayersOfBoundedEngagement)
+{
+    for (int i = 0; i < property_cases(4); ++i) {
+        const unsigned seed = property_seed(1001) + static_cast<unsigned>(i);
+        std::printf("random adaptive pocket seed %u\n", seed);
+        Random random{seed};
+        check_pocket(random_adaptive_pocket(random));
     }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/offset/offset.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/random_jobs.hpp"
 
@@ -156,6 +156,48 @@ inline job::Job random_pocket(Random& random)
     }
     operation.allowance = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
     return job_of(operation);
+}
+
+// Whether all of the island is at least half a millimetre inside the boundary.
+inline bool island_fits(const Polygon& boundary, const Polygon& island)
+{
+    constexpr double kApart = 0.5;  // mm
+    offset::Contour contour;
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+        contour.push_back(offset::line_edge(boundary[i], boundary[(i + 1) % boundary.size()]));
+    }
+    const offset::RegionOffset region{{{contour}}};
+    for (std::size_t i = 0; i < island.size(); ++i) {
+        const Vec2d way = island[(i + 1) % island.size()] - island[i];
+        const int pieces = 1 + static_cast<int>(norm(way) / kApart);
+        for (int k = 0; k < pieces; ++k) {
+            if (region.clearance(island[i] + way * (static_cast<double>(k) / pieces)) < kApart) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// The same, cleared in layers of bounded engagement, half of them with an island.
+inline job::Job random_adaptive_pocket(Random& random)
+{
+    job::Job job = random_pocket(random);
+    job::Operation& operation = job.operations.front();
+    operation.max_engagement = uniform(random, 40.0, 100.0);
+    operation.max_depth = uniform(random, 1.5, 4.0);
+    if (whole(random, 0, 1) == 0) {
+        Polygon boundary;
+        for (const nurbs::Curve& side : *operation.boundary) {
+            boundary.push_back({side.points.front().x, side.points.front().y});
+        }
+        const Polygon island = star_polygon(random, 2.0, 6.0, whole(random, 3, 9));
+        if (island_fits(boundary, island)) {
+            operation.islands.push_back(loop_of(island));
+            operation.island_files.emplace_back("island");
+        }
+    }
+    return job;
 }
 
 }  // namespace cusp::test

@@ -58,6 +58,31 @@ double distance_to(const AdaptivePath& path, Vec2d place)
 
 TEST_GROUP(AdaptiveClearing){};
 
+// No way is shorter than the area over the width of a straight cut; the tool goes around along the
+// wall, and about as far to and from there.
+TEST(AdaptiveClearing, ClearsARoundPocketInHardlyMoreThanTheShortestWay)
+{
+    constexpr double kRadius = 40.0;
+    constexpr int kSides = 180;
+    Contour contour;
+    const auto corner = [&](int i) {
+        return Vec2d{std::cos(2.0 * i * kDegree), std::sin(2.0 * i * kDegree)} * kRadius;
+    };
+    for (int i = 0; i < kSides; ++i) {
+        contour.push_back(line_edge(corner(i), corner((i + 1) % kSides)));
+    }
+    const Region2d region{{contour}};
+    for (const double degrees : {45.0, 60.0, 90.0}) {
+        const AdaptivePath path = clear_adaptively(region, settings(degrees));
+        const double width = 3.0 * (1.0 - std::cos(degrees * kDegree));
+        CHECK(path.length > area(region) / width);
+        CHECK(path.length < area(region) / width + 2.0 * 360.0 * kDegree * (kRadius - 3.01));
+        CHECK(path.engagement_bound <= degrees * kDegree);
+        CHECK(path.over.empty());
+        CHECK(path.left.empty());
+    }
+}
+
 TEST(AdaptiveClearing, BeginsWithAHelixAndReachesTheWalls)
 {
     const AdaptivePath path = clear_adaptively(rectangle(30, 24), settings(60.0));

@@ -130,6 +130,45 @@ TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
     CHECK(least_clearance(plan[0], operation) >= -2e-6);
 }
 
+TEST(GridPlan, LayersOfBoundedEngagementNeverCutInNorDeeperThanAllowed)
+{
+    Operation operation = operation_of(9, OutputForm::kArcs);
+    operation.max_depth = 3;
+    operation.max_engagement = 60;
+    operation.boundary = loop_of({{10, 8}, {28, 8}, {30, 22}, {10, 20}});
+    operation.islands = {loop_of({{19, 13}, {20, 13}, {20, 14}, {19, 14}})};
+    operation.island_files = {"island"};
+    for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0},
+                             Tool{1, ToolShape::kBull, 3, 1}}) {
+        operation.tool = tool;
+        const auto plan = plan_grid_pocket(plain_job(), operation);
+        CHECK(count_of(plan[0], "layers") >= 2);
+        CHECK(count_of(plan[0], "entries") >= 2);
+        CHECK(count_of(plan[0], "engagement_bound_deg") > 30);
+        CHECK(count_of(plan[0], "engagement_bound_deg") <= 60 + 1e-9);
+        CHECK(count_of(plan[0], "deepest_cut_mm") <= 3);
+        CHECK(least_clearance(plan[0], operation) >= -2e-6);
+    }
+}
+
+TEST(GridPlan, TakesLayersOfBoundedEngagementAtTheDepthsOfTheJobAndAtTheFloor)
+{
+    Operation operation = operation_of(9, OutputForm::kLines);
+    operation.tool = {1, ToolShape::kFlat, 3, 0};
+    for (Vec3d& point : operation.floor.front().points) {
+        point.z = -4;
+    }
+    operation.layers = {1.5};
+    operation.max_engagement = 60;
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    LONGS_EQUAL(2, count_of(plan[0], "layers"));
+    double least = 0;
+    for (const ToolMove& move : plan[0].path.moves) {
+        least = std::min(least, end_of(move).z);
+    }
+    DOUBLES_EQUAL(-4, least, 0.021);
+}
+
 TEST(GridPlan, TurnsAroundWallsInArcsWhereTheFloorIsLevel)
 {
     Operation operation = operation_of(1, OutputForm::kArcs);

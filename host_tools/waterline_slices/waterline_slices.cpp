@@ -1,12 +1,12 @@
 // Nodes far from the contour are decided in blocks: a distance changes no faster than the position.
-#include "host_tools/adaptive_isocurve/waterline_slices.hpp"
+#include "host_tools/waterline_slices/waterline_slices.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::waterline_slices {
 
 using offset::Box2d;
 using offset::Contour;
@@ -292,4 +292,4 @@ Region2d WaterlineSlices::at(double z, double extra) const
     return out;
 }
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::waterline_slices

@@ -1,6 +1,6 @@
 // Slices of offsets: they keep their distance everywhere, are nested, and are no smaller than
 // necessary.
-#include "host_tools/adaptive_isocurve/waterline_slices.hpp"
+#include "host_tools/waterline_slices/waterline_slices.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
 using namespace cusp;
-using namespace cusp::adaptive_isocurve;
+using namespace cusp::waterline_slices;
 using namespace cusp::nurbs;
 using namespace cusp::offset;
 using namespace cusp::part_model;

@@ -1,5 +1,11 @@
 // Waterline slices: the region of a tool's axis with its tip at a height, by contours that are
 // proved to keep their distance from the model.
+//
+//     SliceSettings settings{0.3, 0.01, 0.2, {0, 0, 80, 60}};  // mm: clearance, excess, pitch, field
+//     const WaterlineSlices slices{model, tool, settings};
+//     slices.at(-4.0, 0.0);        // where the axis may be with the tip at z = -4
+//
+// Their contours have many short edges: fitted_edges() makes few lines and arcs of them.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +13,7 @@
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/part_model/part_model.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::waterline_slices {
 
 struct SliceSettings {
     double clearance{};    // mm >= 0: least distance of the tool from the model
@@ -57,4 +63,4 @@ private:
     double pitch_y_{};
 };
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::waterline_slices

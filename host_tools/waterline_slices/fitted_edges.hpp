@@ -5,7 +5,7 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::waterline_slices {
 
 // Few lines and arcs (without `arcs` lines only) within the tolerance (mm) of the edges on either
 // side, with the same ends.
@@ -13,4 +13,8 @@ std::vector<offset::Edge> fitted_edges(const std::vector<offset::Edge>& edges,
                                        double tolerance,
                                        bool arcs);
 
-}  // namespace cusp::adaptive_isocurve
+// The region with its contours fitted by lines and arcs; without those that are no wider than the
+// tolerance (mm).
+offset::Region2d fitted_region(const offset::Region2d& region, double tolerance);
+
+}  // namespace cusp::waterline_slices

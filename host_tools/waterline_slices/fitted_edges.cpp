@@ -1,16 +1,21 @@
 // Edges are sampled, and the samples fitted by the firmware's segmenter.
-#include "host_tools/adaptive_isocurve/fitted_edges.hpp"
+#include "host_tools/waterline_slices/fitted_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware/segmenter/arc_fitter.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::waterline_slices {
 
 using offset::arc_edge;
+using offset::area;
+using offset::Contour;
 using offset::Edge;
+using offset::length;
 using offset::line_edge;
+using offset::Region2d;
 
 namespace {
 
@@ -75,4 +80,16 @@ std::vector<Edge> fitted_edges(const std::vector<Edge>& edges, double tolerance,
     return out;
 }
 
-}  // namespace cusp::adaptive_isocurve
+Region2d fitted_region(const Region2d& region, double tolerance)
+{
+    Region2d out;
+    for (const Contour& contour : region.contours) {
+        Contour edges = fitted_edges(contour, tolerance, true);
+        if (edges.size() >= 2 && std::abs(area(edges)) > tolerance * length(edges)) {
+            out.contours.push_back(std::move(edges));
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::waterline_slices
