@@ -229,7 +229,6 @@ private:
             parallel::for_each(out.size(), [&](std::size_t k) {
                 const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1),
                                               ""};
-                const part_model::PartModel::SharedQueries::Part queries{work_.model};
                 out[k] = cleared_level(slices, first + k);
             });
         }

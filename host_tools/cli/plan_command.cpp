@@ -102,6 +102,7 @@ int run_plan(PlanOptions& options)
     } else {
         setups = read_setups(call.files.front());
     }
+    return_freed_memory();  // Open CASCADE's shapes take more than what is read of them
     for (Job& job : setups) {
         if (!call.request.post.empty()) {
             job.post = read_post(call.request.post, "");

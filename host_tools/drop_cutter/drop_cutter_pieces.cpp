@@ -13,6 +13,18 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as z(x, y)
+// What is kept of halves.
+constexpr std::size_t kMostHalves = 40000;
+constexpr std::size_t kMostBytes = 20'000'000;
+
+// Copies `from` with room for so many bytes of halves. Room that is never written takes no memory; lists
+// that grow leave holes behind.
+template <class T>
+void begin_with(const std::vector<T>& from, std::vector<T>& to)
+{
+    to.reserve(from.size() + kMostBytes / sizeof(T));
+    to = from;
+}
 
 // Halves `stride` interleaved Bezier polynomials of `count` coefficients each by de Casteljau's
 // algorithm: `low` becomes the first half, `high` the second.
@@ -125,10 +137,12 @@ DropCutter::State::State(const State& other, ForThread /*tag*/)
 
 void DropCutter::State::begin_with_whole_pieces()
 {
-    pieces_ = floor_->pieces;
-    nets_ = floor_->nets;
-    weights_ = floor_->weights;
-    outlines_ = floor_->outlines;
+    begin_with(floor_->pieces, pieces_);
+    begin_with(floor_->nets, nets_);
+    if (!floor_->weights.empty()) {
+        begin_with(floor_->weights, weights_);
+    }
+    begin_with(floor_->outlines, outlines_);
     last_ = kRoot;
     beside_ = kRoot;
 }
@@ -145,8 +159,6 @@ std::size_t DropCutter::State::bytes_of_halves() const
 // floor. Pieces are halved again when a later query needs them.
 void DropCutter::State::forget_many_halves()
 {
-    constexpr std::size_t kMostHalves = 40000;
-    constexpr std::size_t kMostBytes = 20'000'000;
     if (pieces_.size() < floor_->pieces.size() + kMostHalves && bytes_of_halves() < kMostBytes) {
         return;
     }

@@ -113,7 +113,8 @@ void widen(Vec3d& low, Vec3d& high, Vec3d to)
 
 }  // namespace
 
-BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)
+BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes,
+                      const std::vector<std::uint32_t>& numbers)
 {
     std::vector<std::uint32_t> order;
     BoxTree tree = tree_over(
@@ -126,7 +127,7 @@ BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)
     for (BoxTree::Node& node : tree.nodes) {
         if (node.child[0] < 0) {
             const auto place = static_cast<std::size_t>(-node.child[0] - 1);
-            node.child[0] = -static_cast<int>(order[place]) - 1;
+            node.child[0] = -static_cast<int>(numbers[order[place]]) - 1;
         }
     }
     return tree;

@@ -20,8 +20,11 @@ struct BoxTree {
     std::vector<Node> nodes;  // the first is the root
 };
 
-// Over boxes given by their corners; a leaf is one item with its number.
-BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
+// Over boxes given by their corners; a leaf is one item.
+//
+// numbers  of each box, which leaves hold
+BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes,
+                      const std::vector<std::uint32_t>& numbers);
 
 // Over triangles, up to four a leaf.
 //

@@ -321,10 +321,13 @@ private:
         }
         const std::size_t edge = item - state_.cells.size();
         Vec3d point;
-        const double distance =
-            std::max(0.0, edge_distance(core_, state_.edges[edge], point) - state_.edge_error);
+        const double distance = std::max(
+            0.0, edge_distance(core_, {state_.edges[edge], state_.edges[edge + 1]}, point) -
+                     state_.edge_error);
         bound_ = std::min(bound_, distance);
-        take(distance, {point, 0, 0, state_.edge_surface[edge]});
+        if (distance < found_) {
+            take(distance, {point, 0, 0, state_.surface_of_edge(edge)});
+        }
     }
 
     // All edges nearer than what is found.

@@ -28,11 +28,13 @@ struct PartModel::State {
     std::atomic<bool> released{};       // by one of these parts
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
-    std::vector<std::array<Vec3d, 2>> edges;
-    std::vector<int> edge_surface;
+    // Corners of edges, loop by loop; edges have the number of their first corner.
+    std::vector<Vec3d> edges;
+    std::vector<std::size_t> first_edges;  // of each surface
     double edge_error{};
     std::vector<Facet> facets;  // in the order of the tree
-    BoxTree tree;               // over cells first, then edges; or over facets
+    // Over cells and edges, whose numbers follow those of cells; or over facets.
+    BoxTree tree;
     Vec3d low;
     Vec3d high;
     // The cells of a surface, by their parameters: the breaks of u and v, and the first cell.
@@ -46,6 +48,7 @@ struct PartModel::State {
     };
     std::vector<Grid> grids;
     const BezierCell& cell_at(int surface, double u, double v) const;
+    int surface_of_edge(std::size_t edge) const;
     bool outside_trims(const BezierCell& cell) const;
     // A contact and what move clearances have found around it.
     struct KnownContact {

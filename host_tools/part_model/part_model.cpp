@@ -134,22 +134,29 @@ PartModel::PartModel(const std::vector<Surface>& surfaces, double edge_error)
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         add_cells(surfaces[k], static_cast<int>(k), state);
         state.regions.emplace_back(surfaces[k], edge_error);
-        for (const auto& edge : state.regions.back().edges(surfaces[k])) {
-            state.edges.push_back(edge);
-            state.edge_surface.push_back(static_cast<int>(k));
+    }
+    std::vector<std::array<Vec3d, 2>> boxes;
+    std::vector<std::uint32_t> numbers;
+    const auto add_box = [&](Vec3d a, Vec3d b, std::size_t number) {
+        boxes.push_back({Vec3d{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+                         Vec3d{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}});
+        numbers.push_back(static_cast<std::uint32_t>(number));
+    };
+    for (std::size_t k = 0; k < state.cells.size(); ++k) {
+        add_box(state.cells[k]->low(), state.cells[k]->high(), k);
+    }
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        state.first_edges.push_back(state.edges.size());
+        for (const std::vector<Vec3d>& loop : state.regions[k].edges(surfaces[k])) {
+            const std::size_t first = state.cells.size() + state.edges.size();
+            for (std::size_t at = 0; at + 1 < loop.size(); ++at) {
+                add_box(loop[at], loop[at + 1], first + at);
+            }
+            state.edges.insert(state.edges.end(), loop.begin(), loop.end());
         }
     }
     state.edges.shrink_to_fit();
-    std::vector<std::array<Vec3d, 2>> boxes;
-    boxes.reserve(state.cells.size() + state.edges.size());
-    for (const auto& cell : state.cells) {
-        boxes.push_back({cell->low(), cell->high()});
-    }
-    for (const auto& [a, b] : state.edges) {
-        boxes.push_back({Vec3d{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
-                         Vec3d{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}});
-    }
-    state.tree = make_box_tree(boxes);
+    state.tree = make_box_tree(boxes, numbers);
     if (!state.tree.nodes.empty()) {
         state.low = state.tree.nodes.front().low;
         state.high = state.tree.nodes.front().high;

@@ -42,6 +42,12 @@ const BezierCell& PartModel::State::cell_at(int surface, double u, double v) con
                   span(grid.v, v, last_query.last_v)];
 }
 
+int PartModel::State::surface_of_edge(std::size_t edge) const
+{
+    const auto next = std::upper_bound(first_edges.begin(), first_edges.end(), edge);
+    return static_cast<int>(next - first_edges.begin()) - 1;
+}
+
 std::uint64_t PartModel::State::next_number()
 {
     static std::atomic<std::uint64_t> last{0};

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 namespace cusp::part_model {
@@ -18,6 +20,7 @@ constexpr std::size_t kSidesInRow = 4;
 constexpr std::size_t kMostRows = 2000;
 constexpr double kLengthRounding = 1e-12;  // of a length
 constexpr double kBesideEdge = 1e-3;       // of a piece of edge
+constexpr float kFar = static_cast<float>(kInfinite);
 
 // Whether p lies to the right of the segment, by more than rounding.
 bool right_of(Vec2d from, Vec2d to, Vec2d p)
@@ -161,25 +164,52 @@ TrimRegion::TrimRegion(const Surface& surface, double edge_error)
 {
     EdgeTracer tracer{surface, edge_error};
     for (const std::vector<Curve>& loop : surface.trims) {
-        std::vector<Vec2d> corners = tracer.trace(loop);
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Vec2d from = corners[k];
-            const Vec2d to = corners[(k + 1) % corners.size()];
-            sides_.push_back({from, to});
+        const std::vector<Vec2d> corners = tracer.trace(loop);
+        if (!corners.empty()) {
+            corners_.insert(corners_.end(), corners.begin(), corners.end());
+            corners_.push_back(corners.front());
         }
-        corners.shrink_to_fit();
-        loops_.push_back(std::move(corners));
+        loop_ends_.push_back(static_cast<std::uint32_t>(corners_.size()));
     }
-    sides_.shrink_to_fit();
+    corners_.shrink_to_fit();
     make_rows();
 }
 
-std::vector<std::array<Vec3d, 2>> TrimRegion::edges(const Surface& surface) const
+template <class Visit>
+void TrimRegion::for_each_side(const Visit& visit) const
 {
-    std::vector<std::array<Vec3d, 2>> out;
-    out.reserve(sides_.size());
-    for (const auto& [from, to] : sides_) {
-        out.push_back({point_at(surface, from.x, from.y), point_at(surface, to.x, to.y)});
+    std::uint32_t number = 0;
+    for (const std::uint32_t end : loop_ends_) {
+        for (; number + 1 < end; ++number) {
+            visit(number);
+        }
+        number = end;
+    }
+}
+
+std::vector<std::vector<Vec2d>> TrimRegion::loops() const
+{
+    std::vector<std::vector<Vec2d>> out;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : loop_ends_) {
+        const std::size_t last = end > begin ? end - 1 : begin;
+        out.emplace_back(corners_.begin() + static_cast<std::ptrdiff_t>(begin),
+                         corners_.begin() + static_cast<std::ptrdiff_t>(last));
+        begin = end;
+    }
+    return out;
+}
+
+std::vector<std::vector<Vec3d>> TrimRegion::edges(const Surface& surface) const
+{
+    std::vector<std::vector<Vec3d>> out;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : loop_ends_) {
+        std::vector<Vec3d>& loop = out.emplace_back();
+        loop.reserve(end - begin);
+        for (; begin < end; ++begin) {
+            loop.push_back(point_at(surface, corners_[begin].x, corners_[begin].y));
+        }
     }
     return out;
 }
@@ -187,57 +217,74 @@ std::vector<std::array<Vec3d, 2>> TrimRegion::edges(const Surface& surface) cons
 std::size_t TrimRegion::row(double v) const
 {
     const double share = high_ > low_ ? (v - low_) / (high_ - low_) : 0;
-    const double last = static_cast<double>(rows_.size() - 1);
-    return static_cast<std::size_t>(
-        std::clamp(share * static_cast<double>(rows_.size()), 0.0, last));
+    const double last = static_cast<double>(rows() - 1);
+    return static_cast<std::size_t>(std::clamp(share * static_cast<double>(rows()), 0.0, last));
 }
 
 void TrimRegion::make_rows()
 {
-    if (sides_.empty()) {
+    if (!trimmed()) {
         return;
     }
-    low_ = high_ = sides_.front()[0].y;
-    for (const auto& [a, b] : sides_) {
-        largest_u_ = std::max({largest_u_, std::abs(a.x), std::abs(b.x)});
-        low_ = std::min({low_, a.y, b.y});
-        high_ = std::max({high_, a.y, b.y});
+    low_ = high_ = corners_.front().y;
+    for (const Vec2d& corner : corners_) {
+        largest_u_ = std::max(largest_u_, std::abs(corner.x));
+        low_ = std::min(low_, corner.y);
+        high_ = std::max(high_, corner.y);
     }
-    rows_.resize(std::clamp<std::size_t>(sides_.size() / kSidesInRow, 1, kMostRows));
-    for (std::size_t k = 0; k < sides_.size(); ++k) {
-        const std::size_t last = row(std::max(sides_[k][0].y, sides_[k][1].y));
-        first_rows_.push_back(
-            static_cast<std::uint32_t>(row(std::min(sides_[k][0].y, sides_[k][1].y))));
-        for (std::size_t at = first_rows_.back(); at <= last; ++at) {
-            rows_[at].push_back(static_cast<std::uint32_t>(k));
+    static_assert(kMostRows <= std::numeric_limits<std::uint16_t>::max());
+    const std::size_t sides = corners_.size() - loop_ends_.size();
+    row_begins_.resize(std::clamp<std::size_t>(sides / kSidesInRow, 1, kMostRows) + 1);
+    first_rows_.resize(corners_.size());
+    const auto last_row = [&](std::uint32_t number) {
+        return row(std::max(corners_[number].y, corners_[number + 1].y));
+    };
+    // How many each row has, counted one row further on; then where each row begins.
+    for_each_side([&](std::uint32_t number) {
+        const std::size_t first = row(std::min(corners_[number].y, corners_[number + 1].y));
+        first_rows_[number] = static_cast<std::uint16_t>(first);
+        for (std::size_t at = first; at <= last_row(number); ++at) {
+            ++row_begins_[at + 1];
         }
-    }
-    for (const std::vector<std::uint32_t>& row : rows_) {
-        std::vector<std::array<double, 2>> blocks((row.size() + kBlock - 1) / kBlock,
-                                                  {kInfinite, -kInfinite});
-        for (std::size_t k = 0; k < row.size(); ++k) {
-            auto& [low, high] = blocks[k / kBlock];
-            const auto& [a, b] = sides_[row[k]];
-            low = std::min({low, a.x, b.x});
-            high = std::max({high, a.x, b.x});
+    });
+    std::partial_sum(row_begins_.begin(), row_begins_.end(), row_begins_.begin());
+    row_sides_.resize(row_begins_.back());
+    std::vector<std::uint32_t> next(row_begins_.begin(), row_begins_.end() - 1);
+    for_each_side([&](std::uint32_t number) {
+        for (std::size_t at = first_rows_[number]; at <= last_row(number); ++at) {
+            row_sides_[next[at]++] = number;
         }
-        blocks_.push_back(std::move(blocks));
+    });
+    find_blocks();
+}
+
+void TrimRegion::find_blocks()
+{
+    blocks_.assign((row_sides_.size() + kBlock - 1) / kBlock, {kFar, -kFar});
+    for (std::size_t k = 0; k < row_sides_.size(); ++k) {
+        auto& [low, high] = blocks_[k / kBlock];
+        const auto [a, b] = side(row_sides_[k]);
+        const auto least = static_cast<float>(std::min(a.x, b.x));
+        const auto most = static_cast<float>(std::max(a.x, b.x));
+        low = std::min(low, std::nextafter(least, -kFar));
+        high = std::max(high, std::nextafter(most, kFar));
     }
 }
 
 template <class Visit>
 void TrimRegion::visit_sides(std::size_t row, double low, double high, const Visit& visit) const
 {
-    const std::vector<std::uint32_t>& sides = rows_[row];
-    const std::vector<std::array<double, 2>>& blocks = blocks_[row];
-    for (std::size_t block = 0; block < blocks.size(); ++block) {
-        if (blocks[block][0] > high || blocks[block][1] < low) {
-            continue;
+    const std::size_t end = row_begins_[row + 1];
+    std::size_t k = row_begins_[row];
+    while (k < end) {
+        const auto [block_low, block_high] = blocks_[k / kBlock];
+        const std::size_t block_end = std::min(end, (k / kBlock + 1) * kBlock);
+        if (block_low <= high && block_high >= low) {
+            for (; k < block_end; ++k) {
+                visit(row_sides_[k]);
+            }
         }
-        const std::size_t end = std::min(sides.size(), (block + 1) * kBlock);
-        for (std::size_t k = block * kBlock; k < end; ++k) {
-            visit(sides[k]);
-        }
+        k = block_end;
     }
 }
 
@@ -246,12 +293,12 @@ double TrimRegion::left_of(double u) const { return u - kLengthRounding * larges
 
 bool TrimRegion::inside(double u, double v) const
 {
-    if (sides_.empty()) {
+    if (!trimmed()) {
         return true;
     }
     bool in = false;
-    visit_sides(row(v), left_of(u), kInfinite, [&](std::uint32_t side) {
-        const auto& [a, b] = sides_[side];
+    visit_sides(row(v), left_of(u), kInfinite, [&](std::uint32_t number) {
+        const auto [a, b] = side(number);
         if ((a.y > v) != (b.y > v) && u < a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y)) {
             in = !in;
         }
@@ -269,16 +316,16 @@ TrimRegion::Box TrimRegion::widened(double u_begin, double u_end, double v_begin
 TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, double v_end) const
 {
     const Box box = widened(u_begin, u_end, v_begin, v_end);
-    if (sides_.empty()) {
+    if (!trimmed()) {
         return Part::kInside;
     }
     const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
     for (std::size_t at = first; at <= last; ++at) {
         bool cut = false;
-        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t side) {
-            cut =
-                cut || (is_seen_first(side, at, first) && part_in(sides_[side], box.low, box.high));
+        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t number) {
+            cut = cut ||
+                  (is_seen_first(number, at, first) && part_in(side(number), box.low, box.high));
         });
         if (cut) {
             return Part::kCut;
@@ -292,8 +339,8 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
 std::array<bool, 2> TrimRegion::inside_at(const std::array<double, 2>& u, double v) const
 {
     std::array<bool, 2> in{false, false};
-    visit_sides(row(v), left_of(std::min(u[0], u[1])), kInfinite, [&](std::uint32_t side) {
-        const auto& [a, b] = sides_[side];
+    visit_sides(row(v), left_of(std::min(u[0], u[1])), kInfinite, [&](std::uint32_t number) {
+        const auto [a, b] = side(number);
         if ((a.y > v) != (b.y > v)) {
             const double crossed = a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y);
             in[0] = in[0] != (u[0] < crossed);
@@ -344,22 +391,22 @@ TrimRegion::Part TrimRegion::remnant(
 {
     out.corners.clear();
     out.edge.clear();
-    if (sides_.empty()) {
+    if (!trimmed()) {
         return Part::kInside;
     }
     const Box box = widened(u_begin, u_end, v_begin, v_end);
     const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
     for (std::size_t at = first; at <= last; ++at) {
-        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t index) {
-            if (!is_seen_first(index, at, first)) {
+        visit_sides(at, box.low.x, box.high.x, [&](std::uint32_t number) {
+            if (!is_seen_first(number, at, first)) {
                 return;
             }
-            const std::array<Vec2d, 2>& side = sides_[index];
-            if (const auto part = part_in(side, box.low, box.high)) {
-                const Vec2d way = side[1] - side[0];
-                out.edge.push_back(side[0] + way * (*part)[0]);
-                out.edge.push_back(side[0] + way * (*part)[1]);
+            const std::array<Vec2d, 2> ends = side(number);
+            if (const auto part = part_in(ends, box.low, box.high)) {
+                const Vec2d way = ends[1] - ends[0];
+                out.edge.push_back(ends[0] + way * (*part)[0]);
+                out.edge.push_back(ends[0] + way * (*part)[1]);
             }
         });
     }

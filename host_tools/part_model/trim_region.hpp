@@ -19,7 +19,7 @@ public:
     //             this region holds for the trimmed surface
     TrimRegion(const nurbs::Surface& surface, double edge_error);
 
-    bool trimmed() const { return !sides_.empty(); }
+    bool trimmed() const { return !corners_.empty(); }
     bool inside(double u, double v) const;
 
     enum class Part : std::uint8_t { kInside, kOutside, kCut };
@@ -45,23 +45,26 @@ public:
     // nothing else. None found where no edge cuts it.
     std::optional<Beside> beside(Vec2d low, Vec2d high) const;
 
-    // The edges in space. Not kept: a part has hundreds of thousands of them.
+    // The edges in space, each loop a closed polyline with its first corner at the end. Not kept: a
+    // part has hundreds of thousands of corners.
     //
     // surface  that of the region
-    std::vector<std::array<Vec3d, 2>> edges(const nurbs::Surface& surface) const;
+    std::vector<std::vector<Vec3d>> edges(const nurbs::Surface& surface) const;
 
-    // The edges in (u, v), each loop a closed polyline.
-    const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
+    // The edges in (u, v), each loop a closed polyline without its first corner at the end.
+    std::vector<std::vector<Vec2d>> loops() const;
 
 private:
     struct Box {
         Vec2d low, high;
     };
     static Box widened(double u_begin, double u_end, double v_begin, double v_end);
+    std::size_t rows() const { return row_begins_.size() - 1; }
     std::size_t row(double v) const;
     double left_of(double u) const;
     std::array<bool, 2> inside_at(const std::array<double, 2>& u, double v) const;
     void make_rows();
+    void find_blocks();
     // The sides of a row, in their order, but for some that lie beside [low, high] in u.
     template <class Visit>
     void visit_sides(std::size_t row, double low, double high, const Visit& visit) const;
@@ -71,18 +74,29 @@ private:
     {
         return row == std::max<std::size_t>(first, first_rows_[side]);
     }
+    std::array<Vec2d, 2> side(std::size_t number) const
+    {
+        return {corners_[number], corners_[number + 1]};
+    }
+    // Calls visit(number) for the sides of all loops in order.
+    template <class Visit>
+    void for_each_side(const Visit& visit) const;
 
-    std::vector<std::array<Vec2d, 2>> sides_;
-    // The sides that touch each of the equal rows between the least and the greatest v.
-    std::vector<std::vector<std::uint32_t>> rows_;
-    // Of each kBlock sides of a row: least and greatest u. An edge along u has all its sides in one row.
+    // A part has a million sides: each corner is kept once, and lists are not longer than needed.
+    std::vector<Vec2d> corners_;            // of all loops; each ends with its first corner
+    std::vector<std::uint32_t> loop_ends_;  // past the last corner of each loop
+    // The sides that touch each of the equal rows between the least and the greatest v, row by row;
+    // a side has the number of its first corner.
+    std::vector<std::uint32_t> row_sides_;
+    std::vector<std::uint32_t> row_begins_;  // in row_sides_, and its end
+    // Of each kBlock of row_sides_: least and greatest u, rounded outward. An edge along u has all its
+    // sides in one row.
     static constexpr std::size_t kBlock = 8;
-    std::vector<std::vector<std::array<double, 2>>> blocks_;
-    std::vector<std::uint32_t> first_rows_;  // of each side
+    std::vector<std::array<float, 2>> blocks_;
+    std::vector<std::uint16_t> first_rows_;  // of each side
     double low_{};
     double high_{};
     double largest_u_{};
-    std::vector<std::vector<Vec2d>> loops_;
 };
 
 }  // namespace cusp::part_model

@@ -18,7 +18,8 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kMostSliceNodes = 4e6;
-constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
+constexpr std::size_t kBlock = 16;          // nodes, each way: a power of two
+constexpr std::size_t kBlocksBetween = 16;  // ends of parts of queries
 // Share of a side: contours cross sides no nearer to their ends, so no edge is too short.
 constexpr double kNearestEnd = 0.01;
 // How much too low distances may be: at a block's middle, in reaches of the block, and at a node,
@@ -121,9 +122,16 @@ void WaterlineSlices::fill(Levels& levels) const
             open.push_back({i, j, kBlock});
         }
     }
+    // A level of many faces may take a million cells, 1 kB each.
+    const PartModel::SharedQueries::Part queries{model_};
+    std::size_t between = 0;
     while (!open.empty()) {
         const Block block = open.back();
         open.pop_back();
+        if (block.size == kBlock && between++ == kBlocksBetween) {
+            queries.next();
+            between = 1;
+        }
         if (block.i >= nx_ || block.j >= ny_) {
             continue;
         }

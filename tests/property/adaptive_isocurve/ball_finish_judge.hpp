@@ -11,16 +11,19 @@
 
 namespace cusp::test {
 
-constexpr int kJudgedPlaces = 1500;  // of a part
-constexpr double kFinest = 1e-4;     // mm: of positions
-constexpr double kPositions = 0.1;   // radii: pitch of the first ones
-constexpr double kGougeStep = 0.2;   // mm
+constexpr int kJudgedPlaces = 1500;    // of a part
+constexpr double kFinest = 1e-4;       // mm: of positions
+constexpr double kPositions = 0.1;     // radii: pitch of the first ones
+constexpr double kGougeStep = 0.2;     // mm
+constexpr double kUprightWall = 2e-3;  // z of a normal
+constexpr double kBesideWall = 1e-4;   // mm
 
 // The place where most is left.
 struct Worst {
     double left{};  // mm, over what is claimed
     Vec3d place;
     Vec3d normal;
+    int reached{};  // places beside walls that were judged
 };
 
 // Judges the passes of a ball over triangles: places of the part are looked at one by one, and the
@@ -67,6 +70,42 @@ public:
             const double over = left_over(place, normal, bound) - bound;
             if (over > worst.left) {
                 worst = {over, place, normal};
+            }
+        }
+        return worst;
+    }
+
+    // The place beside a vertical wall, or one that hardly leans, where most is left over the bound,
+    // of places that the side of a ball reaches which rests on something.
+    Worst most_left_beside_walls(Random& random, double bound) const
+    {
+        std::vector<std::size_t> walls;
+        for (std::size_t k = 0; k < mesh_.size(); ++k) {
+            if (std::abs(BallOnTriangles::normal(mesh_[k]).z) < kUprightWall) {
+                walls.push_back(k);
+            }
+        }
+        Worst worst;
+        for (int k = 0; k < kJudgedPlaces && !walls.empty(); ++k) {
+            const std::size_t facet = walls[static_cast<std::size_t>(
+                whole(random, 0, static_cast<int>(walls.size()) - 1))];
+            const Vec3d place = place_on(random, mesh_[facet]);
+            const Vec3d normal = BallOnTriangles::normal(mesh_[facet]);
+            for (const double side : {1.0, -1.0}) {
+                const Vec3d out = normal * side;
+                const Vec3d beside = place + out * kBesideWall;
+                const Vec3d axis = place + out * (radius_ + clear_of_ + kBesideWall);
+                const double lowest = drop(axis.x, axis.y);
+                if (part_.top(beside.x, beside.y) > place.z || !std::isfinite(lowest) ||
+                    lowest > place.z) {
+                    continue;
+                }
+                const double over = moves_.depth(beside) - bound;
+                const int reached = worst.reached + 1;
+                if (over > worst.left) {
+                    worst = {over, place, out};
+                }
+                worst.reached = reached;
             }
         }
         return worst;

@@ -30,17 +30,18 @@ constexpr double kExact = 1e-3;  // mm: chords of arcs, and searches
 struct Way {
     const char* strategy;
     bool as_faces;
+    Walls walls{Walls::kDrafted};
 };
 
 // Its mesh is the polyhedron, for the judge, however it is given.
-Job random_job(Random& random, const char* strategy)
+Job random_job(Random& random, const Way& way)
 {
     Job job = plain_job();
     const double radius = uniform(random, 0.5, 3.0);
     job.tools = {{1, ToolShape::kBall, radius, radius}};
     Operation operation;
-    operation.strategy = strategy;
-    operation.mesh = random_polyhedron(random);
+    operation.strategy = way.strategy;
+    operation.mesh = random_polyhedron(random, way.walls);
     operation.tool = job.tools.front();
     operation.scallop = radius * std::pow(10.0, uniform(random, -1.9, -1.0));
     operation.floor_tolerance = operation.plan_tolerance =
@@ -69,17 +70,21 @@ PlannedOperation planned_by(const Way& way, Job job)
                                                    : plan_adaptive_isocurve(job, operation).front();
 }
 
-bool holds(const Way& way, unsigned seed)
+// reached  the number of places beside walls that were judged is added
+bool holds(const Way& way, unsigned seed, int& reached)
 {
     Random random{seed};
-    const Job job = random_job(random, way.strategy);
+    const Job job = random_job(random, way);
     const Operation& operation = job.operations.front();
     const PlannedOperation planned = planned_by(way, job);
     const CutMoves moves{planned.path, 0.01 * operation.floor_tolerance};
     const BallFinishJudge judge{operation.mesh, moves, operation.tool.radius,
                                 operation.floor_tolerance};
     const double bound = planned.stats.scallop_bound_mm;
-    const Worst worst = judge.most_left(random, bound + kExact);
+    const Worst worst = way.walls == Walls::kUpright
+                            ? judge.most_left_beside_walls(random, bound + kExact)
+                            : judge.most_left(random, bound + kExact);
+    reached += worst.reached;
     const double gouge = judge.deepest();
     const bool good = !(worst.left > 0) && gouge <= planned.stats.gouge_bound_mm + 2 * kFinest;
     if (!good || std::getenv("CUSP_PROPERTY_FIRST") != nullptr) {
@@ -107,11 +112,16 @@ void hold_all(const Way& way, int usual)
     const int begin = first != nullptr ? std::atoi(first) : 1;
     const int cases = property_cases(usual);
     int broken = 0;
+    int reached = 0;
     for (int i = 0; i < cases; ++i) {
-        broken += holds(way, static_cast<unsigned>(begin + i)) ? 0 : 1;
+        broken += holds(way, static_cast<unsigned>(begin + i), reached) ? 0 : 1;
     }
     std::printf("%d of %d polyhedra break a bound\n", broken, cases);
     LONGS_EQUAL(0, broken);
+    if (way.walls == Walls::kUpright) {
+        std::printf("%d places beside walls\n", reached);
+        CHECK(reached > 100 * cases);
+    }
 }
 
 }  // namespace
@@ -122,6 +132,17 @@ TEST_GROUP(MeshBoundProperty){};
 TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({"adaptive_isocurve", false}, 8); }
 
 TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({"adaptive_isocurve", true}, 2); }
+
+// Beside walls on which no place is looked at: what lies below them must get passes close enough.
+TEST(MeshBoundProperty, HoldsBesideUprightWalls)
+{
+    hold_all({"adaptive_isocurve", false, Walls::kUpright}, 4);
+}
+
+TEST(MeshBoundProperty, HoldsBesideUprightFaces)
+{
+    hold_all({"adaptive_isocurve", true, Walls::kUpright}, 2);
+}
 
 TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 2); }
 

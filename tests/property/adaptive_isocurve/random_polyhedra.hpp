@@ -21,7 +21,16 @@ inline double random_draft(Random& random)
     return std::tan(0.1 * kPi / 180 * std::pow(50.0, uniform(random, 0.0, 1.0)));
 }
 
-inline void add_wall(Random& random, Profile& profile, double rise)
+// Exactly vertical, or so that it leans by less than any scallop over the height of a part.
+inline double random_upright_draft(Random& random)
+{
+    return whole(random, 0, 1) == 0 ? 0.0 : std::pow(10.0, uniform(random, -7.0, -3.0));
+}
+
+// How its walls lean.
+enum class Walls { kDrafted, kUpright };
+
+inline void add_wall(Random& random, Profile& profile, double rise, Walls walls)
 {
     const auto chamfer = [&] {
         if (whole(random, 0, 2) == 0) {
@@ -31,12 +40,14 @@ inline void add_wall(Random& random, Profile& profile, double rise)
         }
     };
     chamfer();
-    profile.push_back(profile.back() + Vec2d{std::abs(rise) * random_draft(random), rise});
+    const double draft =
+        walls == Walls::kDrafted ? random_draft(random) : random_upright_draft(random);
+    profile.push_back(profile.back() + Vec2d{std::abs(rise) * draft, rise});
     chamfer();
 }
 
 // Gentle ground and walls in turn, up to `length`.
-inline Profile random_profile(Random& random, double length)
+inline Profile random_profile(Random& random, double length, Walls walls)
 {
     Profile profile{{0, 0}};
     while (profile.back().x < length) {
@@ -44,16 +55,16 @@ inline Profile random_profile(Random& random, double length)
         profile.push_back(profile.back() + Vec2d{run, run * uniform(random, -0.4, 0.4)});
         if (profile.back().x < length) {
             const double sign = profile.back().y > 0 ? -1 : 1;
-            add_wall(random, profile, sign * uniform(random, 0.5, 6.0));
+            add_wall(random, profile, sign * uniform(random, 0.5, 6.0), walls);
         }
     }
     return profile;
 }
 
 // The profile along a bent line: creases cross its walls.
-inline Triangles ribs(Random& random)
+inline Triangles ribs(Random& random, Walls walls)
 {
-    const Profile profile = random_profile(random, uniform(random, 4.0, 9.0));
+    const Profile profile = random_profile(random, uniform(random, 4.0, 9.0), walls);
     std::vector<Vec3d> line{{0, 0, 0}};
     for (int k = whole(random, 1, 3); k > 0; --k) {
         const double way = uniform(random, 2.0, 4.0);
@@ -62,18 +73,24 @@ inline Triangles ribs(Random& random)
     }
     Triangles out;
     for (std::size_t i = 1; i < profile.size(); ++i) {
+        // Ground that begins beside its wall, as where facets of a file are missing.
+        const bool beside =
+            walls == Walls::kUpright && whole(random, 0, 4) == 0 &&
+            profile[i].x - profile[i - 1].x > std::abs(profile[i].y - profile[i - 1].y);
+        const double share = beside ? uniform(random, 0.02, 0.6) : 0.0;
+        const Vec2d first = profile[i - 1] + (profile[i] - profile[i - 1]) * share;
         for (std::size_t j = 1; j < line.size(); ++j) {
-            const auto at = [&](std::size_t a, std::size_t b) {
-                return line[b] + Vec3d{profile[a].x, 0, profile[a].y};
+            const auto at = [&](Vec2d p, std::size_t b) {
+                return line[b] + Vec3d{p.x, 0, p.y};
             };
-            add_quad(out, at(i - 1, j - 1), at(i, j - 1), at(i, j), at(i - 1, j));
+            add_quad(out, at(first, j - 1), at(profile[i], j - 1), at(profile[i], j), at(first, j));
         }
     }
     return out;
 }
 
 // The profile inwards from the sides of a polygon: a boss, a pocket or both, with plane walls.
-inline Triangles polygon_steps(Random& random)
+inline Triangles polygon_steps(Random& random, Walls walls)
 {
     const int corners = whole(random, 3, 9);
     std::vector<Vec2d> ring;
@@ -82,7 +99,7 @@ inline Triangles polygon_steps(Random& random)
         ring.push_back({std::cos(turn), std::sin(turn)});
     }
     const double size = uniform(random, 4.0, 8.0);
-    const Profile profile = random_profile(random, 0.5 * size);
+    const Profile profile = random_profile(random, 0.5 * size, walls);
     Triangles out;
     const auto at = [&](std::size_t level, int corner) {
         const double radius = std::max(0.05, size - profile[level].x);
@@ -159,10 +176,12 @@ inline Triangles turned(const Triangles& triangles, double angle)
     return out;
 }
 
-inline Triangles random_polyhedron(Random& random)
+inline Triangles random_polyhedron(Random& random, Walls walls = Walls::kDrafted)
 {
-    const int kind = whole(random, 0, 2);
-    Triangles out = kind == 0 ? ribs(random) : kind == 1 ? polygon_steps(random) : crags(random);
+    const int kind = whole(random, 0, walls == Walls::kDrafted ? 2 : 1);
+    Triangles out = kind == 0   ? ribs(random, walls)
+                    : kind == 1 ? polygon_steps(random, walls)
+                                : crags(random);
     if (whole(random, 0, 1) == 0) {
         out = with_slivers(random, out);
     }

@@ -43,10 +43,14 @@ std::vector<Vec3d> places_of(const std::vector<Surface>& floor)
                 }
             }
         }
-        for (const auto& [a, b] : region.edges(surface)) {
-            const int n = 1 + static_cast<int>(norm(b - a) / kOnRim);
-            for (int k = 0; k <= n; ++k) {
-                places.push_back(a + (b - a) * (static_cast<double>(k) / n));
+        for (const std::vector<Vec3d>& loop : region.edges(surface)) {
+            for (std::size_t side = 0; side + 1 < loop.size(); ++side) {
+                const Vec3d a = loop[side];
+                const Vec3d b = loop[side + 1];
+                const int n = 1 + static_cast<int>(norm(b - a) / kOnRim);
+                for (int k = 0; k <= n; ++k) {
+                    places.push_back(a + (b - a) * (static_cast<double>(k) / n));
+                }
             }
         }
     }
