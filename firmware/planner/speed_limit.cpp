@@ -59,6 +59,26 @@ void straighten(BentLine& bent) noexcept
     bent.at_rest = std::min(bent.at_rest, 2.0F * bent.at_half - bent.at_cap);
 }
 
+// Under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From y = 1/2 on
+// it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to there
+// not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
+// at 1 and at 1/2.
+BentLine jerk_bound(float j, float k, float p, float q) noexcept
+{
+    constexpr float kRootOfHalf = 0.70710678F;
+    const float whole = p + q;
+    const float at_cap = (j - k) / whole;
+    const float fall = (k * (2.0F - kRootOfHalf) * whole + (j - k) * 0.5F * q) / (whole * whole);
+    const float part = p + kRootOfHalf * q;
+    const float rest = j - 0.5F * kRootOfHalf * k;
+    BentLine bent;
+    bent.at_cap = at_cap;
+    bent.at_half = at_cap + 0.5F * fall;
+    bent.at_rest = rest / part + 0.5F * kRootOfHalf * (k * part + rest * q) / (part * part);
+    straighten(bent);
+    return bent;
+}
+
 // The acceleration u with which a bound r - d (v + h u)^2 is u itself.
 float behind(float r, float d, float v, float h) noexcept
 {
@@ -221,25 +241,7 @@ Allowance allowance(const PathDerivatives& derivatives,
         Line& by_acceleration = least.by_acceleration;
         by_acceleration.at_rest = std::min(by_acceleration.at_rest, a / along);
         by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - inward) / along);
-        // With y = v^2/cap the bound is (j - k y^1.5)/(p + q y^0.5). From y = 1/2 on it is not
-        // below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to there
-        // not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their
-        // tangents at 1 and 1/2.
-        constexpr float kRootOfHalf = 0.70710678F;
-        const float k = p3 * speed * cap;
-        const float p = along / filter_s;
-        const float q = 3.0F * p2 * speed;
-        const float whole = p + q;
-        const float at_cap = (j - k) / whole;
-        const float fall =
-            (k * (2.0F - kRootOfHalf) * whole + (j - k) * 0.5F * q) / (whole * whole);
-        const float part = p + kRootOfHalf * q;
-        const float rest = j - 0.5F * kRootOfHalf * k;
-        BentLine bent;
-        bent.at_cap = at_cap;
-        bent.at_half = at_cap + 0.5F * fall;
-        bent.at_rest = rest / part + 0.5F * kRootOfHalf * (k * part + rest * q) / (part * part);
-        straighten(bent);
+        const BentLine bent = jerk_bound(j, p3 * speed * cap, along / filter_s, 3.0F * p2 * speed);
         BentLine& by_jerk = least.by_jerk;
         by_jerk.at_rest = std::min(by_jerk.at_rest, bent.at_rest);
         by_jerk.at_half = std::min(by_jerk.at_half, bent.at_half);
