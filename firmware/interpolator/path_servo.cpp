@@ -138,7 +138,7 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
 [[gnu::always_inline]] inline PathServo::Bounds PathServo::bounds(
     const Ahead& ahead, float greatest, const OverrideFactors& factors) const noexcept
 {
-    Bounds least{greatest, greatest, kUnlimited};
+    Bounds least{greatest, greatest, ahead.begin};
     const Interval* interval = ahead.first;
     std::uint32_t index = ahead.begin;
     float to_end = millimetres(interval->length - offset_);
@@ -151,8 +151,7 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
             (1.0F - factors.of(interval->origin_is_rapid)) * envelope.feed_origin;
         least.feed = lower_root(factors.of(interval->rapid) * envelope.limit.feed, least.feed);
         least.feed = speed_under(envelope.feed_end - scaled_off, slope, to_end, least.feed);
-        least.acceleration = std::min(
-            least.acceleration, envelope.limit.acceleration_behind(speed_, queue_.half_filter()));
+        least.last = index;
         ++index;
         const bool last = interval->stop_at_end || index == ahead.published;
         if (last || 0.5F * least.speed * kServoTick <= to_end) {
@@ -167,6 +166,18 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
     }
 }
 
+// The least that these intervals allow, mm/s^2.
+[[gnu::noinline]] float PathServo::acceleration(std::uint32_t first,
+                                                std::uint32_t last) const noexcept
+{
+    float least = kUnlimited;
+    for (std::uint32_t i = first; i != last + 1; ++i) {
+        const planner::SpeedLimit& limit = queue_.interval(i).envelope.limit;
+        least = std::min(least, limit.acceleration_at(speed_, queue_.half_filter()));
+    }
+    return least;
+}
+
 [[gnu::always_inline]] inline float PathServo::next_speed(const Ahead& ahead,
                                                           const Conditions& conditions) noexcept
 {
@@ -176,9 +187,13 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
     // acceleration, a difference over one filter, changes by at most one limit.
     const std::int32_t change = passed_stop_ ? 0 : conditions.oldest_step - oldest_step_;
     const float before = static_cast<float>(change) / (kPathUnitsPerTick * kServoTick);
-    const float reach = present + ahead.first->envelope.limit.u0 * kServoTick;
+    const float reach = present + ahead.first->envelope.limit.at_rest * kServoTick;
     const Bounds bound = bounds(ahead, reach, factors);
-    const float most = bound.acceleration;
+    // Neither a higher speed is allowed nor a lower one wanted than the envelope asks for.
+    if (bound.feed >= present && std::min(bound.speed, bound.feed) <= present) {
+        return std::min(bound.speed, present);
+    }
+    const float most = acceleration(ahead.begin, bound.last);
     const float up = std::max(0.0F, most - std::max(0.0F, -before));
     const float down = conditions.may_brake ? std::max(0.0F, most - std::max(0.0F, before)) : 0.0F;
     const float slowest = std::max(0.0F, present - down * kServoTick);

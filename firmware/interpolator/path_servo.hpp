@@ -45,7 +45,7 @@ private:
     struct Bounds {
         float speed;         // mm/s, by the envelope
         float feed;          // mm/s, by feed and override
-        float acceleration;  // mm/s^2
+        std::uint32_t last;  // interval that counts, as counted by the queue
     };
     // The published path of one tick.
     struct Ahead {
@@ -57,6 +57,7 @@ private:
     Bounds bounds(const Ahead& ahead,
                   float greatest,
                   const OverrideFactors& factors) const noexcept;
+    float acceleration(std::uint32_t first, std::uint32_t last) const noexcept;
     float next_speed(const Ahead& ahead, const Conditions& conditions) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
     float kept_speed(float time, const OverrideFactors& factors) const noexcept;

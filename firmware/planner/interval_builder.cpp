@@ -270,7 +270,7 @@ void IntervalBuilder::publish_to(std::uint32_t end) noexcept
 {
     for (std::uint32_t i = queue_.published(); i != end; ++i) {
         Interval& interval = queue_.interval(i);
-        interval.envelope = {speed_limit(interval.allowance), 0, 0, 0, 0};
+        interval.envelope = {speed_limit(interval.allowance, queue_.half_filter()), 0, 0, 0, 0};
         pending_time_ -= interval.least_time;
         queue_.add_published_length(interval.length);
     }

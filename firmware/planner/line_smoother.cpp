@@ -122,6 +122,7 @@ void LineSmoother::add(const path::Move& move) noexcept
         at_ = move.start;
         origin_ = move.start;
         has_start_ = false;
+        lines_before_ = 1;
         (void)vertices_.try_push_back({{}, move.line});
     }
     const Position from = move.end - origin_;
@@ -330,6 +331,32 @@ bool LineSmoother::fit(std::size_t last, Fit& fit) const noexcept
            within_tolerance(fit, last);
 }
 
+// How many lines the longest piece that fits takes, 0 where none does. Neighbours are about as
+// long: away from the length of the one before by doubling the step, then by halving it.
+std::size_t LineSmoother::longest_fit(std::size_t most, Fit& best) const noexcept
+{
+    std::size_t good = 0;
+    std::size_t bad = most + 1;
+    std::size_t step = 1;
+    for (std::size_t tried = std::min<std::size_t>(lines_before_, most); bad - good > 1;) {
+        Fit fitted;
+        if (fit(tried, fitted)) {
+            good = tried;
+            best = fitted;
+        } else {
+            bad = tried;
+        }
+        const bool found_both = good > 0 && bad <= most;
+        if (found_both) {
+            tried = good + (bad - good) / 2;
+        } else {
+            tried = good > 0 ? std::min(good + step, most) : bad - std::min(step, bad - 1);
+            step *= 2;
+        }
+    }
+    return good;
+}
+
 bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
     const bool ending = patience == Patience::kNone;
@@ -350,28 +377,15 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
         has_start_ = true;
     }
     const std::size_t most = std::min(lines - beyond, kMostLines);
-    // The longest that fits, by doubling and then halving the step.
-    std::size_t good = 0;
     Fit best{};
-    Fit tried{};
-    std::size_t step = 1;
-    while (good + step <= most && fit(good + step, tried)) {
-        good += step;
-        best = tried;
-        step *= 2;
-    }
-    for (step /= 2; step > 0; step /= 2) {
-        if (good + step <= most && fit(good + step, tried)) {
-            good += step;
-            best = tried;
-        }
-    }
+    const std::size_t good = longest_fit(most, best);
     // The number of the first line: a reported line is never ahead of the tool.
     model_.line = vertices_[1].line;
     piece = model_;
     piece.departure = kShareOfTolerance * model_.tolerance;
     piece.start = at_;
     const std::size_t passed = std::max<std::size_t>(good, 1);
+    lines_before_ = static_cast<std::uint8_t>(passed);
     const Vec3<std::int32_t> vertex = vertices_[passed].at;
     piece.end = origin_ + Position{vertex.x, vertex.y, vertex.z};
     piece.path = path::Line{};

@@ -79,6 +79,7 @@ private:
     Knot knot_at(std::size_t index) const noexcept;
     float fit_knot(std::size_t index, std::size_t from, std::size_t to, Knot& knot) const noexcept;
     bool fit(std::size_t last, Fit& fit) const noexcept;
+    std::size_t longest_fit(std::size_t most, Fit& best) const noexcept;
     bool within_tolerance(const Fit& fit, std::size_t last) const noexcept;
     void drop(std::size_t count) noexcept;
 
@@ -87,7 +88,8 @@ private:
     path::Move model_{};  // feed, tolerance and kind of the run
     Knot start_{};        // at the first vertex, where a piece ended there
     bool has_start_{false};
-    Position at_{};  // where the next piece starts
+    std::uint8_t lines_before_{1};  // that the piece before replaced
+    Position at_{};                 // where the next piece starts
 };
 
 }  // namespace cusp::planner

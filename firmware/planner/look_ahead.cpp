@@ -11,10 +11,13 @@ namespace {
 // Braking acceleration over an interval that ends at the squared speed `end`.
 float braking(const SpeedLimit& limit, float end, float length, float half_filter) noexcept
 {
-    // Implicit step: the acceleration at the highest speed of the interval, which is the least.
-    const float drop = (limit.u0 - limit.u1) / limit.cap;
-    const float start = (end + 2.0F * length * limit.u0) / (1.0F + 2.0F * length * drop);
-    return limit.acceleration_behind(std::sqrt(std::min(start, limit.cap)), half_filter);
+    if (limit.at_rest == limit.least) {
+        return limit.least;
+    }
+    // The acceleration at no less than the highest speed of the interval, which is the least.
+    const float most = limit.acceleration_at(std::sqrt(end), half_filter);
+    const float fastest = std::min(end + 2.0F * length * most, limit.cap);
+    return limit.acceleration_at(std::sqrt(fastest), half_filter);
 }
 
 // The limits at an interval's end set by the path after it.

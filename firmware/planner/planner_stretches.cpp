@@ -11,21 +11,28 @@ namespace {
 constexpr float kShortestStretch = kServoTick;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
+// Part of an axis' jerk that bends may take.
+float jerk_share(const path::Move& move) noexcept
+{
+    const auto* quintic = std::get_if<path::Quintic>(&move.path);
+    if (quintic == nullptr) {
+        return kCurvatureJerkShare;
+    }
+    return quintic->is_transition ? kTransitionJerkShare : kSmoothedJerkShare;
+}
+
 }  // namespace
 
 Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
-    const auto* quintic = std::get_if<path::Quintic>(&move_.path);
-    const bool is_transition = quintic != nullptr && quintic->is_transition;
     MachineLimits limits = limits_;
     if (block.shape == BlockShape::kCurve) {
         leave_to_rounding(limits, block.filter);
     }
-    Allowance of_part =
-        allowance(part.derivatives, limits, filter_s, choice_.centripetal, kGreatestSpeed,
-                  is_transition ? kTransitionJerkShare : kCurvatureJerkShare);
+    Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
+                                  kGreatestSpeed, jerk_share(move_));
     of_part.feed = feed * feed;
     return of_part;
 }

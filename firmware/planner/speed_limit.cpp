@@ -39,10 +39,65 @@ float least_root(Vec3f cubes, float least_cube) noexcept
     return least;
 }
 
+Line line(const ShareLine& shares) noexcept { return {shares.at_rest, shares.at_cap}; }
+
 // At part of the squared speed's cap.
 float value(const Line& line, float part) noexcept
 {
     return line.at_rest - (line.at_rest - line.at_cap) * part;
+}
+
+float value(const BentLine& bent, float part) noexcept
+{
+    return part < 0.5F ? bent.at_rest - 2.0F * (bent.at_rest - bent.at_half) * part
+                       : bent.at_cap + 2.0F * (bent.at_half - bent.at_cap) * (1.0F - part);
+}
+
+// The second line falls no less steeply than the first: a chord of the two is not above them.
+void straighten(BentLine& bent) noexcept
+{
+    bent.at_rest = std::min(bent.at_rest, 2.0F * bent.at_half - bent.at_cap);
+}
+
+// Under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From y = 1/2 on
+// it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to there
+// not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
+// at 1 and at 1/2.
+BentLine jerk_bound(float j, float k, float p, float q) noexcept
+{
+    constexpr float kRootOfHalf = 0.70710678F;
+    const float whole = p + q;
+    const float at_cap = (j - k) / whole;
+    const float fall = (k * (2.0F - kRootOfHalf) * whole + (j - k) * 0.5F * q) / (whole * whole);
+    const float part = p + kRootOfHalf * q;
+    const float rest = j - 0.5F * kRootOfHalf * k;
+    BentLine bent;
+    bent.at_cap = at_cap;
+    bent.at_half = at_cap + 0.5F * fall;
+    bent.at_rest = rest / part + 0.5F * kRootOfHalf * (k * part + rest * q) / (part * part);
+    straighten(bent);
+    return bent;
+}
+
+// The acceleration u with which a bound r - d (v + h u)^2 is u itself.
+float behind(float r, float d, float v, float h) noexcept
+{
+    const float left = r - d * v * v;
+    const float b = 1.0F + 2.0F * d * v * h;
+    return 2.0F * left / (b + std::sqrt(b * b + 4.0F * d * h * h * left));
+}
+
+// Under both lines: the first holds where the tool is at no more than half the cap.
+float behind(const BentLine& bent, float cap, float v, float h) noexcept
+{
+    const float twice = 2.0F / cap;
+    const float u = behind(bent.at_rest, twice * (bent.at_rest - bent.at_half), v, h);
+    const float tool = v + h * u;
+    if (twice * tool * tool <= 1.0F) {
+        return u;
+    }
+    const float fall = bent.at_half - bent.at_cap;
+    return behind(bent.at_half + fall, twice * fall, v, h);
 }
 
 }  // namespace
@@ -69,8 +124,15 @@ Allowance stricter(const Allowance& a, const Allowance& b) noexcept
                     std::min(value(of_a, part_of_a), value(of_b, part_of_b))};
     };
     both.by_acceleration = least(a.by_acceleration, b.by_acceleration);
-    both.by_jerk = least(a.by_jerk, b.by_jerk);
-    both.jerk_left = least(a.jerk_left, b.jerk_left);
+    both.by_jerk = {
+        std::min(a.by_jerk.at_rest, b.by_jerk.at_rest),
+        std::min(value(a.by_jerk, 0.5F * part_of_a), value(b.by_jerk, 0.5F * part_of_b)),
+        std::min(value(a.by_jerk, part_of_a), value(b.by_jerk, part_of_b))};
+    both.jerk_left = {1, 1};
+    if (!a.jerk_left.at_cap.is_whole() || !b.jerk_left.at_cap.is_whole()) {
+        const Line left = least(line(a.jerk_left), line(b.jerk_left));
+        both.jerk_left = {left.at_rest, left.at_cap};
+    }
     both.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
     return both;
 }
@@ -84,8 +146,12 @@ bool binds(const Allowance& a, const Allowance& b) noexcept
     const auto lower = [part_of_a](const Line& of_a, const Line& of_b) {
         return of_a.at_rest < of_b.at_rest || value(of_a, part_of_a) < of_b.at_cap;
     };
-    return lower(a.by_acceleration, b.by_acceleration) || lower(a.by_jerk, b.by_jerk) ||
-           lower(a.jerk_left, b.jerk_left);
+    const bool leaves_less =
+        !a.jerk_left.at_cap.is_whole() && lower(line(a.jerk_left), line(b.jerk_left));
+    return leaves_less || lower(a.by_acceleration, b.by_acceleration) ||
+           a.by_jerk.at_rest < b.by_jerk.at_rest ||
+           value(a.by_jerk, 0.5F * part_of_a) < b.by_jerk.at_half ||
+           value(a.by_jerk, part_of_a) < b.by_jerk.at_cap;
 }
 
 bool are_alike(const Allowance& a, const Allowance& b) noexcept
@@ -94,24 +160,40 @@ bool are_alike(const Allowance& a, const Allowance& b) noexcept
     const auto differ = [](float x, float y, float scale) {
         return std::fabs(x - y) > kDifference * scale;
     };
-    const auto lines_differ = [&differ](const Line& x, const Line& y) {
+    const auto lines_differ = [&differ](const auto& x, const auto& y) {
         return differ(x.at_rest, y.at_rest, x.at_rest) || differ(x.at_cap, y.at_cap, x.at_rest);
     };
     return !differ(a.cap, b.cap, a.cap) && !lines_differ(a.by_acceleration, b.by_acceleration) &&
            !lines_differ(a.by_jerk, b.by_jerk);
 }
 
-SpeedLimit speed_limit(const Allowance& allowance) noexcept
+SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept
 {
-    // The product of two falling lines is convex: above its tangent at the cap.
-    const Line& jerk = allowance.by_jerk;
-    const Line& left = allowance.jerk_left;
-    const float at_cap = jerk.at_cap * left.at_cap;
-    const float at_rest = jerk.at_rest * left.at_cap + jerk.at_cap * (left.at_rest - left.at_cap);
-    const Line& acceleration = allowance.by_acceleration;
+    // The product of two falling lines is convex: above its tangents, at the cap and at half of it.
+    const BentLine& jerk = allowance.by_jerk;
+    const Line left = line(allowance.jerk_left);
+    const float half_left = 0.5F * (left.at_rest + left.at_cap);
     const float share = allowance.acceleration_left;
-    return {allowance.cap, std::min(share * acceleration.at_rest, at_rest),
-            std::min(share * acceleration.at_cap, at_cap), allowance.feed};
+    const Line acceleration{share * allowance.by_acceleration.at_rest,
+                            share * allowance.by_acceleration.at_cap};
+    BentLine bent{
+        jerk.at_rest * half_left + jerk.at_half * (left.at_rest - half_left),
+        jerk.at_half * left.at_cap + jerk.at_cap * (half_left - left.at_cap),
+        jerk.at_cap * left.at_cap,
+    };
+    bent.at_rest = std::min(bent.at_rest, acceleration.at_rest);
+    bent.at_half = std::min(bent.at_half, value(acceleration, 0.5F));
+    bent.at_cap = std::min(bent.at_cap, acceleration.at_cap);
+    straighten(bent);
+    const float least = bent.at_cap;
+    SpeedLimit limit{allowance.cap, least, least, allowance.feed, 1.0F, 1.0F};
+    const float least_from = std::sqrt(allowance.cap) - half_filter * least;
+    if (bent.at_rest > least && least_from > 0) {
+        limit.at_rest = behind(bent, allowance.cap, 0.0F, half_filter);
+        limit.half = behind(bent, allowance.cap, 0.5F * least_from, half_filter) / limit.at_rest;
+        limit.most = behind(bent, allowance.cap, 0.75F * least_from, half_filter) / limit.at_rest;
+    }
+    return limit;
 }
 
 float greatest_speed(const Allowance& allowance, bool rapid) noexcept
@@ -155,21 +237,15 @@ Allowance allowance(const PathDerivatives& derivatives,
     least.cap = cap;
     const auto limit_axis = [&](float p1, float p2, float p3, float a, float j) {
         const float along = std::max(p1, kTiny);
-        const float bent = p2 * cap;
+        const float inward = p2 * cap;
         Line& by_acceleration = least.by_acceleration;
         by_acceleration.at_rest = std::min(by_acceleration.at_rest, a / along);
-        by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - bent) / along);
-        // With y = v^2/cap the bound is (j - k y^1.5)/(p + q y^0.5), not below
-        // (j - k y)/(p + q (1 + y)/2), which is convex: not below its tangent at the cap.
-        const float k = p3 * speed * cap;
-        const float half = 1.5F * p2 * speed;
-        const float rest = along / filter_s + half;
-        const float whole = rest + half;
-        const float at_cap = (j - k) / whole;
-        Line& by_jerk = least.by_jerk;
-        by_jerk.at_cap = std::min(by_jerk.at_cap, at_cap);
-        by_jerk.at_rest =
-            std::min(by_jerk.at_rest, at_cap + (k * rest + j * half) / (whole * whole));
+        by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - inward) / along);
+        const BentLine bent = jerk_bound(j, p3 * speed * cap, along / filter_s, 3.0F * p2 * speed);
+        BentLine& by_jerk = least.by_jerk;
+        by_jerk.at_rest = std::min(by_jerk.at_rest, bent.at_rest);
+        by_jerk.at_half = std::min(by_jerk.at_half, bent.at_half);
+        by_jerk.at_cap = std::min(by_jerk.at_cap, bent.at_cap);
     };
     limit_axis(first.x, second.x, third.x, acceleration.x, jerk.x);
     limit_axis(first.y, second.y, third.y, acceleration.y, jerk.y);

@@ -1,6 +1,9 @@
 // Limits set by the geometry of a stretch of path: its speed, and the acceleration along it.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/vec.hpp"
 
@@ -17,29 +20,53 @@ struct PathDerivatives {
 Vec3f larger(Vec3f a, Vec3f b) noexcept;
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
 
-// Speed and acceleration along the path that keep every axis inside its limits. Speeds are squared,
-// in (mm/s)^2. The acceleration may be u0 at rest and u1 at the cap, and linear in the squared
-// speed in between.
-struct SpeedLimit {
-    float cap;   // of the squared speed
-    float u0;    // mm/s^2
-    float u1;    // mm/s^2
-    float feed;  // squared programmed feed
-
-    float acceleration_at(float squared_speed) const noexcept
+// A share of a limit in [0, 1], kept in 16 bits: 1 is exact, others are rounded down.
+class Share {
+public:
+    Share() noexcept = default;
+    constexpr Share(float share) noexcept
+        : taken_{static_cast<std::uint16_t>(
+              share >= 1.0F ? 0.0F : (share > 0 ? (1.0F - share) * kOne + 0.999F : kOne - 1.0F))}
     {
-        return squared_speed >= cap ? u1 : u0 - (u0 - u1) * (squared_speed / cap);
     }
+    constexpr bool is_whole() const noexcept { return taken_ == 0; }
+    constexpr operator float() const noexcept { return 1.0F - static_cast<float>(taken_) / kOne; }
 
-    // The acceleration allowed at a speed, mm/s, though the tool, behind half a path filter (s), is
-    // faster by what that gains or loses.
-    float acceleration_behind(float speed, float half_filter) const noexcept
+private:
+    static constexpr float kOne = 65536.0F;
+    std::uint16_t taken_;
+};
+
+// Speed and acceleration along the path that keep every axis inside its limits, though the tool,
+// behind half a path filter, may be faster by what that gains or loses. Speeds are squared, in
+// (mm/s)^2. The acceleration is `least` from where the tool may be at the cap. Up to there it falls
+// along three chords, which end at a half, at three quarters and at all of that speed.
+struct SpeedLimit {
+    float cap;      // of the squared speed
+    float at_rest;  // mm/s^2
+    float least;    // mm/s^2
+    float feed;     // squared programmed feed
+    Share half;     // of at_rest, at a half
+    Share most;     // and at three quarters
+
+    // mm/s^2, at a speed, mm/s, with half the length of the path filter, s, that it was made for.
+    float acceleration_at(float speed, float half_filter) const noexcept
     {
-        if (u0 == u1) {
-            return u0;
+        if (at_rest == least) {
+            return least;
         }
-        const float faster = speed + half_filter * acceleration_at(speed * speed);
-        return acceleration_at(faster * faster);
+        const float least_from = std::sqrt(cap) - half_filter * least;
+        if (speed >= least_from) {
+            return least;
+        }
+        const float quarters = 4.0F * speed / least_from;
+        if (quarters < 2.0F) {
+            return at_rest - (at_rest - at_rest * half) * (0.5F * quarters);
+        }
+        const float at_most = at_rest * most;
+        const float at_half = at_rest * half;
+        return quarters < 3.0F ? at_half - (at_half - at_most) * (quarters - 2.0F)
+                               : at_most - (at_most - least) * (quarters - 3.0F);
     }
 };
 
@@ -49,20 +76,34 @@ struct Line {
     float at_cap;
 };
 
+// Shares that fall likewise.
+struct ShareLine {
+    Share at_rest;
+    Share at_cap;
+};
+
+// A bound of two lines over the squared speed, the second of which falls no less steeply.
+struct BentLine {
+    float at_rest;
+    float at_half;  // of the cap
+    float at_cap;
+};
+
 // The parts of a speed limit, kept apart until everything that reaches a place is known: the least
 // of each part over the places, but not their products, are bounds.
 struct Allowance {
     float cap;                // of the squared speed
     float feed;               // squared programmed feed
     Line by_acceleration;     // mm/s^2 along the path, by the axes' acceleration
-    Line by_jerk;             // mm/s^2 along the path, by the axes' jerk
-    Line jerk_left;           // share of the jerk that junctions leave
+    BentLine by_jerk;         // mm/s^2 along the path, by the axes' jerk
+    ShareLine jerk_left;      // share of the jerk that junctions leave
     float acceleration_left;  // share of the acceleration that junctions leave
 };
 
 inline constexpr float kUnlimited = 1e30F;
 inline constexpr Line kNoLine{kUnlimited, kUnlimited};
-inline constexpr Allowance kAllowsAll{kUnlimited, kUnlimited, kNoLine, kNoLine, {1, 1}, 1};
+inline constexpr BentLine kNoBentLine{kUnlimited, kUnlimited, kUnlimited};
+inline constexpr Allowance kAllowsAll{kUnlimited, kUnlimited, kNoLine, kNoBentLine, {1, 1}, 1};
 
 // Holds wherever both a and b hold.
 Allowance stricter(const Allowance& a, const Allowance& b) noexcept;
@@ -73,8 +114,8 @@ bool binds(const Allowance& a, const Allowance& b) noexcept;
 // Whether one interval may stand for both: they differ by at most 3 %.
 bool are_alike(const Allowance& a, const Allowance& b) noexcept;
 
-// All parts together.
-SpeedLimit speed_limit(const Allowance& allowance) noexcept;
+// All parts together. half_filter: half the length of the path filter, s.
+SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept;
 
 // The feed override goes up to 200 %: squared, four times.
 inline constexpr float kGreatestFeedFactor = 4.0F;
@@ -87,6 +128,8 @@ float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
 inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
 inline constexpr float kCurvatureJerkShare = 0.5F;
+// Of a piece that replaces short lines: its bends are long, and more is passed at the cap.
+inline constexpr float kSmoothedJerkShare = 0.75F;
 // Of a transition, towards which nothing brakes.
 inline constexpr float kTransitionJerkShare = 0.9F;
 
