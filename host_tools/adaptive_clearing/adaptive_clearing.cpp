@@ -39,11 +39,11 @@ double effort(const AdaptivePath& path, double radius)
 // walls.
 AdaptivePath shorter_path(const Region2d& region, const AdaptiveSettings& settings)
 {
-    PlannedRegion steered = plan_region(region, settings, Widening::kSteered);
+    PlannedRegion steered = plan_region(region, settings, false);
     if (!steered.is_round) {
         return std::move(steered.path);
     }
-    AdaptivePath spiral = plan_region(region, settings, Widening::kSpiral).path;
+    AdaptivePath spiral = plan_region(region, settings, true).path;
     const double radius = settings.tool_radius;
     return effort(spiral, radius) < effort(steered.path, radius) ? spiral : steered.path;
 }

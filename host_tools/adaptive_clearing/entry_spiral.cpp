@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cusp::adaptive_clearing {
 
@@ -22,7 +23,7 @@ constexpr int kWidthBisections = 10;
 // of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
 
-constexpr double kWide = 0.3;  // radii: the gap is thick there
+constexpr double kThickGap = 0.3;  // radii from the centre: the gap is thick there
 constexpr double kWideShare = 0.995;
 constexpr double kSteps[] = {1.6, 1.2, 1.1, 1.03, 1.01, 1.0, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4};
 
@@ -57,6 +58,124 @@ bool is_clear(const Edge& edge, const SweptArea& swept)
     return true;
 }
 
+class SpiralPath {
+public:
+    // widest  mm: the radius that it may reach
+    SpiralPath(SweptArea& swept, Vec2d centre, double widest, const EntrySpiralLimits& limits)
+        : swept_{swept},
+          centre_{centre},
+          widest_{widest},
+          limits_{limits},
+          most_{kShare * limits.max_engagement}
+    {
+    }
+
+    void turn_first()
+    {
+        const double first =
+            std::min(first_turn(swept_.radius(), most_, limits_.tolerance), widest_);
+        for (std::size_t i = 0; i < kFirstTurnEdges; ++i) {
+            add(first);
+        }
+        whole_ = at_;
+    }
+
+    // Half turns as wide as the limit allows.
+    void widen()
+    {
+        double step = 0.0;
+        while (at_ < widest_) {
+            const double limit = kWideShare * limits_.max_engagement;
+            double to = at_ > kThickGap * swept_.radius() ? farthest_near(step, limit) : at_;
+            double bound = limit;
+            if (to <= at_) {
+                to = farthest();
+                if (to < kLeastGrowth * at_) {
+                    return;
+                }
+                bound = bound_to(to);
+            }
+            found_.engagement_bound = std::max(found_.engagement_bound, bound);
+            whole_ = at_;
+            step = to - at_;
+            add(to);
+        }
+    }
+
+    // Half a turn at the last radius, and one more where the spiral grew so fast that the first half
+    // of its last turn is inside of that.
+    EntrySpiral close()
+    {
+        for (int i = 0; i < 2 && whole_ < at_ && bound_to(at_) <= limits_.max_engagement; ++i) {
+            found_.engagement_bound = std::max(found_.engagement_bound, bound_to(at_));
+            add(at_);
+            whole_ = i > 0 || is_clear(half_turn(centre_, at_, at_, side_), swept_) ? at_ : whole_;
+        }
+        swept_.add_disc(centre_, swept_.radius() + std::max(whole_ - limits_.tolerance, 0.0));
+        found_.radius = whole_;
+        return std::move(found_);
+    }
+
+private:
+    void add(double to)
+    {
+        found_.path.push_back(half_turn(centre_, at_, to, side_));
+        swept_.add(found_.path.back(), limits_.tolerance);
+        side_ = -side_;
+        at_ = to;
+    }
+
+    double bound_to(double to) const
+    {
+        return swept_.engagement_bound(half_turn(centre_, at_, to, side_), most_,
+                                       limits_.tolerance);
+    }
+
+    // The farthest that half a turn may end from the centre.
+    double farthest() const
+    {
+        const double to = farthest_within(most_);
+        return to < kLeastGrowth * at_ ? farthest_within(limits_.max_engagement) : to;
+    }
+
+    double farthest_within(double limit) const
+    {
+        double over = std::min(widest_, kMostGrowth * at_);
+        if (bound_to(over) <= limit) {
+            return over;
+        }
+        double good = at_;
+        for (int i = 0; i < kWidthBisections; ++i) {
+            const double middle = 0.5 * (good + over);
+            (bound_to(middle) <= limit ? good : over) = middle;
+        }
+        return good;
+    }
+
+    // Far out half turns grow by nearly the step of the one before: one that is kept is beside it.
+    double farthest_near(double step, double limit) const
+    {
+        for (const double share : kSteps) {
+            const double to = std::min(widest_, at_ + share * step);
+            if (to > at_ &&
+                swept_.keeps(half_turn(centre_, at_, to, side_), limit, limits_.tolerance)) {
+                return to;
+            }
+        }
+        return at_;
+    }
+
+    SweptArea& swept_;
+    Vec2d centre_;
+    double widest_;
+    EntrySpiralLimits limits_;
+    double most_;  // radians: where the gap beside the tool is thin
+    EntrySpiral found_;
+    double side_{-1.0};
+    double at_{0.0};     // mm from the centre
+    double whole_{0.0};  // mm: radius of the largest whole turn
+};
+
 }  // namespace
 
 EntrySpiral entry_spiral(SweptArea& swept,
@@ -65,85 +184,10 @@ EntrySpiral entry_spiral(SweptArea& swept,
                          const EntrySpiralLimits& limits)
 {
     swept.add_disc(centre, swept.radius());
-    EntrySpiral spiral;
-    double side = -1.0;
-    double at = 0.0;
-    const auto add = [&](double to) {
-        spiral.path.push_back(half_turn(centre, at, to, side));
-        swept.add(spiral.path.back(), limits.tolerance);
-        side = -side;
-        at = to;
-    };
-    const double most = kShare * limits.max_engagement;
-    const double first = std::min(first_turn(swept.radius(), most, limits.tolerance), radius);
-    for (std::size_t i = 0; i < kFirstTurnEdges; ++i) {
-        add(first);
-    }
-    const auto bound = [&](double to) {
-        return swept.engagement_bound(half_turn(centre, at, to, side), most, limits.tolerance);
-    };
-    // The farthest that half a turn may end from the centre.
-    const auto widest = [&](double limit) {
-        double over = std::min(radius, kMostGrowth * at);
-        if (bound(over) <= limit) {
-            return over;
-        }
-        double good = at;
-        for (int i = 0; i < kWidthBisections; ++i) {
-            const double middle = 0.5 * (good + over);
-            (bound(middle) <= limit ? good : over) = middle;
-        }
-        return good;
-    };
-    // Farther out half turns grow by nearly the same step: one that is kept is found beside it.
-    double step = 0.0;
-    const auto widest_beside = [&](double limit) {
-        const auto keeps = [&](double to) {
-            return swept.keeps(half_turn(centre, at, to, side), limit, limits.tolerance);
-        };
-        for (const double share : kSteps) {
-            const double to = std::min(radius, at + share * step);
-            if (to > at && keeps(to)) {
-                return to;
-            }
-        }
-        return at;
-    };
-    double whole = at;  // mm: radius of the largest whole turn
-    while (at < radius) {
-        if (at > kWide * swept.radius() && step > 0.0) {
-            const double limit = kWideShare * limits.max_engagement;
-            const double to = widest_beside(limit);
-            if (to > at) {
-                spiral.engagement_bound = std::max(spiral.engagement_bound, limit);
-                step = to - at;
-                whole = at;
-                add(to);
-                continue;
-            }
-        }
-        double to = widest(most);
-        if (to < kLeastGrowth * at) {
-            to = widest(limits.max_engagement);
-        }
-        if (to < kLeastGrowth * at) {
-            break;
-        }
-        spiral.engagement_bound = std::max(spiral.engagement_bound, bound(to));
-        whole = at;
-        step = to - at;
-        add(to);
-    }
-    // Half a turn at the last radius, and one more where the spiral grew so fast that the first half
-    // of its last turn is inside of that.
-    for (int i = 0; i < 2 && whole < at && bound(at) <= limits.max_engagement; ++i) {
-        spiral.engagement_bound = std::max(spiral.engagement_bound, bound(at));
-        add(at);
-        whole = i > 0 || is_clear(half_turn(centre, at, at, side), swept) ? at : whole;
-    }
-    swept.add_disc(centre, swept.radius() + std::max(whole - limits.tolerance, 0.0));
-    spiral.radius = whole;
-    return spiral;
+    SpiralPath spiral{swept, centre, radius, limits};
+    spiral.turn_first();
+    spiral.widen();
+    return spiral.close();
 }
 
 }  // namespace cusp::adaptive_clearing

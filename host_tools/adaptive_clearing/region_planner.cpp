@@ -66,9 +66,9 @@ constexpr double kMostProgress = 0.99;
 
 class Planner {
 public:
-    Planner(const Region2d& region, const AdaptiveSettings& settings, Widening widening)
+    Planner(const Region2d& region, const AdaptiveSettings& settings, bool spirals)
         : settings_{settings},
-          widening_{widening},
+          spirals_{spirals},
           radius_{settings.tool_radius},
           walls_{region},
           box_{grown_box(box_of(region), settings.tool_radius)},
@@ -175,7 +175,7 @@ private:
             in_part > kLeastRound * radius_ &&
             kPi * in_part * in_part > kRound * std::abs(area(centres.contours[part.outer]));
         is_round_ = is_round_ || is_round;
-        const bool spiral = is_round && widening_ == Widening::kSpiral;
+        const bool spiral = is_round && spirals_;
         if (spiral) {
             pole = deepest_near(pole, kPoleStep * radius_, walls_);
             room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
@@ -471,7 +471,7 @@ private:
     }
 
     const AdaptiveSettings& settings_;
-    Widening widening_;
+    bool spirals_;
     bool is_round_{false};
     double radius_;
     RegionOffset walls_;
@@ -489,11 +489,9 @@ private:
 
 }  // namespace
 
-PlannedRegion plan_region(const Region2d& region,
-                          const AdaptiveSettings& settings,
-                          Widening widening)
+PlannedRegion plan_region(const Region2d& region, const AdaptiveSettings& settings, bool spirals)
 {
-    return Planner{region, settings, widening}.plan();
+    return Planner{region, settings, spirals}.plan();
 }
 
 }  // namespace cusp::adaptive_clearing

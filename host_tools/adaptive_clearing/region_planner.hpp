@@ -1,15 +1,9 @@
-// A region cleared for climb milling, its parts widened in one of two ways.
+// A region cleared for climb milling, from its entries on in one of two ways.
 #pragma once
 
 #include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
 
 namespace cusp::adaptive_clearing {
-
-// The way out of the hole at the foot of an entry.
-enum class Widening {
-    kSteered,
-    kSpiral,  // to the walls, in round parts
-};
 
 struct PlannedRegion {
     AdaptivePath path;
@@ -17,8 +11,10 @@ struct PlannedRegion {
 };
 
 // For climb milling, whatever the direction of the settings.
+//
+// spirals  in round parts the first pass is a spiral to the walls; else all passes are steered
 PlannedRegion plan_region(const offset::Region2d& region,
                           const AdaptiveSettings& settings,
-                          Widening widening);
+                          bool spirals);
 
 }  // namespace cusp::adaptive_clearing
