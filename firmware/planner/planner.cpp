@@ -29,7 +29,7 @@ constexpr float kFilterShareOfTolerance = 0.45F;
 constexpr float kCornerShareOfTolerance = 0.985F;
 // Ticks between the place of the tool and the middle of what the servo did: jerk is a difference of
 // four set points, and the servo looks at where it was a tick ago.
-constexpr float kDifference = 1.5F;
+constexpr float kTicksOfJerk = 1.5F;
 // A junction that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
 
@@ -169,7 +169,7 @@ void Planner::start() noexcept
     maker_.start(move_, filter);
     // The path stops where the axis filters change: no limit is spread over that.
     const float beyond = queue_.half_filter() + 2.0F * kServoTick + window_of(filter);
-    builder_.set_reach({queue_.half_filter() + kDifference * kServoTick, beyond, beyond});
+    builder_.set_reach({queue_.half_filter() + kTicksOfJerk * kServoTick, beyond, beyond});
 }
 
 // Whether the published path could be over in a tenth of a second.
