@@ -41,6 +41,28 @@ Surface dome()
     return s;
 }
 
+// 27 x 27 patches of 3 mm, from z = -11 to -1.
+Surface many_hills()
+{
+    constexpr int kSide = 30;
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.size_u = s.size_v = kSide;
+    s.knots_u = {0, 0, 0, 0};
+    for (int k = 1; k < kSide - 3; ++k) {
+        s.knots_u.push_back(k);
+    }
+    s.knots_u.insert(s.knots_u.end(), 4, kSide - 3);
+    s.knots_v = s.knots_u;
+    for (int i = 0; i < kSide; ++i) {
+        for (int j = 0; j < kSide; ++j) {
+            s.points.push_back({3.0 * i, 3.0 * j, -6 + 5 * std::sin(0.9 * i) * std::cos(0.8 * j)});
+            s.weights.push_back(1);
+        }
+    }
+    return s;
+}
+
 SliceSettings settings(double keep) { return {keep, 0.005, 0.15, {-20, -20, 20, 20}}; }
 
 }  // namespace
@@ -52,6 +74,18 @@ TEST_GROUP(WaterlineSlices){
 void teardown() override { MemoryLeakWarningPlugin::turnOffNewDeleteOverloads(); }
 }
 ;
+
+// A slice made all the cells it needed before any was released: gigabytes for many faces.
+TEST(WaterlineSlices, OfManyFacesKeepFewCells)
+{
+    const PartModel model{{many_hills()}};
+    const WaterlineSlices slices{
+        model, {1, ToolShape::kFlat, 4, 0}, {0.3, 0.005, 0.1, {-10, -10, 97, 97}}};
+    CHECK(!slices.at(-6, 0).contours.empty());
+    std::printf("%zu cells\n", model.kept_cells());
+    CHECK(model.kept_cells() > 10'000);
+    CHECK(model.kept_cells() < 150'000);
+}
 
 TEST(WaterlineSlices, OfADomeAreCircles)
 {
