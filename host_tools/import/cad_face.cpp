@@ -126,7 +126,7 @@ bool looks_up(const Surface& s, double outwards)
 
 // One face with its trims.
 Surface trimmed_surface(const TopoDS_Face& face,
-                        Allowed allowed,
+                        FaceTolerance allowed,
                         Surface surface,
                         const std::string& place,
                         CadModel& model)

@@ -168,7 +168,7 @@ std::vector<std::vector<Curve>> grouped(const std::vector<std::vector<Curve>>& l
 
 // Trims of loops that cross themselves: first cusps are cut, then lobes. None where that does not help.
 std::optional<std::vector<std::vector<Curve>>> uncrossed(std::vector<std::vector<Curve>> loops,
-                                                         Allowed allowed,
+                                                         FaceTolerance allowed,
                                                          const Surface& surface,
                                                          CadModel& model)
 {
@@ -185,7 +185,7 @@ std::optional<std::vector<std::vector<Curve>>> uncrossed(std::vector<std::vector
     std::vector<std::vector<Curve>> cut;
     double lobe = 0;
     for (const std::vector<Curve>& loop : loops) {
-        const std::optional<CutLobes> found = cut_lobes(loop, allowed.off, surface);
+        const std::optional<LobeCut> found = cut_lobes(loop, allowed.off, surface);
         if (found) {
             lobe = std::max(lobe, found->widest);
             cut.insert(cut.end(), found->loops.begin(), found->loops.end());
@@ -204,7 +204,7 @@ std::optional<std::vector<std::vector<Curve>>> uncrossed(std::vector<std::vector
 }
 
 std::vector<std::vector<Curve>> mended_trims(const std::vector<std::vector<Curve>>& loops,
-                                             Allowed allowed,
+                                             FaceTolerance allowed,
                                              const Surface& surface,
                                              const std::string& place,
                                              CadModel& model)
@@ -241,7 +241,7 @@ std::vector<WireTrims> all_trims_of(const TopoDS_Face& face,
 }  // namespace
 
 void add_trims(const TopoDS_Face& face,
-               Allowed allowed,
+               FaceTolerance allowed,
                const std::string& place,
                Surface& surface,
                CadModel& model)

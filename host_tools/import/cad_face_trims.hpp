@@ -19,7 +19,7 @@ inline std::vector<double> list_of(const TColStd_Array1OfReal& knots)
 }
 
 // How far a face may differ from the file, mm: its edges beside it, and their ends from each other.
-struct Allowed {
+struct FaceTolerance {
     double off;
     double gap;
 };
@@ -30,7 +30,7 @@ struct Allowed {
 // Adds to the model's faults what was mended.
 // Errors: InputError, with `place` before it.
 void add_trims(const TopoDS_Face& face,
-               Allowed allowed,
+               FaceTolerance allowed,
                const std::string& place,
                nurbs::Surface& surface,
                CadModel& model);

@@ -95,9 +95,9 @@ Curve chords_of(const Ring& ring)
 
 }  // namespace
 
-std::optional<CutLobes> cut_lobes(const std::vector<Curve>& loop,
-                                  double width,
-                                  const Surface& surface)
+std::optional<LobeCut> cut_lobes(const std::vector<Curve>& loop,
+                                 double width,
+                                 const Surface& surface)
 {
     const double size =
         std::max(surface.u_end() - surface.u_begin(), surface.v_end() - surface.v_begin());
@@ -108,7 +108,7 @@ std::optional<CutLobes> cut_lobes(const std::vector<Curve>& loop,
     std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
         return std::abs(job::signed_area(a)) > std::abs(job::signed_area(b));
     });
-    CutLobes cut{{}, 0};
+    LobeCut cut{{}, 0};
     for (const Ring& ring : rings) {
         const bool same_way = job::signed_area(ring) * job::signed_area(rings[0]) > 0;
         const Vec2d middle = 0.5 * (ring[0] + ring[1]);

@@ -11,7 +11,7 @@ namespace cusp::import {
 // The loops of a face without lobes, as polylines.
 //
 // widest  mm on the surface: of the lobes cut off
-struct CutLobes {
+struct LobeCut {
     std::vector<std::vector<nurbs::Curve>> loops;
     double widest;
 };
@@ -24,8 +24,8 @@ struct CutLobes {
 // width  mm on the surface: of lobes at most, four times their area by the way round them
 //
 // Returns none where the loop does not cross itself, or a lobe is wider.
-std::optional<CutLobes> cut_lobes(const std::vector<nurbs::Curve>& loop,
-                                  double width,
-                                  const nurbs::Surface& surface);
+std::optional<LobeCut> cut_lobes(const std::vector<nurbs::Curve>& loop,
+                                 double width,
+                                 const nurbs::Surface& surface);
 
 }  // namespace cusp::import

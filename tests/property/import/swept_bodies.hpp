@@ -8,7 +8,7 @@
 
 namespace cusp::test {
 
-// Upright in one of three cases.
+// Vertical in one of three cases.
 gp_Dir random_axis(Draw& draw);
 
 // Extruded splines and ellipses, polygons, balls, rings, cones and cylinders turned by part of a turn, pipes,
