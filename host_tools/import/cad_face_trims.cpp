@@ -12,7 +12,6 @@
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/loop_shape.hpp"
-#include "host_tools/nurbs/extension.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "opencascade/BRepTools_WireExplorer.hxx"

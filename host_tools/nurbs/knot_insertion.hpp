@@ -69,4 +69,12 @@ void insert_all_to_degree(ControlRows& rows);
 // Restricts the rows to their domain, with knots of multiplicity degree + 1 at both ends.
 void clamp_ends(ControlRows& rows);
 
+// The surface on a larger domain: its outermost polynomials go on. The shape inside the old domain does not
+// change.
+//
+// surface       clamped
+// u_begin ...   of the new domain; what lies inside the old one leaves that end as it is
+Surface extended(
+    const Surface& surface, double u_begin, double u_end, double v_begin, double v_end);
+
 }  // namespace cusp::nurbs

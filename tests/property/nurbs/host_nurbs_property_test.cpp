@@ -7,7 +7,6 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/nurbs/extension.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
