@@ -67,6 +67,12 @@ double true_angle(double diamond)
 constexpr double kFront = 1.0;     // a quarter turn, as a diamond angle
 constexpr double kPastRear = 3.0;  // more than any angle
 
+// At least one; the box of an empty region is -2e300 mm wide.
+int cells_over(double length, double pitch)
+{
+    return length > pitch ? static_cast<int>(std::ceil(length / pitch)) : 1;
+}
+
 // As seen along the heading: x ahead, y to the left.
 Vec2d seen_along(Vec2d heading, Vec2d v) { return {dot(heading, v), cross(heading, v)}; }
 
@@ -77,8 +83,8 @@ SweptArea::SweptArea(const Box2d& box, double radius)
       radius_{radius},
       pitch_{kPitch * radius},
       per_mm_{1.0 / pitch_},
-      columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
-      rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
+      columns_{cells_over(box.x1 - box.x0, pitch_)},
+      rows_{cells_over(box.y1 - box.y0, pitch_)},
       is_swept_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       cells_(is_swept_.size())
 {
