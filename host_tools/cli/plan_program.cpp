@@ -14,7 +14,6 @@
 #include "host_tools/cli/post_fit.hpp"
 #include "host_tools/cli/rest_of_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
 #include "host_tools/cli/tool_reach.hpp"
 #include "host_tools/files/files.hpp"
@@ -22,6 +21,7 @@
 #include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/job/level_warnings.hpp"
 #include "host_tools/job/overlap_warnings.hpp"
+#include "host_tools/simulate/simulated_times.hpp"
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/post.hpp"
@@ -173,7 +173,7 @@ void put_simulated_times(const std::string& program,
     constexpr double kQuiet = 2.0;  // s
     cancellation::set_work("timing the program");
     const ShareProgress timing{"timing", kQuiet};
-    if (const auto seconds = simulated_times(program, begins, timing)) {
+    if (const auto seconds = simulate::simulated_times(program, begins, timing)) {
         for (std::size_t i = 0; i < plan.measures.size(); ++i) {
             plan.measures[i].estimated_s = (*seconds)[i];
         }

@@ -1,0 +1,34 @@
+// Times of a program's operations, by running it on the firmware core.
+//
+//     const auto seconds = simulated_times(program, {0, second_begin}, {});
+//     if (seconds) {
+//         fmt::print("{:.1f} s and {:.1f} s\n", seconds->at(0), seconds->at(1));
+//     }
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cusp::simulate {
+
+// s of each operation, on a machine with the default settings. No value where the controller
+// refuses the program.
+//
+// program   G-code
+// begins    byte offsets of the operations; what precedes the first counts for the first
+// progress  receives the fraction that has run, 0 to 1, from one thread at a time
+// part      s: a longer program is run in parts of about this length (program_parts.hpp), on all
+//           cores; a shorter part wastes more on its way to where it begins
+//
+// The times are the same for any number of threads. Accuracy: equal to those of `cusp sim` where there
+// is one part, otherwise within a servo tick for each part that begins with a lift, and 0.3 s for each
+// other: there the pieces that replace short lines may be divided otherwise.
+std::optional<std::vector<double>> simulated_times(const std::string& program,
+                                                   const std::vector<std::size_t>& begins,
+                                                   const std::function<void(double)>& progress,
+                                                   double part = 400);
+
+}  // namespace cusp::simulate
