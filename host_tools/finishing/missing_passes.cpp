@@ -55,10 +55,11 @@ std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
     return std::nullopt;
 }
 
-// The missing tips along a straight line in the domain, both ways.
+// The missing tips along a straight line in the domain, both ways. The first is not searched for
+// again: a search that begins elsewhere may end in another valley, and find nothing.
 //
 // way  in (u, v)
-Points ScallopCheck::trace(int surface, Place place, Vec2d way) const
+Points ScallopCheck::trace(int surface, const MissingPass& from, Vec2d way) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
     const Vec2d low{s.u_begin(), s.v_begin()};
@@ -67,9 +68,10 @@ Points ScallopCheck::trace(int surface, Place place, Vec2d way) const
         1.0 / 8 / std::max(std::abs(way.x) / (high.x - low.x), std::abs(way.y) / (high.y - low.y));
     Points out;
     for (const double sign : {-1.0, 1.0}) {
-        Vec2d at{place.u, place.v};
+        Vec2d at{from.place.u, from.place.v};
         for (int k = 0; k < kMostTraced; ++k) {
-            const std::optional<Vec3d> tip = missing_tip(surface, at.x, at.y, true);
+            const std::optional<Vec3d> tip =
+                k == 0 ? from.tip : missing_tip(surface, at.x, at.y, true);
             if (k == 0 && sign > 0) {
                 // the first direction has added the start
             } else if (tip) {
@@ -114,12 +116,12 @@ std::array<ScallopCheck::Place, 5> ScallopCheck::places_of(const Cell& cell) con
 }
 
 // The longest pass through the place along u, along v or along the trims beside it.
-Points ScallopCheck::longest_trace(const Cell& cell, const Place& place) const
+Points ScallopCheck::longest_trace(const Cell& cell, const MissingPass& from) const
 {
-    Points longest = trace(cell.surface, place, {1, 0});
+    Points longest = trace(cell.surface, from, {1, 0});
     const auto try_along = [&](Vec2d way) {
-        Points other = trace(cell.surface, place, way);
-        if (longest.empty() || length_of(other) > length_of(longest)) {
+        Points other = trace(cell.surface, from, way);
+        if (length_of(other) > length_of(longest)) {
             longest = std::move(other);
         }
     };
@@ -149,7 +151,7 @@ bool ScallopCheck::in_narrow_opening(int surface,
 
 // A point of the cell where a pass is missing. Beside a ridge of the scallop's height the stock
 // changes by two scallops a stepover, so the height between two points may exceed theirs by that.
-std::optional<ScallopCheck::Place> ScallopCheck::uncovered_point(const Cell& cell) const
+std::optional<ScallopCheck::MissingPass> ScallopCheck::uncovered_point(const Cell& cell) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     // No neighbouring cell checks a border.
@@ -170,16 +172,16 @@ std::optional<ScallopCheck::Place> ScallopCheck::uncovered_point(const Cell& cel
         }
         const bool ask = middle || nearly_uncovered_ || on_border(place) ||
                          (middle_hidden && in_narrow_opening(cell.surface, places.front(), place));
-        if (missing_tip(cell.surface, place.u, place.v, ask)) {
-            return place;
+        if (const auto tip = missing_tip(cell.surface, place.u, place.v, ask)) {
+            return MissingPass{place, *tip};
         }
     }
     if (!nearly_uncovered_ || size < kNearCell) {
         return std::nullopt;
     }
     for (const Cell& half : halves_of(cell, long_u >= long_v)) {
-        if (const std::optional<Place> place = uncovered_point(half)) {
-            return place;
+        if (const std::optional<MissingPass> found = uncovered_point(half)) {
+            return found;
         }
     }
     return std::nullopt;
@@ -190,39 +192,19 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
 {
     std::vector<Cell> beside_edges;
     for (int round = 0; round < kRounds && !uncovered_.empty(); ++round) {
-        const std::vector<Cell> open = std::move(uncovered_);
+        OpenCells open{std::move(uncovered_), {}};
         uncovered_.clear();
-        std::vector<Cell> changed;
-        std::size_t looked = 0;
         // Passes cut meanwhile only lower the stock: what misses none now misses none later.
-        const std::vector<CellFinding> findings = findings_of(open, false);
-        for (const Cell& cell : open) {
-            const CellFinding& finding = findings[looked];
-            // A round takes about half as long as the one before.
-            const double rest =
-                1 - 0.5 * static_cast<double>(looked++) / static_cast<double>(open.size());
-            progress(1 - std::ldexp(rest, -round));
-            moved_clear_ = finding.moved_clear;
-            path_fitter_.model().forget_many_cells();
-            const std::optional<Place> place =
-                finding.missing ? uncovered_point(cell) : std::nullopt;
-            if (!place) {
-                if (moved_clear_) {
-                    beside_edges.push_back(cell);
-                }
-                // Passes cut since may have left a steep step.
-                const std::array<Corner, 4> at = corners_of(cell);
-                if (is_steep(at)) {
-                    changed.push_back(cell);
-                }
-                continue;
-            }
-            changed.push_back(cell);
-            for (const Points& run : places_.runs_of(longest_trace(cell, *place))) {
-                cut(run);
+        open.findings = findings_of(open.cells, false);
+        // A round takes about half as long as the one before.
+        cut_missing(open, cut,
+                    [&](double share) { progress(1 - std::ldexp(1 - 0.5 * share, -round)); });
+        for (std::size_t k = 0; k < open.cells.size(); ++k) {
+            if (!open.findings[k].missing && open.findings[k].moved_clear) {
+                beside_edges.push_back(open.cells[k]);
             }
         }
-        for (const Cell& cell : changed) {
+        for (const Cell& cell : cells_changed(open)) {
             check_cell(cell, corners_of(cell), kMoreHalvings);
         }
     }

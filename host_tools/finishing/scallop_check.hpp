@@ -98,6 +98,11 @@ private:
         double u;
         double v;
     };
+    // A place where a pass is missing, and a tip of that pass.
+    struct MissingPass {
+        Place place;
+        Vec3d tip;
+    };
     struct Corner {
         int surface;
         double u;
@@ -124,6 +129,16 @@ private:
         double left{};          // mm: over the reachable height, where a pass is missing
         double beside_edges{};  // mm
     };
+    // Cells where passes may be missing, and what is known of each.
+    struct OpenCells {
+        std::vector<Cell> cells;
+        std::vector<CellFinding> findings;
+    };
+    // The cells of one surface where passes are missing, by number, and the next to be looked at.
+    struct OpenOnSurface {
+        std::vector<std::size_t> cells;
+        std::size_t next{0};
+    };
     struct SharedVisibility {
         std::once_flag made;
         std::optional<VisibilityFromAbove> value;
@@ -137,6 +152,11 @@ private:
                    const std::function<void(ScallopCheck&, std::size_t)>& work,
                    const std::function<void(double)>& progress);
     std::vector<CellFinding> findings_of(const std::vector<Cell>& cells, bool measure);
+    void cut_missing(OpenCells& open,
+                     const std::function<void(const Points&)>& cut,
+                     const std::function<void(double)>& progress);
+    Points next_trace(OpenOnSurface& surface, OpenCells& open) const;
+    std::vector<Cell> cells_changed(const OpenCells& open);
     void measure_left(std::vector<Cell>& beside_edges);
     void take_waiting();
     std::vector<Cell> cells_of(int surface, Vec2d low, Vec2d high) const;
@@ -168,7 +188,7 @@ private:
     bool silhouette_above(const std::array<Corner, 4>& at) const;
     const VisibilityFromAbove& visibility() const;
     bool in_narrow_opening(int surface, const Place& middle, const Place& corner_place) const;
-    std::optional<Place> uncovered_point(const Cell& cell) const;
+    std::optional<MissingPass> uncovered_point(const Cell& cell) const;
     // A tip that would cut the stock over a point down to the scallop; none where the point is
     // covered, or where the tool cannot touch it and `where_blocked` is false.
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
@@ -186,8 +206,8 @@ private:
                            Vec2d from,
                            Vec2d to,
                            const std::function<void(const Points&)>& cut);
-    Points trace(int surface, Place place, Vec2d way) const;
-    Points longest_trace(const Cell& cell, const Place& place) const;
+    Points trace(int surface, const MissingPass& from, Vec2d way) const;
+    Points longest_trace(const Cell& cell, const MissingPass& from) const;
 
     const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;

@@ -1,5 +1,6 @@
 // Cells are shared out to copies of the check, the same cells to a copy for any number of threads.
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 #include "host_tools/cancellation/cancellation.hpp"
@@ -13,8 +14,9 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr std::size_t kCellShares = 8;     // each with a drop cutter of its own where one is needed
+constexpr std::size_t kCellShares = 64;    // each with a drop cutter of its own where one is needed
 constexpr std::size_t kCellsBetween = 16;  // ends of parts of a share
+constexpr std::size_t kMiddles = 4096;     // evaluated by one thread
 constexpr double kSharedCell = 24;         // in stepovers: larger cells are divided before
 constexpr int kSharedHalvings = 12;
 
@@ -37,15 +39,18 @@ void ScallopCheck::share_out(const std::vector<Cell>& cells,
                              const std::function<void(ScallopCheck&, std::size_t)>& work,
                              const std::function<void(double)>& progress)
 {
-    std::vector<Vec2d> middles;
-    middles.reserve(cells.size());
-    for (const Cell& cell : cells) {
-        const Vec3d at =
-            path_fitter_.model()
-                .evaluate(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1))
-                .point;
-        middles.push_back({at.x, at.y});
-    }
+    std::vector<Vec2d> middles(cells.size());
+    parallel::for_each((cells.size() + kMiddles - 1) / kMiddles, [&](std::size_t some) {
+        const std::size_t end = std::min((some + 1) * kMiddles, cells.size());
+        for (std::size_t k = some * kMiddles; k < end; ++k) {
+            const Cell& cell = cells[k];
+            const Vec3d at =
+                path_fitter_.model()
+                    .evaluate(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1))
+                    .point;
+            middles[k] = {at.x, at.y};
+        }
+    });
     const auto shares = shares_of_neighbours(middles, kCellShares);
     std::mutex guard;
     std::size_t done = 0;
@@ -135,17 +140,99 @@ std::vector<ScallopCheck::CellFinding> ScallopCheck::findings_of(const std::vect
             const cancellation::Part part{"face ", cells[k].surface + 1, " of the floor"};
             CellFinding& finding = out[k];
             copy.moved_clear_ = false;
-            const std::optional<Place> place = copy.uncovered_point(cells[k]);
-            finding.missing = place.has_value();
+            const std::optional<MissingPass> found = copy.uncovered_point(cells[k]);
+            finding.missing = found.has_value();
             finding.moved_clear = copy.moved_clear_;
-            if (place && measure) {
+            if (found && measure) {
                 copy.left_beside_edges_ = 0;
                 finding.left = copy.scallop_over_reachable(
-                    copy.corner(cells[k].surface, place->u, place->v), 0);
+                    copy.corner(cells[k].surface, found->place.u, found->place.v), 0);
                 finding.beside_edges = copy.left_beside_edges_;
             }
         },
         [](double) {});
+    return out;
+}
+
+// The pass over the next cell of the surface where one is still missing; empty where none is.
+Points ScallopCheck::next_trace(OpenOnSurface& surface, OpenCells& open) const
+{
+    while (surface.next < surface.cells.size()) {
+        const std::size_t k = surface.cells[surface.next++];
+        const Cell& cell = open.cells[k];
+        if (queries_ != nullptr) {
+            queries_->next();
+        }
+        moved_clear_ = open.findings[k].moved_clear;
+        const std::optional<MissingPass> found = uncovered_point(cell);
+        open.findings[k].missing = found.has_value();
+        open.findings[k].moved_clear = moved_clear_;
+        if (found) {
+            return longest_trace(cell, *found);
+        }
+    }
+    return {};
+}
+
+// Cuts passes over the cells that miss one. The surfaces take turns: passes for the next cell of each
+// are traced at once, then cut one after the other. Two passes of one turn may overlap where surfaces
+// meet.
+void ScallopCheck::cut_missing(OpenCells& open,
+                               const std::function<void(const Points&)>& cut,
+                               const std::function<void(double)>& progress)
+{
+    std::map<int, OpenOnSurface> by_surface;
+    std::size_t missing = 0;
+    for (std::size_t k = 0; k < open.cells.size(); ++k) {
+        if (open.findings[k].missing) {
+            by_surface[open.cells[k].surface].cells.push_back(k);
+            ++missing;
+        }
+    }
+    std::size_t looked = 0;
+    while (!by_surface.empty()) {
+        std::vector<Cell> first;
+        std::vector<OpenOnSurface*> turn;
+        for (auto& [number, surface] : by_surface) {
+            first.push_back(open.cells[surface.cells[surface.next]]);
+            turn.push_back(&surface);
+            looked -= surface.next;
+        }
+        std::vector<Points> traces(turn.size());
+        share_out(
+            first,
+            [&](ScallopCheck& copy, std::size_t k) { traces[k] = copy.next_trace(*turn[k], open); },
+            [](double) {});
+        for (const Points& one : traces) {
+            for (const Points& run : places_.runs_of(one)) {
+                cut(run);
+            }
+        }
+        for (auto at = by_surface.begin(); at != by_surface.end();) {
+            looked += at->second.next;
+            const bool over = at->second.next == at->second.cells.size();
+            at = over ? by_surface.erase(at) : std::next(at);
+        }
+        progress(static_cast<double>(looked) / static_cast<double>(missing));
+    }
+}
+
+// Cells with a new pass, and those where passes cut since may have left a steep step.
+std::vector<ScallopCheck::Cell> ScallopCheck::cells_changed(const OpenCells& open)
+{
+    std::vector<char> changed(open.cells.size());
+    share_out(
+        open.cells,
+        [&](const ScallopCheck& copy, std::size_t k) {
+            changed[k] = open.findings[k].missing || copy.is_steep(copy.corners_of(open.cells[k]));
+        },
+        [](double) {});
+    std::vector<Cell> out;
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+        if (changed[k] != 0) {
+            out.push_back(open.cells[k]);
+        }
+    }
     return out;
 }
 
