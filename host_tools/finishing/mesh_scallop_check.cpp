@@ -370,31 +370,7 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
     for (int round = 0; round < kFacetRounds && !uncovered_.empty(); ++round) {
         const std::vector<Cell> open = std::move(uncovered_);
         uncovered_.clear();
-        std::vector<Cell> changed;
-        // Passes cut meanwhile only lower the stock: what misses none now misses none later.
-        std::vector<char> missing(open.size());
-        share_out(open.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
-            missing[k] = copy.uncovered_point(open[k]).has_value() ? 1 : 0;
-        });
-        for (const Cell& cell : open) {
-            const std::size_t number = static_cast<std::size_t>(&cell - open.data());
-            const std::optional<Place> place =
-                missing[number] != 0 ? uncovered_point(cell) : std::nullopt;
-            if (!place) {
-                continue;
-            }
-            changed.push_back(cell);
-            const bool steep = cell.normal.z < kUprightNormal;
-            Points one = steep ? trace_level(*place) : trace(*place, {1, 0, 0});
-            Points other = steep ? Points{} : trace(*place, {0, 1, 0});
-            if (length_of(other) > length_of(one)) {
-                std::swap(one, other);
-            }
-            for (const Points& run : places_.runs_of(one)) {
-                cut(run);
-            }
-        }
-        for (const Cell& cell : changed) {
+        for (const Cell& cell : cut_missing(open, cut)) {
             check_cell(cell, kFacetHalvings / 6);
         }
     }

@@ -113,6 +113,11 @@ private:
     bool may_be_uncovered(const Cell& cell) const;
     std::optional<Vec3d> missing_tip(const Place& at, bool where_blocked) const;
     Points trace(const Place& from, Vec3d way) const;
+    struct Neighbours;
+    std::vector<Cell> cut_missing(const std::vector<Cell>& open,
+                                  const std::function<void(const Points&)>& cut);
+    std::vector<Neighbours> missing_by_neighbours(const std::vector<Cell>& open);
+    Points longest_trace(const Place& from) const;
 
     const std::vector<std::array<Vec3d, 3>>& triangles_;
     const GougeFreePathFitter& path_fitter_;
