@@ -1,13 +1,18 @@
-// Facets steeper than 87 degrees: the stock left over them, and level passes along them.
+// Facets steeper than 87 degrees: the stock left over them and beside them, and passes along them.
 #include <algorithm>
 #include <cmath>
 
 #include "host_tools/finishing/mesh_scallop_check.hpp"
+#include "host_tools/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
+
+using part_model::Facet;
+
 namespace {
 
-constexpr double kLevelFacet = 1e-9;    // z of a normal: a facet has no height
+constexpr double kLevelFacet = 1e-9;  // z of a normal: a facet has no height
+constexpr int kWallRounds = 5;
 constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
 
 Vec3d level_along(Vec3d normal)
@@ -111,6 +116,56 @@ Points MeshScallopCheck::trace_level(const Place& from) const
         }
     }
     return out;
+}
+
+// Lowest first: a pass at the foot of a wall also cuts what stands over it.
+void MeshScallopCheck::find_walls()
+{
+    std::vector<std::array<Vec3d, 3>> upright;
+    for (const auto& corners : triangles_) {
+        if (is_upright(Facet{corners}.normal)) {
+            upright.push_back(corners);
+        }
+    }
+    const auto bottom = [](const std::array<Vec3d, 3>& at) {
+        return std::min({at[0].z, at[1].z, at[2].z});
+    };
+    std::stable_sort(upright.begin(), upright.end(),
+                     [&](const auto& a, const auto& b) { return bottom(a) < bottom(b); });
+    walls_.clear();
+    for (const auto& corners : upright) {
+        for (const UprightWall& side : upright_walls_of(corners, path_fitter_)) {
+            walls_.push_back(side);
+        }
+    }
+    forget_cut_walls();
+}
+
+void MeshScallopCheck::forget_cut_walls()
+{
+    std::vector<char> missing(walls_.size());
+    share_out(walls_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+        missing[k] = walls_[k].missing_runs(copy.places_).empty() ? 0 : 1;
+    });
+    std::vector<UprightWall> kept;
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+        if (missing[k] != 0) {
+            kept.push_back(walls_[k]);
+        }
+    }
+    walls_ = std::move(kept);
+}
+
+void MeshScallopCheck::add_passes_along_walls(const std::function<void(const Points&)>& cut)
+{
+    for (int round = 0; round < kWallRounds && !walls_.empty(); ++round) {
+        for (const UprightWall& wall : walls_) {
+            for (const UprightWall::Run& run : wall.missing_runs(places_)) {
+                cut(wall.pass_along(run));
+            }
+        }
+        forget_cut_walls();
+    }
 }
 
 }  // namespace cusp::finishing
