@@ -121,24 +121,31 @@ Points MeshScallopCheck::trace_level(const Place& from) const
 // Lowest first: a pass at the foot of a wall also cuts what stands over it.
 void MeshScallopCheck::find_walls()
 {
-    std::vector<std::array<Vec3d, 3>> upright;
-    for (const auto& corners : triangles_) {
-        if (is_upright(Facet{corners}.normal)) {
-            upright.push_back(corners);
+    std::vector<std::uint32_t> upright;
+    for (std::size_t k = 0; k < triangles_.size(); ++k) {
+        if (is_upright(Facet{triangles_[k]}.normal)) {
+            upright.push_back(static_cast<std::uint32_t>(k));
         }
     }
-    const auto bottom = [](const std::array<Vec3d, 3>& at) {
-        return std::min({at[0].z, at[1].z, at[2].z});
+    const auto bottom = [&](std::uint32_t k) {
+        return std::min({triangles_[k][0].z, triangles_[k][1].z, triangles_[k][2].z});
     };
     std::stable_sort(upright.begin(), upright.end(),
-                     [&](const auto& a, const auto& b) { return bottom(a) < bottom(b); });
+                     [&](std::uint32_t a, std::uint32_t b) { return bottom(a) < bottom(b); });
+    std::vector<std::vector<UprightWall>> found(upright.size());
+    share_out(upright.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+        for (const UprightWall& side : upright_walls_of(triangles_[upright[k]], path_fitter_)) {
+            if (!side.missing_runs(copy.places_).empty()) {
+                found[k].push_back(side);
+            }
+        }
+    });
     walls_.clear();
-    for (const auto& corners : upright) {
-        for (const UprightWall& side : upright_walls_of(corners, path_fitter_)) {
+    for (const std::vector<UprightWall>& sides : found) {
+        for (const UprightWall& side : sides) {
             walls_.push_back(side);
         }
     }
-    forget_cut_walls();
 }
 
 void MeshScallopCheck::forget_cut_walls()

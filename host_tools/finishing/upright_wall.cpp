@@ -13,12 +13,14 @@ using part_model::Facet;
 
 namespace {
 
-constexpr double kLongestApart = 2;       // in stepovers: columns
-constexpr double kReachApart = 0.25;      // the same: those of which reach is looked at
-constexpr double kLeastApart = 1.0 / 64;  // the same
-constexpr double kBeside = 1e-4;          // mm: vertices of files are rounded
-constexpr double kLeastHeight = 1e-4;     // mm, of what is reached
-constexpr double kReachSlack = 1e-6;      // mm
+constexpr double kLongestApart = 2;          // in stepovers: columns
+constexpr double kReachApart = 1.0 / 16;     // the same: those of which reach is looked at
+constexpr double kLeastApart = 1.0 / 64;     // the same
+constexpr double kBorderApart = 1.0 / 1024;  // the same, where reach begins or ends
+constexpr int kFirstParts = 8;               // at least; the ends of a triangle have no height
+constexpr double kBeside = 1e-4;             // mm: vertices of files are rounded
+constexpr double kLeastHeight = 1e-4;        // mm, of what is reached
+constexpr double kReachSlack = 1e-6;         // mm
 constexpr int kReachHalvings = 20;
 constexpr int kLevels = 16;             // of a leaning column
 constexpr double kShortestPass = 1e-3;  // mm
@@ -74,7 +76,7 @@ bool UprightWall::is_reached(double along, double z) const
 // The column from the facet's lower side to its upper one, reached or not.
 UprightWall::Column UprightWall::whole_column_at(double along) const
 {
-    Column out{along, kInfinite, -kInfinite, true};
+    Column out{along, kInfinite, -kInfinite, true, true};
     const auto include = [&](double z) {
         out.low = std::min(out.low, z);
         out.top = std::max(out.top, z);
@@ -100,10 +102,10 @@ UprightWall::Column UprightWall::whole_column_at(double along) const
 UprightWall::Column UprightWall::column_at(double along) const
 {
     const Column whole = whole_column_at(along);
-    const Column none{along, whole.top, whole.top, false};
+    const std::optional<double> rest = rest_beside(along, whole.top);
+    const Column none{along, whole.top, whole.top, false, rest.has_value()};
     double reached = whole.top;
     if (!leans_) {
-        const std::optional<double> rest = rest_beside(along, whole.low);
         reached = rest ? std::max(*rest, whole.low) : whole.top;
     } else if (is_reached(along, whole.low)) {
         reached = whole.low;
@@ -115,7 +117,7 @@ UprightWall::Column UprightWall::column_at(double along) const
         }
     }
     return whole.top - reached > kLeastHeight
-               ? Column{along, reached, whole.top, reached == whole.low}
+               ? Column{along, reached, whole.top, reached == whole.low, true}
                : none;
 }
 
@@ -167,7 +169,8 @@ void UprightWall::look_between(const Column& a,
 {
     const double apart = (b.along - a.along) / places.step();
     const bool near = apart <= kReachApart;
-    if (near && !a.is_reached() && !b.is_reached()) {
+    const bool border = a.is_reached() != b.is_reached() || a.rests != b.rests;
+    if (near && !border && !a.is_reached()) {
         return;
     }
     if ((near || (a.to_bottom && b.to_bottom && apart <= kLongestApart)) && a.is_reached() &&
@@ -188,7 +191,7 @@ void UprightWall::look_between(const Column& a,
             }
             return;
         }
-        if (apart <= kLeastApart) {
+        if (apart <= (border ? kBorderApart : kLeastApart)) {
             return;
         }
     }
@@ -199,8 +202,16 @@ void UprightWall::look_between(const Column& a,
 
 std::vector<UprightWall::Run> UprightWall::missing_runs(const ScallopAtPoint& places) const
 {
+    const double length = end_ - begin_;
+    const int parts =
+        std::clamp(static_cast<int>(length / (kLeastApart * places.step())), 2, kFirstParts);
     std::vector<Run> out;
-    look_between(column_at(begin_), column_at(end_), places, out);
+    Column last = column_at(begin_);
+    for (int k = 1; k <= parts; ++k) {
+        const Column next = column_at(begin_ + length * k / parts);
+        look_between(last, next, places, out);
+        last = next;
+    }
     return out;
 }
 

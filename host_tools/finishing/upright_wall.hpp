@@ -17,7 +17,8 @@ namespace cusp::finishing {
 // would go down beside the part without end.
 //
 // Between two columns one move proves the wall, if it removes all four ends of what is reached.
-// Reach is looked at a quarter of a stepover apart; nothing is proved of reach between.
+// Reach is looked at a sixteenth of a stepover apart; nothing is proved of reach between. Where one
+// column is too high for the ball and the next has nothing below, it is looked for between them.
 class UprightWall {
 public:
     // corners  of the facet
@@ -46,6 +47,7 @@ private:
         double low;    // z, mm
         double top;
         bool to_bottom;  // of the facet: nothing lower could be reached on it
+        bool rests;      // something lies below the ball
 
         bool is_reached() const { return low < top; }
         double at(double level) const { return low + level * (top - low); }

@@ -171,6 +171,11 @@ TEST(MeshBoundProperty, HoldsBesideUprightFaces)
     hold_all({"adaptive_isocurve", true, Walls::kUpright}, 2);
 }
 
+TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWalls)
+{
+    hold_all({"parallel_planes", false, Walls::kStanding}, 2);
+}
+
 TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 2); }
 
 TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({"parallel_planes", true}, 2); }
