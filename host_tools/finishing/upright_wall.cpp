@@ -74,8 +74,10 @@ bool UprightWall::is_reached(double along, double z) const
 }
 
 // The column from the facet's lower side to its upper one, reached or not.
-UprightWall::Column UprightWall::whole_column_at(double along) const
+UprightWall::Column UprightWall::whole_column_at(double place) const
 {
+    // Rounding may put it beyond the end, where there is no side.
+    const double along = std::clamp(place, begin_, end_);
     Column out{along, kInfinite, -kInfinite, true, true};
     const auto include = [&](double z) {
         out.low = std::min(out.low, z);
@@ -99,9 +101,10 @@ UprightWall::Column UprightWall::whole_column_at(double along) const
     return out;
 }
 
-UprightWall::Column UprightWall::column_at(double along) const
+UprightWall::Column UprightWall::column_at(double place) const
 {
-    const Column whole = whole_column_at(along);
+    const Column whole = whole_column_at(place);
+    const double along = whole.along;
     const std::optional<double> rest = rest_beside(along, whole.top);
     const Column none{along, whole.top, whole.top, false, rest.has_value()};
     double reached = whole.top;

@@ -52,8 +52,8 @@ private:
         bool is_reached() const { return low < top; }
         double at(double level) const { return low + level * (top - low); }
     };
-    Column whole_column_at(double along) const;
-    Column column_at(double along) const;
+    Column whole_column_at(double place) const;
+    Column column_at(double place) const;
     Vec3d point_at(double along, double z) const;
     Vec3d centre_beside(double along, double z) const;
     std::optional<double> rest_beside(double along, double z) const;
