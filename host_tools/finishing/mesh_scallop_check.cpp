@@ -418,8 +418,8 @@ void MeshScallopCheck::measure_left()
     }
     uncovered_ = std::move(kept);
     forget_cut_walls();
-    for (const UprightWall& wall : walls_) {
-        for (const UprightWall::Run& run : wall.missing_runs(places_)) {
+    for (const WallSide& wall : walls_) {
+        for (const WallSide::Run& run : wall.missing_runs(places_)) {
             most_left_ = std::max(most_left_, wall.left_in(run, places_));
         }
     }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "host_tools/finishing/scallop_at_point.hpp"
-#include "host_tools/finishing/upright_wall.hpp"
+#include "host_tools/finishing/wall_side.hpp"
 
 namespace cusp::finishing {
 
 // The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
 // convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
 // the whole raised triangle. Triangles that no single move covers are halved. Facets hidden under
-// others are not checked. Vertical ones, and those that hardly lean, are checked by `UprightWall`:
+// others are not checked. Vertical ones, and those that hardly lean, are checked by `WallSide`:
 // where the side of a ball reaches them that rests on something.
 //
 // Over a steep facet the stock may be high and still thin: it counts as thick as it is vertically,
@@ -63,7 +63,7 @@ public:
 
     // Whether the check ended early because of too many uncovered cells.
     bool overflowed() const { return overflowed_; }
-    // Cells and upright facets that measure_left() kept.
+    // Cells and vertical facets that measure_left() kept.
     std::size_t uncovered() const { return uncovered_.size() + walls_.size(); }
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
@@ -126,7 +126,7 @@ private:
     double path_off_;
     ScallopAtPoint places_;
     std::vector<Cell> uncovered_;
-    std::vector<UprightWall> walls_;  // with stock left, the lowest first
+    std::vector<WallSide> walls_;  // with stock left, the lowest first
     double most_left_{};
     double blocked_area_{};
     bool overflowed_{};

@@ -118,7 +118,7 @@ Points MeshScallopCheck::trace_level(const Place& from) const
     return out;
 }
 
-// Lowest first: a pass at the foot of a wall also cuts what stands over it.
+// Lowest first: a pass at the foot of a wall also cuts the stock over it.
 void MeshScallopCheck::find_walls()
 {
     std::vector<std::uint32_t> upright;
@@ -132,17 +132,17 @@ void MeshScallopCheck::find_walls()
     };
     std::stable_sort(upright.begin(), upright.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return bottom(a) < bottom(b); });
-    std::vector<std::vector<UprightWall>> found(upright.size());
+    std::vector<std::vector<WallSide>> found(upright.size());
     share_out(upright.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
-        for (const UprightWall& side : upright_walls_of(triangles_[upright[k]], path_fitter_)) {
+        for (const WallSide& side : wall_sides_of(triangles_[upright[k]], path_fitter_)) {
             if (!side.missing_runs(copy.places_).empty()) {
                 found[k].push_back(side);
             }
         }
     });
     walls_.clear();
-    for (const std::vector<UprightWall>& sides : found) {
-        for (const UprightWall& side : sides) {
+    for (const std::vector<WallSide>& sides : found) {
+        for (const WallSide& side : sides) {
             walls_.push_back(side);
         }
     }
@@ -154,7 +154,7 @@ void MeshScallopCheck::forget_cut_walls()
     share_out(walls_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
         missing[k] = walls_[k].missing_runs(copy.places_).empty() ? 0 : 1;
     });
-    std::vector<UprightWall> kept;
+    std::vector<WallSide> kept;
     for (std::size_t k = 0; k < walls_.size(); ++k) {
         if (missing[k] != 0) {
             kept.push_back(walls_[k]);
@@ -166,8 +166,8 @@ void MeshScallopCheck::forget_cut_walls()
 void MeshScallopCheck::add_passes_along_walls(const std::function<void(const Points&)>& cut)
 {
     for (int round = 0; round < kWallRounds && !walls_.empty(); ++round) {
-        for (const UprightWall& wall : walls_) {
-            for (const UprightWall::Run& run : wall.missing_runs(places_)) {
+        for (const WallSide& wall : walls_) {
+            for (const WallSide::Run& run : wall.missing_runs(places_)) {
                 cut(wall.pass_along(run));
             }
         }

@@ -19,12 +19,12 @@ namespace cusp::finishing {
 // Between two columns one move proves the wall, if it removes all four ends of what is reached.
 // Reach is looked at a sixteenth of a stepover apart; nothing is proved of reach between. Where one
 // column is too high for the ball and the next has nothing below, it is looked for between them.
-class UprightWall {
+class WallSide {
 public:
     // corners  of the facet
-    // out      unit normal, to the side that is looked at; not below the horizontal
+    // out      unit normal, to the side that is looked at
     // fitter   kept while the wall is used
-    UprightWall(const std::array<Vec3d, 3>& corners, Vec3d out, const GougeFreePathFitter& fitter);
+    WallSide(const std::array<Vec3d, 3>& corners, Vec3d out, const GougeFreePathFitter& fitter);
 
     // A stretch along the wall where stock is left.
     struct Run {
@@ -77,7 +77,7 @@ private:
 };
 
 // Both sides of a facet that could be reached; none of a facet without height.
-std::vector<UprightWall> upright_walls_of(const std::array<Vec3d, 3>& corners,
-                                          const GougeFreePathFitter& fitter);
+std::vector<WallSide> wall_sides_of(const std::array<Vec3d, 3>& corners,
+                                    const GougeFreePathFitter& fitter);
 
 }  // namespace cusp::finishing

@@ -1,5 +1,5 @@
 // Columns of a facet, divided until one move removes what is reached between two.
-#include "host_tools/finishing/upright_wall.hpp"
+#include "host_tools/finishing/wall_side.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +29,9 @@ constexpr int kPassHalvings = 7;        // of it: dropped tips may jump
 
 }  // namespace
 
-UprightWall::UprightWall(const std::array<Vec3d, 3>& corners,
-                         Vec3d out,
-                         const GougeFreePathFitter& fitter)
+WallSide::WallSide(const std::array<Vec3d, 3>& corners,
+                   Vec3d out,
+                   const GougeFreePathFitter& fitter)
     : corners_{corners}, out_{out}, fitter_{fitter}
 {
     const double level = std::hypot(out.x, out.y);
@@ -47,34 +47,34 @@ UprightWall::UprightWall(const std::array<Vec3d, 3>& corners,
     leans_ = out.z * (high - low) > kBeside;
 }
 
-Vec3d UprightWall::point_at(double along, double z) const
+Vec3d WallSide::point_at(double along, double z) const
 {
     const Vec3d from = corners_.front();
     return from + along_ * (along - dot(from, along_)) + upward_ * (z - from.z);
 }
 
 // Of a ball that touches the wall there, and a little off.
-Vec3d UprightWall::centre_beside(double along, double z) const
+Vec3d WallSide::centre_beside(double along, double z) const
 {
     return point_at(along, z) + out_ * (fitter_.offset_tool().radius + kBeside);
 }
 
 // z of the centre of a ball that rests beside the wall; none where nothing lies below it.
-std::optional<double> UprightWall::rest_beside(double along, double z) const
+std::optional<double> WallSide::rest_beside(double along, double z) const
 {
     const Vec3d centre = centre_beside(along, z);
     const auto rest = fitter_.model().drop_ball(centre.x, centre.y, fitter_.offset_tool().radius);
     return rest ? std::optional{rest->centre.z} : std::nullopt;
 }
 
-bool UprightWall::is_reached(double along, double z) const
+bool WallSide::is_reached(double along, double z) const
 {
     const std::optional<double> rest = rest_beside(along, z);
     return rest && *rest <= centre_beside(along, z).z + kReachSlack;
 }
 
 // The column from the facet's lower side to its upper one, reached or not.
-UprightWall::Column UprightWall::whole_column_at(double place) const
+WallSide::Column WallSide::whole_column_at(double place) const
 {
     // Rounding may put it beyond the end, where there is no side.
     const double along = std::clamp(place, begin_, end_);
@@ -101,7 +101,7 @@ UprightWall::Column UprightWall::whole_column_at(double place) const
     return out;
 }
 
-UprightWall::Column UprightWall::column_at(double place) const
+WallSide::Column WallSide::column_at(double place) const
 {
     const Column whole = whole_column_at(place);
     const double along = whole.along;
@@ -125,8 +125,8 @@ UprightWall::Column UprightWall::column_at(double place) const
 }
 
 // The lowest level of a column with stock left: 0 to 1.
-std::optional<double> UprightWall::missing_level(const Column& column,
-                                                 const ScallopAtPoint& places) const
+std::optional<double> WallSide::missing_level(const Column& column,
+                                              const ScallopAtPoint& places) const
 {
     if (!column.is_reached()) {
         return std::nullopt;
@@ -141,9 +141,7 @@ std::optional<double> UprightWall::missing_level(const Column& column,
     return std::nullopt;
 }
 
-bool UprightWall::one_move_cuts(const Column& a,
-                                const Column& b,
-                                const ScallopAtPoint& places) const
+bool WallSide::one_move_cuts(const Column& a, const Column& b, const ScallopAtPoint& places) const
 {
     Points ends;
     for (const Column& column : {a, b}) {
@@ -156,7 +154,7 @@ bool UprightWall::one_move_cuts(const Column& a,
 }
 
 // The end of what is reached between a column that is and one that is not.
-double UprightWall::end_of_reach(double reached, double beside) const
+double WallSide::end_of_reach(double reached, double beside) const
 {
     for (int k = 0; k < kReachHalvings; ++k) {
         const double middle = 0.5 * (reached + beside);
@@ -165,10 +163,10 @@ double UprightWall::end_of_reach(double reached, double beside) const
     return reached;
 }
 
-void UprightWall::look_between(const Column& a,
-                               const Column& b,
-                               const ScallopAtPoint& places,
-                               std::vector<Run>& out) const
+void WallSide::look_between(const Column& a,
+                            const Column& b,
+                            const ScallopAtPoint& places,
+                            std::vector<Run>& out) const
 {
     const double apart = (b.along - a.along) / places.step();
     const bool near = apart <= kReachApart;
@@ -203,7 +201,7 @@ void UprightWall::look_between(const Column& a,
     look_between(middle, b, places, out);
 }
 
-std::vector<UprightWall::Run> UprightWall::missing_runs(const ScallopAtPoint& places) const
+std::vector<WallSide::Run> WallSide::missing_runs(const ScallopAtPoint& places) const
 {
     const double length = end_ - begin_;
     const int parts =
@@ -218,7 +216,7 @@ std::vector<UprightWall::Run> UprightWall::missing_runs(const ScallopAtPoint& pl
     return out;
 }
 
-Points UprightWall::pass_along(const Run& run) const
+Points WallSide::pass_along(const Run& run) const
 {
     const Vec3d up{0, 0, fitter_.tool().radius};
     const auto tip_at = [&](double along) {
@@ -243,7 +241,7 @@ Points UprightWall::pass_along(const Run& run) const
     return fitter_.sample(tip_at, breaks, kPassHalvings);
 }
 
-double UprightWall::left_in(const Run& run, const ScallopAtPoint& places) const
+double WallSide::left_in(const Run& run, const ScallopAtPoint& places) const
 {
     double most = 0;
     const int parts = std::max(
@@ -260,12 +258,12 @@ double UprightWall::left_in(const Run& run, const ScallopAtPoint& places) const
     return most;
 }
 
-std::vector<UprightWall> upright_walls_of(const std::array<Vec3d, 3>& corners,
-                                          const GougeFreePathFitter& fitter)
+std::vector<WallSide> wall_sides_of(const std::array<Vec3d, 3>& corners,
+                                    const GougeFreePathFitter& fitter)
 {
     const Facet facet{corners};
     const auto [low, high] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-    std::vector<UprightWall> out;
+    std::vector<WallSide> out;
     if (!(high - low > kLeastHeight) || !(std::hypot(facet.normal.x, facet.normal.y) > 0.5)) {
         return out;
     }
