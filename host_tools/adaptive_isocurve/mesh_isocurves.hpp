@@ -11,7 +11,9 @@ namespace cusp::adaptive_isocurve {
 // `operation.mesh`. Isocurves run along x (`direction` "v": along y). Where two neighbours leave
 // more than the scallop half way between them, that part of the middle isocurve is added, and so
 // on. Passes along mesh_pencil_curves() follow, then those over uncovered cells of
-// `MeshScallopCheck`.
+// `MeshScallopCheck`, then those along vertical walls that it finds with stock left.
+//
+// Not claimed by the scallop bound: vertical walls beside which the ball has nothing below it.
 toolpath::PlannedOperation plan_mesh_isocurves(const job::Job& job,
                                                const job::Operation& operation);
 

@@ -273,6 +273,7 @@ void MeshScallopCheck::check()
         }
     }
     checking_ = false;
+    find_walls();
 }
 
 // A tip that would cut the stock over a point down to the scallop; none where the point is covered,
@@ -374,6 +375,7 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
             check_cell(cell, kFacetHalvings / 6);
         }
     }
+    add_passes_along_walls(cut);
     measure_left();
 }
 
@@ -391,6 +393,12 @@ void MeshScallopCheck::measure_left()
         }
     }
     uncovered_ = std::move(kept);
+    forget_cut_walls();
+    for (const WallSide& wall : walls_) {
+        for (const WallSide::Run& run : wall.missing_runs(places_)) {
+            most_left_ = std::max(most_left_, wall.left_in(run, places_));
+        }
+    }
 }
 
 // mm: the stock left where a pass is missing, above what the tool can reach; negative: none is.

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "host_tools/finishing/scallop_at_point.hpp"
+#include "host_tools/finishing/wall_side.hpp"
 
 namespace cusp::finishing {
 
 // The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
 // convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
 // the whole raised triangle. Triangles that no single move covers are halved. Facets hidden under
-// others are not checked, nor are vertical ones.
+// others are not checked. Vertical ones, and those that hardly lean, are checked by `WallSide`:
+// where the side of a ball reaches them that rests on something.
 //
 // Over a steep facet the stock may be high and still thin: it counts as thick as it is vertically,
 // multiplied by the cosine of the slope, or as it is along the normal, whichever is less.
@@ -61,8 +63,8 @@ public:
 
     // Whether the check ended early because of too many uncovered cells.
     bool overflowed() const { return overflowed_; }
-    // Cells that measure_left() kept.
-    std::size_t uncovered() const { return uncovered_.size(); }
+    // Cells and vertical facets that measure_left() kept.
+    std::size_t uncovered() const { return uncovered_.size() + walls_.size(); }
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
@@ -101,6 +103,9 @@ private:
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;
     bool is_upright(Vec3d normal) const;
+    void find_walls();
+    void forget_cut_walls();
+    void add_passes_along_walls(const std::function<void(const Points&)>& cut);
     Points trace_level(const Place& from) const;
     std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;
@@ -126,6 +131,7 @@ private:
     double path_off_;
     ScallopAtPoint places_;
     std::vector<Cell> uncovered_;
+    std::vector<WallSide> walls_;  // with stock left, the lowest first
     double most_left_{};
     double blocked_area_{};
     bool overflowed_{};

@@ -94,6 +94,31 @@ bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
 }
 
+bool ScallopAtPoint::one_move_cuts_wall(const Points& points, Vec3d normal) const
+{
+    Vec3d middle;
+    for (const Vec3d& point : points) {
+        middle = middle + point / static_cast<double>(points.size());
+    }
+    swept_->near_or_below(middle + normal * radius_, near_);
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
+        return std::all_of(points.begin(), points.end(), [&](Vec3d point) {
+            return swept_->removes(move, raised(point, normal, scallop_, false), path_off_);
+        });
+    });
+}
+
+double ScallopAtPoint::left_beside_wall(Vec3d point, Vec3d normal) const
+{
+    double low = 0;
+    double high = radius_;
+    for (int k = 0; k < kLeftHalvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (is_wall_cut(point, normal, middle / scallop_) ? high : low) = middle;
+    }
+    return high;
+}
+
 bool ScallopAtPoint::is_upright(Vec3d normal) const
 {
     const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
@@ -108,13 +133,7 @@ double ScallopAtPoint::left_from(Vec3d point, Vec3d normal, double height, doubl
     if (normal.z >= kUprightNormal) {
         return std::min(radius_, std::max(0.0, (now - from) * normal.z));
     }
-    double low = 0;
-    double high = radius_;
-    for (int k = 0; k < kLeftHalvings; ++k) {
-        const double middle = 0.5 * (low + high);
-        (is_wall_cut({point.x, point.y, from}, normal, middle / scallop_) ? high : low) = middle;
-    }
-    return high;
+    return left_beside_wall({point.x, point.y, from}, normal);
 }
 
 // Fast test whether some ball removes more than a share of the scallop, within the resolution of

@@ -83,6 +83,12 @@ public:
     // out under it.
     bool is_wall_cut(Vec3d point, Vec3d normal, double share) const;
 
+    // Whether one move cuts the stock over all of these points of a wall, and so over their hull.
+    bool one_move_cuts_wall(const Points& points, Vec3d normal) const;
+
+    // mm: the stock over a point of a wall, along the normal; at most the radius.
+    double left_beside_wall(Vec3d point, Vec3d normal) const;
+
     // Whether nothing thicker than the scallop would fit between a wall and a vertical line if the wall
     // were as high as the model.
     bool is_upright(Vec3d normal) const;

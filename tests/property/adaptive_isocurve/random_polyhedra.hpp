@@ -27,8 +27,8 @@ inline double random_upright_draft(Random& random)
     return whole(random, 0, 1) == 0 ? 0.0 : std::pow(10.0, uniform(random, -7.0, -3.0));
 }
 
-// How its walls lean.
-enum class Walls { kDrafted, kUpright };
+// How its walls lean; kStanding: vertical ones with openings, and bodies on a plate's border.
+enum class Walls { kDrafted, kUpright, kStanding };
 
 inline void add_wall(Random& random, Profile& profile, double rise, Walls walls)
 {
@@ -176,12 +176,99 @@ inline Triangles turned(const Triangles& triangles, double angle)
     return out;
 }
 
+// A prism over a ring, its underside left out; `out` may have more of it.
+inline void add_prism(Triangles& out, const std::vector<Vec2d>& ring, double low, double high)
+{
+    const auto at = [&](std::size_t k, double z) {
+        const Vec2d p = ring[k % ring.size()];
+        return Vec3d{p.x, p.y, z};
+    };
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        add_quad(out, at(k, low), at(k + 1, low), at(k + 1, high), at(k, high));
+        if (k > 1) {
+            out.push_back({at(0, high), at(k - 1, high), at(k, high)});
+        }
+    }
+}
+
+// A wall along x in strips: teeth, slots, windows through it. thick: 0 for a sheet.
+inline void add_pierced_wall(Random& random, Triangles& out, double y, double length, double thick)
+{
+    const double high = uniform(random, 1.0, 6.0);
+    for (double x = uniform(random, -1.0, 1.0); x < length;) {
+        const double wide = uniform(random, 0.2, 3.0);
+        const double top = whole(random, 0, 1) == 0 ? high : uniform(random, 0.3, high);
+        const double sill = whole(random, 0, 2) == 0 ? uniform(random, 0.0, 0.8) * top : top;
+        const double lintel = uniform(random, sill, top);
+        const auto strip = [&](double from, double to) {
+            if (thick > 0) {
+                add_prism(out, {{x, y}, {x + wide, y}, {x + wide, y + thick}, {x, y + thick}}, from,
+                          to);
+            } else {
+                add_quad(out, {x, y, from}, {x + wide, y, from}, {x + wide, y, to}, {x, y, to});
+            }
+        };
+        if (sill > 0) {
+            strip(0, sill);
+        }
+        if (top > lintel) {
+            strip(lintel, top);
+        }
+        x += wide + (whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.1, 4.0));
+    }
+}
+
+// Pierced walls, cylinders and fins on the border of a plate, within it and beyond.
+inline Triangles standing_walls(Random& random)
+{
+    const double length = uniform(random, 4.0, 9.0);
+    const double width = uniform(random, 3.0, 7.0);
+    const double tilt = uniform(random, -0.3, 0.3);
+    Triangles out;
+    add_quad(out, {0, 0, 0}, {length, 0, 0}, {length, width, tilt * width},
+             {0, width, tilt * width});
+    const auto border = [&] {
+        return whole(random, 0, 1) == 0 ? 0.0 : uniform(random, -0.8, 0.8);
+    };
+    for (int k = whole(random, 1, 3); k > 0; --k) {
+        switch (whole(random, 0, 2)) {
+            case 0:
+                add_pierced_wall(random, out, border(), length,
+                                 whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.2, 1.0));
+                break;
+            case 1: {
+                const double radius = uniform(random, 0.3, 2.5);
+                const Vec2d middle{uniform(random, 0.0, length), border()};
+                const int sides = whole(random, 5, 40);
+                std::vector<Vec2d> ring;
+                for (int side = 0; side < sides; ++side) {
+                    const double turn = 2 * kPi * side / sides;
+                    ring.push_back(middle + Vec2d{std::cos(turn), std::sin(turn)} * radius);
+                }
+                add_prism(out, ring, uniform(random, -3.0, 0.0), uniform(random, 0.5, 5.0));
+                break;
+            }
+            default: {
+                const Vec2d from{uniform(random, 0.0, length), border()};
+                const double turn = uniform(random, 0.0, kPi);
+                const Vec2d way = Vec2d{std::cos(turn), std::sin(turn)} * uniform(random, 0.5, 5.0);
+                const Vec2d thick =
+                    Vec2d{-std::sin(turn), std::cos(turn)} * uniform(random, 0.2, 1.0);
+                add_prism(out, {from, from + way, from + way + thick, from + thick},
+                          uniform(random, -3.0, 0.0), uniform(random, 0.5, 5.0));
+            }
+        }
+    }
+    return out;
+}
+
 inline Triangles random_polyhedron(Random& random, Walls walls = Walls::kDrafted)
 {
     const int kind = whole(random, 0, walls == Walls::kDrafted ? 2 : 1);
-    Triangles out = kind == 0   ? ribs(random, walls)
-                    : kind == 1 ? polygon_steps(random, walls)
-                                : crags(random);
+    Triangles out = walls == Walls::kStanding ? standing_walls(random)
+                    : kind == 0               ? ribs(random, walls)
+                    : kind == 1               ? polygon_steps(random, walls)
+                                              : crags(random);
     if (whole(random, 0, 1) == 0) {
         out = with_slivers(random, out);
     }

@@ -79,10 +79,39 @@ TEST(MeshScallopCheck, AddsPassesAlongAWallOf89Degrees)
     }
 }
 
-// Nothing thicker than the scallop fits between the wall and a vertical line from its foot.
-TEST(MeshScallopCheck, AddsNoneWhereTheWallLeansLessThanTheScallop)
+// Its foot carries a ball beside it. A pass there leaves the lean and the tolerance; if that is too
+// much, one more higher up on either facet removes it.
+TEST(MeshScallopCheck, AddsFewPassesWhereTheWallLeansLessThanTheScallop)
 {
     std::size_t uncovered = 1;
-    CHECK(missing_passes(plate_and_wall(0.9 * kScallop / kHeight), uncovered).empty());
+    LONGS_EQUAL(1, missing_passes(plate_and_wall(0.5 * kScallop / kHeight), uncovered).size());
     LONGS_EQUAL(0, uncovered);
+    LONGS_EQUAL(3, missing_passes(plate_and_wall(0.9 * kScallop / kHeight), uncovered).size());
+    LONGS_EQUAL(0, uncovered);
+}
+
+// A ball beside it would go down without end.
+TEST(MeshScallopCheck, AddsNoneAlongAVerticalWallWithNothingBelow)
+{
+    std::size_t uncovered = 1;
+    CHECK(missing_passes(plate_and_wall(0), uncovered).empty());
+    LONGS_EQUAL(0, uncovered);
+}
+
+// The ball rests on the ledge's edge, its axis beyond the part.
+TEST(MeshScallopCheck, AddsAPassBesideAVerticalWallOverANarrowLedge)
+{
+    constexpr double kLedge = 0.4;
+    Triangles part = plate_and_wall(0);
+    add_quad(part, {0, 0, -kHeight}, {kLedge, 0, -kHeight}, {kLedge, kLength, -kHeight},
+             {0, kLength, -kHeight});
+    std::size_t uncovered = 1;
+    const std::vector<Points> passes = missing_passes(part, uncovered);
+    LONGS_EQUAL(0, uncovered);
+    const double rests = -kHeight - 3 + std::sqrt(9 - (3 - kLedge) * (3 - kLedge));
+    CHECK(std::any_of(passes.begin(), passes.end(), [&](const Points& tips) {
+        return std::all_of(tips.begin(), tips.end(), [&](Vec3d tip) {
+            return tip.x > 3 && tip.x < 3.01 && std::abs(tip.z - rests) < 0.02;
+        });
+    }));
 }

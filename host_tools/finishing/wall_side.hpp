@@ -1,0 +1,83 @@
+// One side of a facet that is vertical or nearly so: where passes of a ball leave stock beside it
+// that the ball's side or shank could remove, and the passes along it that do.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "host_tools/finishing/gouge_free_path.hpp"
+#include "host_tools/finishing/scallop_at_point.hpp"
+
+namespace cusp::finishing {
+
+// Columns of the wall are looked at one by one. What a move removes it removes all the way up, so of
+// a vertical column only its lowest place counts that a ball reaches which rests on the part: with
+// its side, from an axis the radius off the wall. A ball with nothing below it is not asked for: it
+// would go down beside the part without end.
+//
+// Between two columns one move proves the wall, if it removes all four ends of what is reached.
+// Reach is looked at a sixteenth of a stepover apart; nothing is proved of reach between. Where one
+// column is too high for the ball and the next has nothing below, it is looked for between them.
+class WallSide {
+public:
+    // corners  of the facet
+    // out      unit normal, to the side that is looked at
+    // fitter   kept while the wall is used
+    WallSide(const std::array<Vec3d, 3>& corners, Vec3d out, const GougeFreePathFitter& fitter);
+
+    // A stretch along the wall where stock is left.
+    struct Run {
+        double from;   // mm along the wall
+        double to;     // the same
+        double level;  // where on a leaning wall: 0 the lowest place reached, 1 the top
+    };
+    std::vector<Run> missing_runs(const ScallopAtPoint& places) const;
+
+    // Tips along the wall that remove what is left in a run.
+    Points pass_along(const Run& run) const;
+
+    // mm: the stock left in a run, square to the wall; at most the radius.
+    double left_in(const Run& run, const ScallopAtPoint& places) const;
+
+private:
+    // What is reached of a column.
+    struct Column {
+        double along;  // mm
+        double low;    // z, mm
+        double top;
+        bool to_bottom;  // of the facet: nothing lower could be reached on it
+        bool rests;      // something lies below the ball
+
+        bool is_reached() const { return low < top; }
+        double at(double level) const { return low + level * (top - low); }
+    };
+    Column whole_column_at(double place) const;
+    Column column_at(double place) const;
+    Vec3d point_at(double along, double z) const;
+    Vec3d centre_beside(double along, double z) const;
+    std::optional<double> rest_beside(double along, double z) const;
+    bool is_reached(double along, double z) const;
+    double end_of_reach(double reached, double beside) const;
+    std::optional<double> missing_level(const Column& column, const ScallopAtPoint& places) const;
+    bool one_move_cuts(const Column& a, const Column& b, const ScallopAtPoint& places) const;
+    void look_between(const Column& a,
+                      const Column& b,
+                      const ScallopAtPoint& places,
+                      std::vector<Run>& out) const;
+
+    std::array<Vec3d, 3> corners_;
+    Vec3d out_;
+    Vec3d along_;   // level, unit
+    Vec3d upward_;  // in the wall, by 1 mm of z
+    const GougeFreePathFitter& fitter_;
+    double begin_;  // mm along the wall
+    double end_;
+    bool leans_;
+};
+
+// Both sides of a facet that could be reached; none of a facet without height.
+std::vector<WallSide> wall_sides_of(const std::array<Vec3d, 3>& corners,
+                                    const GougeFreePathFitter& fitter);
+
+}  // namespace cusp::finishing
