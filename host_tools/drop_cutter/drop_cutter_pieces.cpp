@@ -16,6 +16,7 @@ constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as 
 // What is kept of halves.
 constexpr std::size_t kMostHalves = 40000;
 constexpr std::size_t kMostBytes = 20'000'000;
+constexpr std::size_t kMostSpare = 16;  // rooms kept
 
 // Copies `from` with room for so many bytes of halves. Room that is never written takes no memory; lists
 // that grow leave holes behind.
@@ -132,7 +133,30 @@ void DropCutter::State::add_patches(Floor& floor, std::uint32_t s, std::vector<P
 DropCutter::State::State(const State& other, ForThread /*tag*/)
     : tool_{other.tool_}, accuracy_{other.accuracy_}, floor_{other.floor_}
 {
+    take_spare_rooms();
     begin_with_whole_pieces();
+}
+
+DropCutter::State::~State()
+{
+    const std::lock_guard lock{floor_->guard};
+    if (floor_->spare.size() < kMostSpare) {
+        floor_->spare.push_back(
+            {std::move(pieces_), std::move(nets_), std::move(weights_), std::move(outlines_)});
+    }
+}
+
+void DropCutter::State::take_spare_rooms()
+{
+    const std::lock_guard lock{floor_->guard};
+    if (!floor_->spare.empty()) {
+        Rooms rooms = std::move(floor_->spare.back());
+        floor_->spare.pop_back();
+        pieces_ = std::move(rooms.pieces);
+        nets_ = std::move(rooms.nets);
+        weights_ = std::move(rooms.weights);
+        outlines_ = std::move(rooms.outlines);
+    }
 }
 
 void DropCutter::State::begin_with_whole_pieces()

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct DropCutter::State {
     // As `other` was before any query, edge gouges aside.
     struct ForThread {};
     State(const State& other, ForThread tag);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     // The queries of DropCutter.
     std::optional<ClPoint> drop(Vec2d at, double max_error);
@@ -207,6 +211,13 @@ struct DropCutter::State {
     // The contact (drop_cutter_section.cpp).
     std::optional<CcPoint> cc_point_on(const Piece& piece, double height, double u, double v) const;
 
+    // The lists of a cutter, for their room.
+    struct Rooms {
+        std::vector<Piece> pieces;
+        std::vector<Vec3d> nets;
+        std::vector<double> weights;
+        std::vector<Outline> outlines;
+    };
     // What queries do not change, shared by the cutters of several threads.
     struct Floor {
         std::vector<nurbs::Surface> surfaces;
@@ -219,7 +230,13 @@ struct DropCutter::State {
         std::vector<Outline> outlines;
         double lowest{kUnbounded};
         double highest{-kUnbounded};
+        // Rooms of cutters that are gone.
+        mutable std::mutex guard;
+        mutable std::vector<Rooms> spare;
     };
+    // Takes the rooms of a cutter that is gone, if there is one: pages that are given back to the
+    // system and taken anew cost more than their content.
+    void take_spare_rooms();
     const Patch& patch_of(const Piece& piece) const { return floor_->patches[piece.patch]; }
     void add_patches(Floor& floor, std::uint32_t s, std::vector<Piece>& whole);
     void begin_with_whole_pieces();
