@@ -68,7 +68,7 @@ void Planner::add_stretch(StretchAhead& ahead) noexcept
         }
         whole.end = ahead.stretch.end;
         whole.derivatives = larger(whole.derivatives, ahead.stretch.derivatives);
-        allowed = stricter(allowed, ahead.allowance);
+        restrict_to(allowed, ahead.allowance);
     }
     stretch_end_ = whole.end;
     if (whole.end == begin) {

@@ -112,29 +112,47 @@ PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexc
     return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};
 }
 
-Allowance stricter(const Allowance& a, const Allowance& b) noexcept
+void restrict_to(Allowance& a, const Allowance& b) noexcept
 {
-    Allowance both;
-    both.cap = std::min(a.cap, b.cap);
-    both.feed = std::min(a.feed, b.feed);
-    const float part_of_a = both.cap / a.cap;
-    const float part_of_b = both.cap / b.cap;
+    // The lower cap over itself is 1.
+    const bool by_b = b.cap < a.cap;
+    const float part_of_a = by_b ? b.cap / a.cap : 1.0F;
+    const float part_of_b = by_b ? 1.0F : a.cap / b.cap;
     const auto least = [&](const Line& of_a, const Line& of_b) {
         return Line{std::min(of_a.at_rest, of_b.at_rest),
                     std::min(value(of_a, part_of_a), value(of_b, part_of_b))};
     };
-    both.by_acceleration = least(a.by_acceleration, b.by_acceleration);
-    both.by_jerk = {
-        std::min(a.by_jerk.at_rest, b.by_jerk.at_rest),
-        std::min(value(a.by_jerk, 0.5F * part_of_a), value(b.by_jerk, 0.5F * part_of_b)),
-        std::min(value(a.by_jerk, part_of_a), value(b.by_jerk, part_of_b))};
-    both.jerk_left = {1, 1};
-    if (!a.jerk_left.at_cap.is_whole() || !b.jerk_left.at_cap.is_whole()) {
+    a.cap = by_b ? b.cap : a.cap;
+    a.feed = std::min(a.feed, b.feed);
+    a.by_acceleration = least(a.by_acceleration, b.by_acceleration);
+    a.by_jerk = {std::min(a.by_jerk.at_rest, b.by_jerk.at_rest),
+                 std::min(value(a.by_jerk, 0.5F * part_of_a), value(b.by_jerk, 0.5F * part_of_b)),
+                 std::min(value(a.by_jerk, part_of_a), value(b.by_jerk, part_of_b))};
+    if (a.jerk_left.at_cap.is_whole() && b.jerk_left.at_cap.is_whole()) {
+        a.jerk_left = {1, 1};
+    } else {
         const Line left = least(line(a.jerk_left), line(b.jerk_left));
-        both.jerk_left = {left.at_rest, left.at_cap};
+        a.jerk_left = {left.at_rest, left.at_cap};
     }
-    both.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
-    return both;
+    a.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
+}
+
+// What is bounded by kUnlimited stays; a line's value at its cap need not be at_cap itself, for
+// rounding.
+void restrict_to_feed(Allowance& a, float squared_feed) noexcept
+{
+    const auto again = [](const Line& line) {
+        return Line{line.at_rest, value(line, 1.0F)};
+    };
+    a.feed = std::min(a.feed, squared_feed);
+    a.by_acceleration = again(a.by_acceleration);
+    a.by_jerk.at_half = value(a.by_jerk, 0.5F);
+    if (a.jerk_left.at_cap.is_whole()) {
+        a.jerk_left = {1, 1};
+    } else {
+        const Line left = again(line(a.jerk_left));
+        a.jerk_left = {left.at_rest, left.at_cap};
+    }
 }
 
 bool binds(const Allowance& a, const Allowance& b) noexcept

@@ -105,8 +105,11 @@ inline constexpr Line kNoLine{kUnlimited, kUnlimited};
 inline constexpr BentLine kNoBentLine{kUnlimited, kUnlimited, kUnlimited};
 inline constexpr Allowance kAllowsAll{kUnlimited, kUnlimited, kNoLine, kNoBentLine, {1, 1}, 1};
 
-// Holds wherever both a and b hold.
-Allowance stricter(const Allowance& a, const Allowance& b) noexcept;
+// Leaves of `a` what holds wherever both a and b hold. Precondition: caps are above 0.
+void restrict_to(Allowance& a, const Allowance& b) noexcept;
+
+// As restrict_to() with an allowance of all but a faster feed, the same bits.
+void restrict_to_feed(Allowance& a, float squared_feed) noexcept;
 
 // Whether b allows something that a does not.
 bool binds(const Allowance& a, const Allowance& b) noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <string>
 
@@ -128,7 +129,8 @@ TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
         };
         const Allowance a = any();
         const Allowance b = any();
-        const Allowance both = stricter(a, b);
+        Allowance both = a;
+        restrict_to(both, b);
         CHECK(!binds(a, both) || a.cap == both.cap);
         CHECK(both.cap <= a.cap);
         for (int step = 0; step <= 8; ++step) {
@@ -144,6 +146,43 @@ TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
             CHECK(at(both.by_acceleration, both.cap) <=
                   at(a.by_acceleration, a.cap) * 1.0001F + 0.01F);
             CHECK(bent_at(both.by_jerk, both.cap) <= bent_at(a.by_jerk, a.cap) * 1.0001F + 0.01F);
+        }
+    }
+}
+
+TEST(SpeedLimit, AFeedAloneRestrictsToTheSameBits)
+{
+    std::mt19937_64 random{kLimitSeed + 2};
+    const auto any = [&random](unsigned k) {
+        const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
+                                   any_vector(random, 1e-4, 40)};
+        Allowance allowed = allowance(path, {}, kFilterTime, kUnlimited, 300.0F);
+        allowed.feed = std::uniform_real_distribution<float>{1, 1e4F}(random);
+        const auto share = [&random] {
+            return std::uniform_real_distribution<float>{0.02F, 1}(random);
+        };
+        if (k % 3 != 0) {
+            const float at_cap = share();
+            allowed.jerk_left = {k % 3 == 1 ? at_cap : share(), at_cap};
+            allowed.acceleration_left = share();
+        }
+        return allowed;
+    };
+    const auto same_bits = [](const Allowance& a, const Allowance& b) {
+        return std::memcmp(&a, &b, sizeof(Allowance)) == 0;
+    };
+    for (unsigned k = 0; k < 5000; ++k) {
+        Allowance feed = kAllowsAll;
+        feed.feed = any(0).feed;
+        Allowance one = any(k);
+        Allowance other = one;
+        for (unsigned i = 0; i < 2; ++i) {
+            CHECK_EQUAL(feed.feed < one.feed, binds(feed, one));
+            restrict_to(one, feed);
+            restrict_to_feed(other, feed.feed);
+            CHECK(same_bits(one, other));
+            restrict_to(one, any(k + 1));
+            other = one;
         }
     }
 }
