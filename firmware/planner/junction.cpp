@@ -16,11 +16,6 @@ struct Shares {
 
 float greater(const Shares& shares) noexcept { return std::max(shares.acceleration, shares.jerk); }
 
-Vec3f smaller(Vec3f a, Vec3f b) noexcept
-{
-    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-
 // Combined effect of jumps of curvature at the speed v, 1/mm: the largest net change. Where the
 // speed has a minimum between them, its decrease is bounded by jerk along the path.
 Vec3f counted_curvature(const JunctionRun& run,

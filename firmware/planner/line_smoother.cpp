@@ -198,7 +198,7 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     const bool one_sided = index == from || index == to;
     const std::size_t terms = std::min<std::size_t>(count, one_sided ? kTerms - 1 : kTerms);
-    LaneVec place = to_lanes({});
+    LaneVec place = all_lanes(0.0F);
     LaneVec slope = place;
     LaneVec bend = place;
     // Value, first and second derivative at the knot, of this polynomial and the one before.
@@ -232,7 +232,7 @@ float LineSmoother::fit_knot(std::size_t index,
         square_before = square;
         square = 0;
         moment = 0;
-        product = to_lanes({});
+        product = all_lanes(0.0F);
         // The vertices leave this polynomial and meet the next.
         for (std::size_t i = 0; i < count; ++i) {
             float next = x[i] - shift;
@@ -292,7 +292,7 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
     for (std::size_t i = 0; i < last; ++i) {
         whole += norm(scaled_difference(vertices[i + 1].at, vertices[i].at, kMillimetre));
     }
-    const LaneQuintic piece = lane_quintic(fit.piece, fit.chord);
+    const LaneQuintic piece = lane_quintic(fit.piece.bulge, fit.chord);
     const LaneVec start = to_lanes(start_.at);
     LaneVec before = to_lanes(-start_.at);
     for (std::size_t i = 1; i <= last; ++i) {

@@ -27,12 +27,13 @@ float cube_root(float q) noexcept
 
 // The least of the cube roots. Rounding aside a root rises with its cube: of all floats below 1e15
 // none has a root below that of one smaller by more than 7e-8 of it.
+constexpr float kNextCube = 1.0F + 1e-4F;
+
 float least_root(Vec3f cubes, float least_cube) noexcept
 {
-    constexpr float kNext = 1e-4F;
     float least = cube_root(least_cube);
     for (const float cube : {cubes.x, cubes.y, cubes.z}) {
-        if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
+        if (cube != least_cube && cube <= kNextCube * least_cube) {
             least = std::min(least, cube_root(cube));
         }
     }
@@ -59,24 +60,27 @@ void straighten(BentLine& bent) noexcept
     bent.at_rest = std::min(bent.at_rest, 2.0F * bent.at_half - bent.at_cap);
 }
 
-// Under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From y = 1/2 on
-// it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to there
-// not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
-// at 1 and at 1/2.
-BentLine jerk_bound(float j, float k, float p, float q) noexcept
+// Of each axis under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From
+// y = 1/2 on it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to
+// there not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
+// at 1 and at 1/2. Returns the least of the axes.
+BentLine jerk_bound(LaneVec j, LaneVec k, LaneVec p, LaneVec q) noexcept
 {
     constexpr float kRootOfHalf = 0.70710678F;
-    const float whole = p + q;
-    const float at_cap = (j - k) / whole;
-    const float fall = (k * (2.0F - kRootOfHalf) * whole + (j - k) * 0.5F * q) / (whole * whole);
-    const float part = p + kRootOfHalf * q;
-    const float rest = j - 0.5F * kRootOfHalf * k;
-    BentLine bent;
-    bent.at_cap = at_cap;
-    bent.at_half = at_cap + 0.5F * fall;
-    bent.at_rest = rest / part + 0.5F * kRootOfHalf * (k * part + rest * q) / (part * part);
-    straighten(bent);
-    return bent;
+    const LaneVec whole = p + q;
+    const LaneVec left = j - k;
+    const LaneVec at_cap = quotient(left, whole);
+    const LaneVec fall = quotient(
+        product(k * (2.0F - kRootOfHalf), whole) + product(left * 0.5F, q), product(whole, whole));
+    const LaneVec part = p + q * kRootOfHalf;
+    const LaneVec rest = j - k * (0.5F * kRootOfHalf);
+    const LaneVec at_half = at_cap + fall * 0.5F;
+    const LaneVec at_rest =
+        quotient(rest, part) +
+        quotient((product(k, part) + product(rest, q)) * (0.5F * kRootOfHalf), product(part, part));
+    // As straighten().
+    return {least(kUnlimited, smaller(at_rest, at_half * 2.0F - at_cap)),
+            least(kUnlimited, at_half), least(kUnlimited, at_cap)};
 }
 
 // The acceleration u with which a bound r - d (v + h u)^2 is u itself.
@@ -220,7 +224,7 @@ float greatest_speed(const Allowance& allowance, bool rapid) noexcept
     return std::sqrt(std::min(allowance.cap, feed));
 }
 
-Allowance allowance(const PathDerivatives& derivatives,
+Allowance allowance(const LaneDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,
@@ -228,47 +232,32 @@ Allowance allowance(const PathDerivatives& derivatives,
                     float jerk_share) noexcept
 {
     const auto& [first, second, third] = derivatives;
-    float cap = max_speed * max_speed;
-    float least_cube = kUnlimited;
-    const auto cube_of = [&](float p3, float j) {
-        return jerk_share * j / std::max(p3, kTiny);
-    };
-    const auto cap_axis = [&](float p1, float p2, float cube, float v, float a) {
-        const float ratio = v / std::max(p1, kTiny);
-        cap = std::min(cap, ratio < 1e12F ? ratio * ratio : kUnlimited);
-        cap = std::min(cap, kCentripetalShare * a / std::max(p2, kTiny));
-        least_cube = std::min(least_cube, cube);
-    };
-    const auto& [velocity, acceleration, jerk] = limits;
-    const Vec3f cubes{cube_of(third.x, jerk.x), cube_of(third.y, jerk.y), cube_of(third.z, jerk.z)};
-    cap_axis(first.x, second.x, cubes.x, velocity.x, acceleration.x);
-    cap_axis(first.y, second.y, cubes.y, velocity.y, acceleration.y);
-    cap_axis(first.z, second.z, cubes.z, velocity.z, acceleration.z);
-    if (least_cube < 1e15F) {
-        const float jerk_speed = least_root(cubes, least_cube);
-        cap = std::min(cap, jerk_speed * jerk_speed);
-    }
+    const LaneVec tiny = all_lanes(kTiny);
+    const LaneVec acceleration = to_lanes(limits.acceleration);
+    const LaneVec jerk = to_lanes(limits.jerk);
+    const LaneVec along = larger(first, tiny);
+    const LaneVec ratio = quotient(to_lanes(limits.velocity), along);
+    float cap = least(max_speed * max_speed, product(ratio, ratio));
+    cap = least(cap, quotient(acceleration * kCentripetalShare, larger(second, tiny)));
     cap = std::min(cap, max_centripetal / std::max(norm(second), kTiny));
+    float speed = std::sqrt(cap);
+    const LaneVec cubes = quotient(jerk * jerk_share, larger(third, tiny));
+    const float least_cube = least(kUnlimited, cubes);
+    // No root, mostly: of a cube above that of the speed the square is above the cap, as
+    // cube_root() is below the true root by less than 1e-6 of it.
+    if (least_cube < 1e15F && least_cube < kNextCube * cap * speed) {
+        const float jerk_speed = least_root(to_vec(cubes), least_cube);
+        cap = std::min(cap, jerk_speed * jerk_speed);
+        speed = std::sqrt(cap);
+    }
 
-    const float speed = std::sqrt(cap);
-    Allowance least = kAllowsAll;
-    least.cap = cap;
-    const auto limit_axis = [&](float p1, float p2, float p3, float a, float j) {
-        const float along = std::max(p1, kTiny);
-        const float inward = p2 * cap;
-        Line& by_acceleration = least.by_acceleration;
-        by_acceleration.at_rest = std::min(by_acceleration.at_rest, a / along);
-        by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - inward) / along);
-        const BentLine bent = jerk_bound(j, p3 * speed * cap, along / filter_s, 3.0F * p2 * speed);
-        BentLine& by_jerk = least.by_jerk;
-        by_jerk.at_rest = std::min(by_jerk.at_rest, bent.at_rest);
-        by_jerk.at_half = std::min(by_jerk.at_half, bent.at_half);
-        by_jerk.at_cap = std::min(by_jerk.at_cap, bent.at_cap);
-    };
-    limit_axis(first.x, second.x, third.x, acceleration.x, jerk.x);
-    limit_axis(first.y, second.y, third.y, acceleration.y, jerk.y);
-    limit_axis(first.z, second.z, third.z, acceleration.z, jerk.z);
-    return least;
+    Allowance allowed = kAllowsAll;
+    allowed.cap = cap;
+    allowed.by_acceleration = {least(kUnlimited, quotient(acceleration, along)),
+                               least(kUnlimited, quotient(acceleration - second * cap, along))};
+    allowed.by_jerk =
+        jerk_bound(jerk, third * speed * cap, along / filter_s, second * 3.0F * speed);
+    return allowed;
 }
 
 }  // namespace cusp::planner

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/vec.hpp"
 
@@ -16,9 +17,29 @@ struct PathDerivatives {
     Vec3f third;
 };
 
+// The same, as they are reckoned.
+struct LaneDerivatives {
+    LaneVec first;
+    LaneVec second;
+    LaneVec third;
+};
+
+inline LaneDerivatives to_lanes(const PathDerivatives& a) noexcept
+{
+    return {cusp::to_lanes(a.first), cusp::to_lanes(a.second), cusp::to_lanes(a.third)};
+}
+inline PathDerivatives to_vec(const LaneDerivatives& a) noexcept
+{
+    return {cusp::to_vec(a.first), cusp::to_vec(a.second), cusp::to_vec(a.third)};
+}
+
 // The larger of both, axis by axis.
 Vec3f larger(Vec3f a, Vec3f b) noexcept;
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
+inline LaneDerivatives larger(const LaneDerivatives& a, const LaneDerivatives& b) noexcept
+{
+    return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};
+}
 
 // A share of a limit in [0, 1], kept in 16 bits: 1 is exact, others are rounded down.
 class Share {
@@ -52,19 +73,26 @@ struct SpeedLimit {
     // mm/s^2, at a speed, mm/s, with half the length of the path filter, s, that it was made for.
     float acceleration_at(float speed, float half_filter) const noexcept
     {
-        if (at_rest == least) {
+        return at_rest == least ? least : acceleration_below(speed, least_from(half_filter));
+    }
+
+    // mm/s: from there on the acceleration is the least.
+    float least_from(float half_filter) const noexcept
+    {
+        return std::sqrt(cap) - half_filter * least;
+    }
+    // As acceleration_at(), `from` being least_from(). Precondition: at_rest != least.
+    float acceleration_below(float speed, float from) const noexcept
+    {
+        if (speed >= from) {
             return least;
         }
-        const float least_from = std::sqrt(cap) - half_filter * least;
-        if (speed >= least_from) {
-            return least;
-        }
-        const float quarters = 4.0F * speed / least_from;
+        const float quarters = 4.0F * speed / from;
+        const float at_half = at_rest * half;
         if (quarters < 2.0F) {
-            return at_rest - (at_rest - at_rest * half) * (0.5F * quarters);
+            return at_rest - (at_rest - at_half) * (0.5F * quarters);
         }
         const float at_most = at_rest * most;
-        const float at_half = at_rest * half;
         return quarters < 3.0F ? at_half - (at_half - at_most) * (quarters - 2.0F)
                                : at_most - (at_most - least) * (quarters - 3.0F);
     }
@@ -142,11 +170,11 @@ inline constexpr float kTransitionJerkShare = 0.9F;
 //   filter_s         length of the path filter, s, > 0: jerk along the path is at most
 //                    acceleration/filter_s.
 //   max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by the axis filters.
-//   max_speed        mm/s; another bound of the speed.
+//   max_speed        mm/s, < 1e12; another bound of the speed.
 //
 // Each axis keeps  |P'| u + |P''| v^2 <= a  and  |P'| u/filter_s + 3 |P''| v u + |P'''| v^3 <= j.
 // Source: docs/numerics.md, "Limits along the path".
-Allowance allowance(const PathDerivatives& derivatives,
+Allowance allowance(const LaneDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,

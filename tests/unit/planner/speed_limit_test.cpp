@@ -68,8 +68,8 @@ TEST(SpeedLimit, KeepsEveryAxisWithinItsLimitsThoughTheToolIsFaster)
     std::mt19937_64 random{kLimitSeed};
     for (int k = 0; k < 5000; ++k) {
         const PathDerivatives path = any_path(random);
-        const SpeedLimit limit =
-            speed_limit(allowance(path, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+        const SpeedLimit limit = speed_limit(
+            allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
         CHECK(limit.least >= 0);
         const double greatest = std::sqrt(static_cast<double>(limit.cap));
         for (int step = 0; step <= 40; ++step) {
@@ -89,8 +89,8 @@ TEST(SpeedLimit, AllowsNearlyAllThatTheAxesDoWhereOneBendsAlone)
 {
     for (const float third : {0.01F, 0.3F, 10.0F}) {
         const PathDerivatives path{{1, 0, 0}, {}, {third, 0, 0}};
-        const SpeedLimit limit =
-            speed_limit(allowance(path, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+        const SpeedLimit limit = speed_limit(
+            allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
         const double greatest = std::sqrt(static_cast<double>(limit.cap));
         for (int step = 0; step <= 40; ++step) {
             const double v = greatest * step / 40;
@@ -111,8 +111,8 @@ TEST(SpeedLimit, AllowsNearlyAllThatTheAxesDoWhereOneBendsAlone)
 TEST(SpeedLimit, ALineMayUseAllOfItsAxis)
 {
     const PathDerivatives along_x{{1, 0, 0}, {}, {}};
-    const SpeedLimit limit =
-        speed_limit(allowance(along_x, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+    const SpeedLimit limit = speed_limit(
+        allowance(to_lanes(along_x), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
     DOUBLES_EQUAL(100.0 * 100.0, static_cast<double>(limit.cap), 0.1);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.at_rest), 0.01);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.least), 0.01);
@@ -125,7 +125,7 @@ TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
         const auto any = [&random] {
             const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
                                        any_vector(random, 1e-4, 40)};
-            return allowance(path, {}, kFilterTime, kUnlimited, 300.0F);
+            return allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 300.0F);
         };
         const Allowance a = any();
         const Allowance b = any();
@@ -156,7 +156,7 @@ TEST(SpeedLimit, AFeedAloneRestrictsToTheSameBits)
     const auto any = [&random](unsigned k) {
         const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
                                    any_vector(random, 1e-4, 40)};
-        Allowance allowed = allowance(path, {}, kFilterTime, kUnlimited, 300.0F);
+        Allowance allowed = allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 300.0F);
         allowed.feed = std::uniform_real_distribution<float>{1, 1e4F}(random);
         const auto share = [&random] {
             return std::uniform_real_distribution<float>{0.02F, 1}(random);
