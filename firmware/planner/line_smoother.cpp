@@ -123,13 +123,13 @@ void LineSmoother::add(const path::Move& move) noexcept
         origin_ = move.start;
         has_start_ = false;
         lines_before_ = 1;
-        (void)vertices_.try_push_back({{}, move.line});
+        (void)vertices_.try_push_back({{}, move.line, 0});
     }
     const Position from = move.end - origin_;
-    const bool added = vertices_.try_push_back(
-        {{static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
-          static_cast<std::int32_t>(from.z)},
-         move.line});
+    const Vec3<std::int32_t> at{static_cast<std::int32_t>(from.x),
+                                static_cast<std::int32_t>(from.y),
+                                static_cast<std::int32_t>(from.z)};
+    const bool added = vertices_.try_push_back({at, move.line, travel(vertices_.back().at, at)});
     CUSP_ASSERT(added);
 }
 
@@ -148,11 +148,12 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 // How many lines before a vertex, and after it, a knot takes.
 std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
 {
+    const std::size_t most = std::min(index, kBeyond);
     std::size_t lines = 0;
     const Vertex* vertex = vertices_.begin() + index;
-    for (std::int32_t sum = 0; lines < std::min(index, kBeyond) && sum < kKnotTravel; ++lines) {
+    for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
+        sum += vertex->travel;
         --vertex;
-        sum += travel(vertex[0].at, vertex[1].at);
     }
     return lines;
 }
@@ -163,8 +164,8 @@ std::size_t LineSmoother::knot_lines_after(std::size_t index) const noexcept
     std::size_t lines = 0;
     const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
-        sum += travel(vertex[0].at, vertex[1].at);
         ++vertex;
+        sum += vertex->travel;
     }
     return lines;
 }
@@ -406,13 +407,16 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 
 void LineSmoother::drop(std::size_t count) noexcept
 {
-    const std::size_t left = vertices_.size() - count;
-    const Vec3<std::int32_t> first = vertices_[count].at;
-    origin_ = origin_ + Position{first.x, first.y, first.z};
-    for (std::size_t i = 0; i < left; ++i) {
-        vertices_[i] = {vertices_[i + count].at - first, vertices_[i + count].line};
+    std::copy(vertices_.begin() + count, vertices_.end(), vertices_.begin());
+    vertices_.shrink(vertices_.size() - count);
+    const Vec3<std::int32_t> first = vertices_[0].at;
+    if (travel({}, first) <= kFarthest) {
+        return;
     }
-    vertices_.shrink(left);
+    origin_ = origin_ + Position{first.x, first.y, first.z};
+    for (Vertex& vertex : vertices_) {
+        vertex.at = vertex.at - first;
+    }
 }
 
 }  // namespace cusp::planner
