@@ -16,7 +16,11 @@ float braking(const SpeedLimit& limit, float end, float length, float half_filte
     }
     // The acceleration at no less than the highest speed of the interval, which is the least.
     const float least_from = limit.least_from(half_filter);
-    const float most = limit.acceleration_below(std::sqrt(end), least_from);
+    const float slowest = std::sqrt(end);
+    if (slowest >= least_from) {
+        return limit.least;
+    }
+    const float most = limit.acceleration_below(slowest, least_from);
     const float fastest = std::min(end + 2.0F * length * most, limit.cap);
     return limit.acceleration_below(std::sqrt(fastest), least_from);
 }

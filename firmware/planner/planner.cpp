@@ -244,13 +244,8 @@ bool Planner::waits() const noexcept
     if (close_requested_ || queue.published() == begin) {
         return false;
     }
-    if (kIntervalCount - (queue.interval_end() - begin) <= kIntervalsOfAStretch) {
-        return true;
-    }
-    if (next_stretch_ != stretches_) {
-        return false;
-    }
-    return (starved_ && maker_.done()) || queue.free_blocks() == 0 || queue.free_curves() == 0;
+    return starved_ || kIntervalCount - (queue.interval_end() - begin) <= kIntervalsOfAStretch ||
+           (next_stretch_ == stretches_ && (queue.free_blocks() == 0 || queue.free_curves() == 0));
 }
 
 void Planner::go_on() noexcept

@@ -154,7 +154,8 @@ private:
     // The next to add, where there is one: reckoned once, also where there is no room for it yet.
     std::optional<StretchAhead> ahead_;
     bool within_move_{false};  // a block of move_ is on the path
-    // The moves so far make no further one: until another comes there is nothing to do.
+    // The moves so far make no further one, and all made are on the path: until another comes there is
+    // nothing to do.
     bool starved_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;

@@ -83,26 +83,40 @@ BentLine jerk_bound(LaneVec j, LaneVec k, LaneVec p, LaneVec q) noexcept
             least(kUnlimited, at_half), least(kUnlimited, at_cap)};
 }
 
-// The acceleration u with which a bound r - d (v + h u)^2 is u itself.
-float behind(float r, float d, float v, float h) noexcept
+// A bound r - d v^2 of the acceleration at the speed v of the tool.
+struct Fall {
+    float r;
+    float d;
+};
+
+// The acceleration u with which a bound at the speed v + h u is u itself.
+float behind(const Fall& bound, float v, float h) noexcept
 {
-    const float left = r - d * v * v;
+    const float d = bound.d;
+    const float left = bound.r - d * v * v;
     const float b = 1.0F + 2.0F * d * v * h;
     return 2.0F * left / (b + std::sqrt(b * b + 4.0F * d * h * h * left));
 }
 
-// Under both lines: the first holds where the tool is at no more than half the cap.
-float behind(const BentLine& bent, float cap, float v, float h) noexcept
-{
-    const float twice = 2.0F / cap;
-    const float u = behind(bent.at_rest, twice * (bent.at_rest - bent.at_half), v, h);
-    const float tool = v + h * u;
-    if (twice * tool * tool <= 1.0F) {
-        return u;
+// Under both lines of a bound: the first holds where the tool is at no more than half the cap.
+struct TwoFalls {
+    TwoFalls(const BentLine& bent, float cap) noexcept
+        : twice{2.0F / cap},
+          first{bent.at_rest, twice * (bent.at_rest - bent.at_half)},
+          second{bent.at_half + (bent.at_half - bent.at_cap), twice * (bent.at_half - bent.at_cap)}
+    {
     }
-    const float fall = bent.at_half - bent.at_cap;
-    return behind(bent.at_half + fall, twice * fall, v, h);
-}
+    float behind(float v, float h) const noexcept
+    {
+        const float u = planner::behind(first, v, h);
+        const float tool = v + h * u;
+        return twice * tool * tool <= 1.0F ? u : planner::behind(second, v, h);
+    }
+
+    float twice;  // over the cap
+    Fall first;
+    Fall second;
+};
 
 }  // namespace
 
@@ -118,26 +132,30 @@ PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexc
 
 void restrict_to(Allowance& a, const Allowance& b) noexcept
 {
-    // The lower cap over itself is 1.
+    // The lower cap is all of itself.
     const bool by_b = b.cap < a.cap;
-    const float part_of_a = by_b ? b.cap / a.cap : 1.0F;
-    const float part_of_b = by_b ? 1.0F : a.cap / b.cap;
-    const auto least = [&](const Line& of_a, const Line& of_b) {
-        return Line{std::min(of_a.at_rest, of_b.at_rest),
-                    std::min(value(of_a, part_of_a), value(of_b, part_of_b))};
+    const Allowance& low = by_b ? b : a;
+    const Allowance& high = by_b ? a : b;
+    const float part = low.cap / high.cap;
+    const auto least = [part](const Line& of_low, const Line& of_high) {
+        return Line{std::min(of_low.at_rest, of_high.at_rest),
+                    std::min(value(of_low, 1.0F), value(of_high, part))};
     };
-    a.cap = by_b ? b.cap : a.cap;
-    a.feed = std::min(a.feed, b.feed);
-    a.by_acceleration = least(a.by_acceleration, b.by_acceleration);
-    a.by_jerk = {std::min(a.by_jerk.at_rest, b.by_jerk.at_rest),
-                 std::min(value(a.by_jerk, 0.5F * part_of_a), value(b.by_jerk, 0.5F * part_of_b)),
-                 std::min(value(a.by_jerk, part_of_a), value(b.by_jerk, part_of_b))};
+    const BentLine& jerk = low.by_jerk;
+    const BentLine by_jerk{std::min(jerk.at_rest, high.by_jerk.at_rest),
+                           std::min(value(jerk, 0.5F), value(high.by_jerk, 0.5F * part)),
+                           std::min(jerk.at_cap, value(high.by_jerk, part))};
+    const Line by_acceleration = least(low.by_acceleration, high.by_acceleration);
     if (a.jerk_left.at_cap.is_whole() && b.jerk_left.at_cap.is_whole()) {
         a.jerk_left = {1, 1};
     } else {
-        const Line left = least(line(a.jerk_left), line(b.jerk_left));
+        const Line left = least(line(low.jerk_left), line(high.jerk_left));
         a.jerk_left = {left.at_rest, left.at_cap};
     }
+    a.cap = low.cap;
+    a.feed = std::min(a.feed, b.feed);
+    a.by_acceleration = by_acceleration;
+    a.by_jerk = by_jerk;
     a.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
 }
 
@@ -211,9 +229,10 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept
     SpeedLimit limit{allowance.cap, least, least, allowance.feed, 1.0F, 1.0F};
     const float least_from = std::sqrt(allowance.cap) - half_filter * least;
     if (bent.at_rest > least && least_from > 0) {
-        limit.at_rest = behind(bent, allowance.cap, 0.0F, half_filter);
-        limit.half = behind(bent, allowance.cap, 0.5F * least_from, half_filter) / limit.at_rest;
-        limit.most = behind(bent, allowance.cap, 0.75F * least_from, half_filter) / limit.at_rest;
+        const TwoFalls falls{bent, allowance.cap};
+        limit.at_rest = falls.behind(0.0F, half_filter);
+        limit.half = falls.behind(0.5F * least_from, half_filter) / limit.at_rest;
+        limit.most = falls.behind(0.75F * least_from, half_filter) / limit.at_rest;
     }
     return limit;
 }
