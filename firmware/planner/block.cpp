@@ -359,40 +359,49 @@ StretchReader::Place StretchReader::place_at(unsigned index) const noexcept
     return place;
 }
 
-LaneDerivatives StretchReader::bounds_to(Place& to) const noexcept
+LaneDerivatives StretchReader::bounds_to(const Place& to) const noexcept
 {
-    switch (block_.shape) {
-        case BlockShape::kArc:
-            return to_lanes(
-                arc_derivatives(block_.arc, begin_.turn, to.turn, to.part * sweep(block_)));
-        case BlockShape::kCurve:
-            return curve_derivatives(begin_.state,
-                                     curve_state(*block_.curve, 0.5F * (begin_.u + to.u)), to.state,
-                                     to.s - begin_.s);
-        case BlockShape::kQuintic: {
-            const QuinticFrame frame = quintic_frame(block_);
-            to.state = quintic_state(frame, to.part);
-            return quintic_derivatives(begin_.state,
-                                       quintic_state(frame, 0.5F * (begin_.part + to.part)),
-                                       to.state, length_mm(block_) * (to.part - begin_.part));
-        }
-        case BlockShape::kLine:
-            break;
+    if (block_.shape == BlockShape::kArc) {
+        return to_lanes(arc_derivatives(block_.arc, begin_.turn, to.turn, to.part * sweep(block_)));
+    }
+    if (block_.shape == BlockShape::kCurve) {
+        return curve_derivatives(begin_.state, curve_state(*block_.curve, 0.5F * (begin_.u + to.u)),
+                                 to.state, to.s - begin_.s);
     }
     return to_lanes(line_derivatives(block_));
+}
+
+// Where a stretch ends that ends at a part of the block.
+std::uint32_t StretchReader::end_at(float part) const noexcept
+{
+    return next_ == count_ ? block_.length
+                           : static_cast<std::uint32_t>(static_cast<float>(block_.length) * part);
 }
 
 Stretch StretchReader::next() noexcept
 {
     ++next_;
-    Place to = place_at(next_);
-    Stretch stretch{block_.length, bounds_to(to)};
-    if (next_ != count_) {
-        const float part =
-            block_.shape == BlockShape::kCurve ? to.s / block_.curve->table.length() : to.part;
-        stretch.end = static_cast<std::uint32_t>(static_cast<float>(block_.length) * part);
+    if (block_.shape == BlockShape::kQuintic) {
+        return next_of_quintic();
     }
+    const Place to = place_at(next_);
+    const bool is_curve = block_.shape == BlockShape::kCurve;
+    const Stretch stretch{end_at(is_curve ? to.s / block_.curve->table.length() : to.part),
+                          bounds_to(to)};
     begin_ = to;
+    return stretch;
+}
+
+Stretch StretchReader::next_of_quintic() noexcept
+{
+    const QuinticFrame frame = quintic_frame(block_);
+    const float part = static_cast<float>(next_) / static_cast<float>(count_);
+    const LaneDerivatives middle = quintic_state(frame, 0.5F * (begin_.part + part));
+    const LaneDerivatives end = quintic_state(frame, part);
+    const float length = length_mm(block_) * (part - begin_.part);
+    const Stretch stretch{end_at(part), quintic_derivatives(begin_.state, middle, end, length)};
+    begin_.part = part;
+    begin_.state = end;
     return stretch;
 }
 

@@ -144,7 +144,9 @@ private:
         SinCos<float> turn;     // of the angle on an arc
     };
     Place place_at(unsigned index) const noexcept;
-    LaneDerivatives bounds_to(Place& to) const noexcept;
+    LaneDerivatives bounds_to(const Place& to) const noexcept;
+    std::uint32_t end_at(float part) const noexcept;
+    Stretch next_of_quintic() noexcept;
 
     const Block& block_;
     unsigned next_;

@@ -189,17 +189,29 @@ void IntervalBuilder::spread_feed_back(float distance, float squared_feed) noexc
                 [squared_feed](const Allowance& other) { return squared_feed < other.feed; });
 }
 
+template <class Keep>
+void IntervalBuilder::keep_carries(Keep keep) noexcept
+{
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < carries_.size(); ++i) {
+        if (!keep(carries_[i])) {
+            continue;
+        }
+        if (kept != i) {
+            carries_[kept] = carries_[i];
+        }
+        ++kept;
+    }
+    carries_.shrink(kept);
+}
+
 // Drops the carried limits that end within `distance`.
 void IntervalBuilder::travel(float distance) noexcept
 {
-    std::size_t kept = 0;
     for (Carry& carried : carries_) {
         carried.distance -= distance;
-        if (carried.distance > kShortestPiece) {
-            carries_[kept++] = carried;
-        }
     }
-    carries_.shrink(kept);
+    keep_carries([](const Carry& carried) { return carried.distance > kShortestPiece; });
 }
 
 void IntervalBuilder::carry(float distance, const Allowance& allowance, bool feed_alone) noexcept
@@ -208,13 +220,9 @@ void IntervalBuilder::carry(float distance, const Allowance& allowance, bool fee
         return;
     }
     // One that is nowhere stricter and ends no later is not needed.
-    std::size_t kept = 0;
-    for (const Carry& carried : carries_) {
-        if (carried.distance > distance || binds(carried.allowance, allowance)) {
-            carries_[kept++] = carried;
-        }
-    }
-    carries_.shrink(kept);
+    keep_carries([&](const Carry& carried) {
+        return carried.distance > distance || binds(carried.allowance, allowance);
+    });
     if (carries_.full()) {
         merge_closest_carries();
     }

@@ -57,6 +57,8 @@ private:
     void spread_back(float distance, const Allowance& allowance) noexcept;
     void spread_feed_back(float distance, float squared_feed) noexcept;
     void carry(float distance, const Allowance& allowance, bool feed_alone = false) noexcept;
+    template <class Keep>
+    void keep_carries(Keep keep) noexcept;
     void merge_closest_carries() noexcept;
     void travel(float distance) noexcept;
     void append_piece(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "firmware/base/assert.hpp"
 #include "firmware/base/lane_vec.hpp"
@@ -216,6 +217,30 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     float square_before = 1;
     float worst = 0;
+    // The vertices leave a polynomial and meet the next, which the first makes without the one before.
+    const auto pass = [&](LaneVec part, float shift, float back, auto is_first) {
+        square = 0;
+        moment = 0;
+        product = all_lanes(0.0F);
+        for (std::size_t i = 0; i < count; ++i) {
+            float next = x[i] - shift;
+            LaneVec rest = left[i].value;
+            if constexpr (is_first) {
+                rest = rest - part;
+                before[i] = 1.0F;
+            } else {
+                const float v = value[i];
+                rest = rest - part * v;
+                next = next * v - back * before[i];
+                before[i] = v;
+            }
+            value[i] = next;
+            left[i].value = rest;
+            square += next * next;
+            moment += x[i] * next * next;
+            product = product + rest * next;
+        }
+    };
     for (std::size_t k = 0;; ++k) {
         const LaneVec part = product / square;
         place = place + part * now[0];
@@ -231,27 +256,10 @@ float LineSmoother::fit_knot(std::size_t index,
         const float shift = moment / square;
         const float back = k == 0 ? 0.0F : square / square_before;
         square_before = square;
-        square = 0;
-        moment = 0;
-        product = all_lanes(0.0F);
-        // The vertices leave this polynomial and meet the next.
-        for (std::size_t i = 0; i < count; ++i) {
-            float next = x[i] - shift;
-            LaneVec rest = left[i].value;
-            if (k == 0) {
-                rest = rest - part;
-                before[i] = 1.0F;
-            } else {
-                const float v = value[i];
-                rest = rest - part * v;
-                next = next * v - back * before[i];
-                before[i] = v;
-            }
-            value[i] = next;
-            left[i].value = rest;
-            square += next * next;
-            moment += x[i] * next * next;
-            product = product + rest * next;
+        if (k == 0) {
+            pass(part, shift, back, std::true_type{});
+        } else {
+            pass(part, shift, back, std::false_type{});
         }
         const float following[3] = {-shift * now[0] - back * last[0],
                                     now[0] - shift * now[1] - back * last[1],

@@ -237,12 +237,6 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept
     return limit;
 }
 
-float greatest_speed(const Allowance& allowance, bool rapid) noexcept
-{
-    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
-    return std::sqrt(std::min(allowance.cap, feed));
-}
-
 Allowance allowance(const LaneDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,

@@ -1,6 +1,7 @@
 // Limits set by the geometry of a stretch of path: its speed, and the acceleration along it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -152,7 +153,11 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept;
 inline constexpr float kGreatestFeedFactor = 4.0F;
 
 // The fastest that caps and feed allow at any override, mm/s.
-float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
+inline float greatest_speed(const Allowance& allowance, bool rapid) noexcept
+{
+    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
+    return std::sqrt(std::min(allowance.cap, feed));
+}
 
 // Squared speed is capped where the centripetal acceleration takes this part of an axis' limit, so
 // that some is left to change the speed.
