@@ -295,7 +295,6 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
 {
     const float tolerance = kShareOfTolerance * model_.tolerance;
     const float square = tolerance * tolerance;
-    float along = 0;
     float whole = 0;
     const Vertex* const vertices = vertices_.begin();
     for (std::size_t i = 0; i < last; ++i) {
@@ -303,23 +302,29 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
     }
     const LaneQuintic piece = lane_quintic(fit.piece.bulge, fit.chord);
     const LaneVec start = to_lanes(start_.at);
+    // Whether a place of the lines, by their length up to it, is near the piece.
+    const auto is_near = [&](LaneVec place, float along) {
+        const float x = along / whole;
+        const LaneVec off = place - point_at(piece, x);
+        const float distance = dot(off, off);
+        if (distance <= square) {
+            return true;  // whichever way the curve goes
+        }
+        const LaneVec slope = slope_at(piece, x);
+        const float ahead = dot(off, slope);
+        const bool is_off = distance - ahead * ahead / dot(slope, slope) > square;
+        return !is_off;
+    };
+    float along = 0;
     LaneVec before = to_lanes(-start_.at);
     for (std::size_t i = 1; i <= last; ++i) {
         const LaneVec here = scaled_difference(vertices[i].at, vertices[0].at, kMillimetre) - start;
-        const float length = norm(here - before);
-        for (const float part : {0.5F, 1.0F}) {
-            const LaneVec point = before + (here - before) * part;
-            const float x = (along + length * part) / whole;
-            const LaneVec off = point - point_at(piece, x);
-            const float distance = dot(off, off);
-            if (distance <= square) {
-                continue;  // near whichever way the curve goes
-            }
-            const LaneVec slope = slope_at(piece, x);
-            const float ahead = dot(off, slope);
-            if (distance - ahead * ahead / dot(slope, slope) > square) {
-                return false;
-            }
+        const LaneVec line = here - before;
+        const float length = norm(line);
+        // before + line is not here itself, for rounding.
+        if (!is_near(before + line * 0.5F, along + length * 0.5F) ||
+            !is_near(before + line, along + length)) {
+            return false;
         }
         along += length;
         before = here;

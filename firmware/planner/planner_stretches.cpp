@@ -27,14 +27,18 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
-    MachineLimits limits = limits_;
-    if (block.shape == BlockShape::kCurve) {
-        leave_to_rounding(limits, block.filter);
+    const auto within = [&](const MachineLimits& limits) {
+        Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
+                                      kGreatestSpeed, jerk_share(move_));
+        of_part.feed = feed * feed;
+        return of_part;
+    };
+    if (block.shape != BlockShape::kCurve) {
+        return within(limits_);
     }
-    Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
-                                  kGreatestSpeed, jerk_share(move_));
-    of_part.feed = feed * feed;
-    return of_part;
+    MachineLimits limits = limits_;
+    leave_to_rounding(limits, block.filter);
+    return within(limits);
 }
 
 void Planner::read_stretch() noexcept
