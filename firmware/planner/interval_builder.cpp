@@ -94,6 +94,7 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
     const float feed_reach = std::sqrt(kGreatestFeedFactor * allowance.feed) * reach_.feed;
     spread_back(limits_reach, limits);
     spread_feed_back(feed_reach, allowance.feed);
+    greatest_feed_ = std::max(greatest_feed_, allowance.feed);
 
     // Cut where a limit carried over from earlier stretches ends.
     std::uint32_t left = length;
@@ -185,6 +186,9 @@ void IntervalBuilder::spread_back(float distance, const Allowance& allowance) no
 // A feed reaches far over intervals of, mostly, the same feed, and nothing else of it binds.
 void IntervalBuilder::spread_feed_back(float distance, float squared_feed) noexcept
 {
+    if (squared_feed >= greatest_feed_) {
+        return;
+    }
     spread_back(distance, feed_alone(squared_feed),
                 [squared_feed](const Allowance& other) { return squared_feed < other.feed; });
 }
@@ -258,6 +262,7 @@ void IntervalBuilder::merge_closest_carries() noexcept
 void IntervalBuilder::stop(const CornerOverlap& overlap) noexcept
 {
     carries_.clear();
+    greatest_feed_ = 0;
     if (queue_.interval_end() == queue_.published()) {
         return;
     }
@@ -310,6 +315,7 @@ void IntervalBuilder::publish_to(std::uint32_t end) noexcept
 void IntervalBuilder::clear() noexcept
 {
     carries_.clear();
+    greatest_feed_ = 0;
     pending_time_ = 0;
 }
 

@@ -69,6 +69,7 @@ private:
     PathQueue& queue_;
     Reach reach_{};
     StaticVector<Carry, kCarries> carries_;  // in rising order of distance
+    float greatest_feed_{0};                 // squared; no interval not published has a greater one
     std::uint64_t pending_time_{0};          // of the intervals not published, units of 0.1 us
 };
 
