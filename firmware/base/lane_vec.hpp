@@ -46,8 +46,48 @@ inline WideVec larger(WideVec a, WideVec b) noexcept
     return {a.lanes < b.lanes ? b.lanes : a.lanes};
 }
 
+inline WideVec smaller(WideVec a, WideVec b) noexcept
+{
+    return {b.lanes < a.lanes ? b.lanes : a.lanes};
+}
+
+// Lane by lane.
+inline WideVec product(WideVec a, WideVec b) noexcept { return {a.lanes * b.lanes}; }
+inline WideVec quotient(WideVec a, WideVec b) noexcept { return {a.lanes / b.lanes}; }
+
+inline Vec3f smaller(Vec3f a, Vec3f b) noexcept
+{
+    return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
+}
+inline Vec3f product(Vec3f a, Vec3f b) noexcept { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+inline Vec3f quotient(Vec3f a, Vec3f b) noexcept { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
+// The least of a number and the three of a vector.
+inline float least(float most, float x, float y, float z) noexcept
+{
+    most = x < most ? x : most;
+    most = y < most ? y : most;
+    return z < most ? z : most;
+}
+inline float least(float most, WideVec a) noexcept
+{
+    return least(most, a.lanes[0], a.lanes[1], a.lanes[2]);
+}
+inline float least(float most, Vec3f a) noexcept { return least(most, a.x, a.y, a.z); }
+
 // Cores of 64 bits have such registers, or a compiler that does without.
 using LaneVec = std::conditional_t<sizeof(std::size_t) == 8, WideVec, Vec3f>;
+
+// One number in all lanes.
+template <class Lane = LaneVec>
+Lane all_lanes(float k) noexcept
+{
+    if constexpr (std::is_same_v<Lane, WideVec>) {
+        return Lane{{k, k, k, k}};
+    } else {
+        return {k, k, k};
+    }
+}
 
 template <class Lane = LaneVec>
 Lane to_lanes(const Vec3f& a) noexcept

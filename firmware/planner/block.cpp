@@ -7,6 +7,7 @@
 #include "firmware/base/assert.hpp"
 #include "firmware/base/lane_vec.hpp"
 #include "firmware/base/math.hpp"
+#include "firmware/planner/quintic.hpp"
 
 namespace cusp::planner {
 namespace {
@@ -118,11 +119,16 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
             rounded(place.z * kPathUnitsPerMillimetre)};
 }
 
+LaneVec largest(LaneVec a, LaneVec m, LaneVec b) noexcept
+{
+    return larger(larger(magnitude(a), magnitude(m)), magnitude(b));
+}
+
 // Bound of |f| between two places from both and the middle, with a part of their second difference.
 LaneVec largest_of(LaneVec at_a, LaneVec at_m, LaneVec at_b, float part) noexcept
 {
     const LaneVec bend = magnitude(at_a - at_m * 2.0F + at_b);
-    return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * part;
+    return largest(at_a, at_m, at_b) + bend * part;
 }
 
 // Of |f|, where `change` bounds its second derivative: between places h apart a function exceeds
@@ -130,33 +136,28 @@ LaneVec largest_of(LaneVec at_a, LaneVec at_m, LaneVec at_b, float part) noexcep
 LaneVec largest_of_slow(
     LaneVec at_a, LaneVec at_m, LaneVec at_b, LaneVec change, float length) noexcept
 {
-    return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) +
-           change * (0.03125F * length * length);
+    return largest(at_a, at_m, at_b) + change * (0.03125F * length * length);
 }
 
 // By arc length, with signs.
-PathDerivatives curve_state(const CurveBlock& curve, float u) noexcept
+LaneDerivatives curve_state(const CurveBlock& curve, float u) noexcept
 {
     const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
-    return {state.tangent, state.curvature, state.change};
+    return to_lanes(PathDerivatives{state.tangent, state.curvature, state.change});
 }
 
 // Bounds over a stretch, `length` mm long, from both ends and the middle.
-PathDerivatives curve_derivatives(const PathDerivatives& a,
-                                  const PathDerivatives& m,
-                                  const PathDerivatives& b,
+LaneDerivatives curve_derivatives(const LaneDerivatives& a,
+                                  const LaneDerivatives& m,
+                                  const LaneDerivatives& b,
                                   float length) noexcept
 {
     // A parabola through three places exceeds the greatest of them by at most an eighth of their
     // second difference. Twice that bounds other functions:
     // tests/unit/planner/stretch_test.cpp.
-    const LaneVec second =
-        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.25F);
-    const LaneVec third =
-        largest_of(to_lanes(a.third), to_lanes(m.third), to_lanes(b.third), 0.25F);
-    const LaneVec first =
-        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
-    return {to_vec(first), to_vec(second), to_vec(third)};
+    const LaneVec second = largest_of(a.second, m.second, b.second, 0.25F);
+    const LaneVec third = largest_of(a.third, m.third, b.third, 0.25F);
+    return {largest_of_slow(a.first, m.first, b.first, third, length), second, third};
 }
 
 // Where the stretch `index` of a curve begins.
@@ -195,51 +196,52 @@ PathOffset quintic_position(const Block& block, std::uint32_t offset) noexcept
            PathOffset{rounded(bulge.x), rounded(bulge.y), rounded(bulge.z)};
 }
 
-// The first three derivatives by arc length.
-PathDerivatives quintic_state(const Block& block, float x) noexcept
+// A quintic ready to be asked for the derivatives of several places.
+struct QuinticFrame {
+    LaneQuintic piece;
+    float inverse;  // of the length
+};
+
+QuinticFrame quintic_frame(const Block& block) noexcept
 {
-    const auto& bulge = block.quintic.bulge;
-    const LaneVec b1 = to_lanes(bulge[1]);
-    const LaneVec b2 = to_lanes(bulge[2]);
-    const LaneVec b3 = to_lanes(bulge[3]);
-    const float inverse = 1.0F / length_mm(block);
+    return {lane_quintic(block.quintic.bulge, displacement_mm(block)), 1.0F / length_mm(block)};
+}
+
+// The first three derivatives by arc length.
+LaneDerivatives quintic_state(const QuinticFrame& frame, float x) noexcept
+{
+    const auto& [b0, b1, b2, b3] = frame.piece.bulge;
     // Q and its derivatives, then those of x (1 - x) Q.
-    const LaneVec q0 = to_lanes(bulge[0]) + (b1 + (b2 + b3 * x) * x) * x;
+    const LaneVec q0 = b0 + (b1 + (b2 + b3 * x) * x) * x;
     const LaneVec q1 = b1 + (b2 * 2.0F + b3 * (3.0F * x)) * x;
     const LaneVec q2 = b2 * 2.0F + b3 * (6.0F * x);
     const float bump = x * (1.0F - x);
     const float slope = 1.0F - 2.0F * x;
-    const float square = inverse * inverse;
-    const LaneVec chord = to_lanes(displacement_mm(block));
-    return {to_vec((chord + q0 * slope + q1 * bump) * inverse),
-            to_vec((q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square),
-            to_vec((q1 * -6.0F + q2 * (3.0F * slope) + b3 * (6.0F * bump)) * (square * inverse))};
+    const float square = frame.inverse * frame.inverse;
+    return {(frame.piece.chord + q0 * slope + q1 * bump) * frame.inverse,
+            (q0 * -2.0F + q1 * (2.0F * slope) + q2 * bump) * square,
+            (q1 * -6.0F + q2 * (3.0F * slope) + b3 * (6.0F * bump)) * (square * frame.inverse)};
 }
 
 // Bounds over a stretch, `length` mm long, from both ends and the middle.
 // The third derivative is a parabola. The second is a cubic: it leaves the parabola through three
 // places by at most 1/(9 sqrt(3)) of its third derivative times the cube of half the length.
-PathDerivatives quintic_derivatives(const PathDerivatives& a,
-                                    const PathDerivatives& m,
-                                    const PathDerivatives& b,
+LaneDerivatives quintic_derivatives(const LaneDerivatives& a,
+                                    const LaneDerivatives& m,
+                                    const LaneDerivatives& b,
                                     float length) noexcept
 {
-    const LaneVec third_a = to_lanes(a.third);
-    const LaneVec third_m = to_lanes(m.third);
-    const LaneVec third_b = to_lanes(b.third);
-    const LaneVec third = largest_of(third_a, third_m, third_b, 0.125F);
+    const LaneVec bend = magnitude(a.third - m.third * 2.0F + b.third);
+    const LaneVec third = largest(a.third, m.third, b.third) + bend * 0.125F;
     const LaneVec second =
-        largest_of(to_lanes(a.second), to_lanes(m.second), to_lanes(b.second), 0.125F) +
-        magnitude(third_a - third_m * 2.0F + third_b) * (0.0321F * length);
-    const LaneVec first =
-        largest_of_slow(to_lanes(a.first), to_lanes(m.first), to_lanes(b.first), third, length);
-    return {to_vec(first), to_vec(second), to_vec(third)};
+        largest_of(a.second, m.second, b.second, 0.125F) + bend * (0.0321F * length);
+    return {largest_of_slow(a.first, m.first, b.first, third, length), second, third};
 }
 
 EndGeometry quintic_geometry(const Block& block, float x) noexcept
 {
-    const PathDerivatives state = quintic_state(block, x);
-    return {state.first, state.second};
+    const LaneDerivatives state = quintic_state(quintic_frame(block), x);
+    return {to_vec(state.first), to_vec(state.second)};
 }
 
 PathDerivatives line_derivatives(const Block& block) noexcept
@@ -332,6 +334,9 @@ unsigned stretch_count(const Block& block) noexcept
 StretchReader::StretchReader(const Block& block, unsigned index) noexcept
     : block_{block}, next_{index}, count_{stretch_count(block)}, begin_{place_at(index)}
 {
+    if (block.shape == BlockShape::kQuintic) {
+        begin_.state = quintic_state(quintic_frame(block), begin_.part);
+    }
 }
 
 StretchReader::Place StretchReader::place_at(unsigned index) const noexcept
@@ -348,44 +353,55 @@ StretchReader::Place StretchReader::place_at(unsigned index) const noexcept
         return place;
     }
     place.part = static_cast<float>(index) / static_cast<float>(count_);
-    if (block_.shape == BlockShape::kQuintic) {
-        place.state = quintic_state(block_, place.part);
-    } else {
+    if (block_.shape == BlockShape::kArc) {
         place.turn = sin_cos(place.part * sweep(block_));
     }
     return place;
 }
 
-PathDerivatives StretchReader::bounds_to(const Place& to) const noexcept
+LaneDerivatives StretchReader::bounds_to(const Place& to) const noexcept
 {
-    switch (block_.shape) {
-        case BlockShape::kArc:
-            return arc_derivatives(block_.arc, begin_.turn, to.turn, to.part * sweep(block_));
-        case BlockShape::kCurve:
-            return curve_derivatives(begin_.state,
-                                     curve_state(*block_.curve, 0.5F * (begin_.u + to.u)), to.state,
-                                     to.s - begin_.s);
-        case BlockShape::kQuintic:
-            return quintic_derivatives(begin_.state,
-                                       quintic_state(block_, 0.5F * (begin_.part + to.part)),
-                                       to.state, length_mm(block_) * (to.part - begin_.part));
-        case BlockShape::kLine:
-            break;
+    if (block_.shape == BlockShape::kArc) {
+        return to_lanes(arc_derivatives(block_.arc, begin_.turn, to.turn, to.part * sweep(block_)));
     }
-    return line_derivatives(block_);
+    if (block_.shape == BlockShape::kCurve) {
+        return curve_derivatives(begin_.state, curve_state(*block_.curve, 0.5F * (begin_.u + to.u)),
+                                 to.state, to.s - begin_.s);
+    }
+    return to_lanes(line_derivatives(block_));
+}
+
+// Where a stretch ends that ends at a part of the block.
+std::uint32_t StretchReader::end_at(float part) const noexcept
+{
+    return next_ == count_ ? block_.length
+                           : static_cast<std::uint32_t>(static_cast<float>(block_.length) * part);
 }
 
 Stretch StretchReader::next() noexcept
 {
     ++next_;
-    const Place to = place_at(next_);
-    Stretch stretch{block_.length, bounds_to(to)};
-    if (next_ != count_) {
-        const float part =
-            block_.shape == BlockShape::kCurve ? to.s / block_.curve->table.length() : to.part;
-        stretch.end = static_cast<std::uint32_t>(static_cast<float>(block_.length) * part);
+    if (block_.shape == BlockShape::kQuintic) {
+        return next_of_quintic();
     }
+    const Place to = place_at(next_);
+    const bool is_curve = block_.shape == BlockShape::kCurve;
+    const Stretch stretch{end_at(is_curve ? to.s / block_.curve->table.length() : to.part),
+                          bounds_to(to)};
     begin_ = to;
+    return stretch;
+}
+
+Stretch StretchReader::next_of_quintic() noexcept
+{
+    const QuinticFrame frame = quintic_frame(block_);
+    const float part = static_cast<float>(next_) / static_cast<float>(count_);
+    const LaneDerivatives middle = quintic_state(frame, 0.5F * (begin_.part + part));
+    const LaneDerivatives end = quintic_state(frame, part);
+    const float length = length_mm(block_) * (part - begin_.part);
+    const Stretch stretch{end_at(part), quintic_derivatives(begin_.state, middle, end, length)};
+    begin_.part = part;
+    begin_.state = end;
     return stretch;
 }
 

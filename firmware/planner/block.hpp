@@ -119,7 +119,7 @@ unsigned stretch_count(const Block& block) noexcept;
 
 struct Stretch {
     std::uint32_t end;  // path units from the start of the block
-    PathDerivatives derivatives;
+    LaneDerivatives derivatives;
 };
 
 // The stretches of a block in order. What one ends with begins the next, and is reckoned once.
@@ -140,11 +140,13 @@ private:
         float part;             // of the block's stretches
         float s;                // mm from the start of a curve
         float u;                // parameter of a curve
-        PathDerivatives state;  // by arc length, with signs: not of arcs
+        LaneDerivatives state;  // by arc length, with signs: not of arcs
         SinCos<float> turn;     // of the angle on an arc
     };
     Place place_at(unsigned index) const noexcept;
-    PathDerivatives bounds_to(const Place& to) const noexcept;
+    LaneDerivatives bounds_to(const Place& to) const noexcept;
+    std::uint32_t end_at(float part) const noexcept;
+    Stretch next_of_quintic() noexcept;
 
     const Block& block_;
     unsigned next_;

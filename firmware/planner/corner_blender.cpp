@@ -97,7 +97,8 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
             bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
     }
     const float centripetal = shaper_square_ > 0 ? 2.0F * deviation / shaper_square_ : kUnlimited;
-    const float speed = std::sqrt(allowance(bound, limits_, filter_s_, centripetal, feed).cap);
+    const float speed =
+        std::sqrt(allowance(to_lanes(bound), limits_, filter_s_, centripetal, feed).cap);
     const float travel = 2.0F * reach + speed * (filter_s_ + 2.0F * shaper_length_);
     const float slowest =
         std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});

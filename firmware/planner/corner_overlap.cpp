@@ -70,7 +70,7 @@ CornerSide corner_side(const Block& block, const EndGeometry& end, float length)
     }
     PathDerivatives bounds{};
     for (unsigned i = 0; i < stretch_count(block); ++i) {
-        bounds = larger(bounds, stretch(block, i).derivatives);
+        bounds = larger(bounds, to_vec(stretch(block, i).derivatives));
     }
     return {end, length, norm(bounds.second), norm(bounds.third)};
 }

@@ -71,7 +71,7 @@ void IntervalBuilder::refresh_time(Interval& interval) noexcept
 
 void IntervalBuilder::restrict(Interval& interval, const Allowance& allowance) noexcept
 {
-    interval.allowance = stricter(interval.allowance, allowance);
+    restrict_to(interval.allowance, allowance);
     refresh_time(interval);
 }
 
@@ -90,11 +90,11 @@ void IntervalBuilder::append_piece(std::uint32_t length,
 void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept
 {
     const Allowance limits = limits_alone(allowance);
-    const Allowance feed = feed_alone(allowance.feed);
     const float limits_reach = greatest_speed(allowance, rapid) * reach_.limit;
     const float feed_reach = std::sqrt(kGreatestFeedFactor * allowance.feed) * reach_.feed;
     spread_back(limits_reach, limits);
-    spread_back(feed_reach, feed);
+    spread_feed_back(feed_reach, allowance.feed);
+    greatest_feed_ = std::max(greatest_feed_, allowance.feed);
 
     // Cut where a limit carried over from earlier stretches ends.
     std::uint32_t left = length;
@@ -103,7 +103,11 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
         std::uint32_t piece = left;
         Allowance all = allowance;
         for (const Carry& carried : carries_) {
-            all = stricter(all, carried.allowance);
+            if (carried.feed_alone) {
+                restrict_to_feed(all, carried.allowance.feed);
+            } else {
+                restrict_to(all, carried.allowance);
+            }
             if (carried.distance < kWholeBlock) {
                 piece = std::min(piece, path_units(std::max(carried.distance, shortest)));
             }
@@ -116,7 +120,7 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
         travel(millimetres(piece));
     }
     carry(limits_reach, limits);
-    carry(feed_reach, feed);
+    carry(feed_reach, feed_alone(allowance.feed), true);
 }
 
 void IntervalBuilder::add_junction(const JunctionShare& junction, float distance) noexcept
@@ -146,14 +150,19 @@ void IntervalBuilder::restrict_end(std::uint32_t at,
     restrict(queue_.interval(at + 1), allowance);
 }
 
-void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept
+// binds_on(other): whether the allowance binds where `other` does.
+template <class Binds>
+void IntervalBuilder::spread_back(float distance,
+                                  const Allowance& allowance,
+                                  Binds binds_on) noexcept
 {
     float left = distance;
     std::uint32_t at = queue_.interval_end();
-    while (left > 0 && at != queue_.published()) {
+    const std::uint32_t published = queue_.published();
+    while (left > 0 && at != published) {
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
-        if (binds(allowance, interval.allowance)) {
+        if (binds_on(interval.allowance)) {
             const float shortest =
                 shortest_piece(greatest_speed(interval.allowance, interval.rapid));
             const float reached = std::max(left, shortest);
@@ -168,37 +177,61 @@ void IntervalBuilder::spread_back(float distance, const Allowance& allowance) no
     }
 }
 
-// Drops the carried limits that end within `distance`.
-void IntervalBuilder::travel(float distance) noexcept
+void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept
+{
+    spread_back(distance, allowance,
+                [&allowance](const Allowance& other) { return binds(allowance, other); });
+}
+
+// A feed reaches far over intervals of, mostly, the same feed, and nothing else of it binds.
+void IntervalBuilder::spread_feed_back(float distance, float squared_feed) noexcept
+{
+    if (squared_feed >= greatest_feed_) {
+        return;
+    }
+    spread_back(distance, feed_alone(squared_feed),
+                [squared_feed](const Allowance& other) { return squared_feed < other.feed; });
+}
+
+template <class Keep>
+void IntervalBuilder::keep_carries(Keep keep) noexcept
 {
     std::size_t kept = 0;
-    for (Carry& carried : carries_) {
-        carried.distance -= distance;
-        if (carried.distance > kShortestPiece) {
-            carries_[kept++] = carried;
+    for (std::size_t i = 0; i < carries_.size(); ++i) {
+        if (!keep(carries_[i])) {
+            continue;
         }
+        if (kept != i) {
+            carries_[kept] = carries_[i];
+        }
+        ++kept;
     }
     carries_.shrink(kept);
 }
 
-void IntervalBuilder::carry(float distance, const Allowance& allowance) noexcept
+// Drops the carried limits that end within `distance`.
+void IntervalBuilder::travel(float distance) noexcept
+{
+    for (Carry& carried : carries_) {
+        carried.distance -= distance;
+    }
+    keep_carries([](const Carry& carried) { return carried.distance > kShortestPiece; });
+}
+
+void IntervalBuilder::carry(float distance, const Allowance& allowance, bool feed_alone) noexcept
 {
     if (distance <= kShortestPiece) {
         return;
     }
     // One that is nowhere stricter and ends no later is not needed.
-    std::size_t kept = 0;
-    for (const Carry& carried : carries_) {
-        if (carried.distance > distance || binds(carried.allowance, allowance)) {
-            carries_[kept++] = carried;
-        }
-    }
-    carries_.shrink(kept);
+    keep_carries([&](const Carry& carried) {
+        return carried.distance > distance || binds(carried.allowance, allowance);
+    });
     if (carries_.full()) {
         merge_closest_carries();
     }
     // In rising order of distance.
-    (void)carries_.try_push_back({distance, allowance});
+    (void)carries_.try_push_back({distance, allowance, feed_alone});
     for (std::size_t i = carries_.size() - 1; i > 0 && carries_[i - 1].distance > distance; --i) {
         std::swap(carries_[i - 1], carries_[i]);
     }
@@ -218,7 +251,8 @@ void IntervalBuilder::merge_closest_carries() noexcept
         }
     }
     Carry& longer = carries_[closest + 1];
-    longer.allowance = stricter(longer.allowance, carries_[closest].allowance);
+    restrict_to(longer.allowance, carries_[closest].allowance);
+    longer.feed_alone = longer.feed_alone && carries_[closest].feed_alone;
     for (std::size_t i = closest; i + 1 < carries_.size(); ++i) {
         carries_[i] = carries_[i + 1];
     }
@@ -228,6 +262,7 @@ void IntervalBuilder::merge_closest_carries() noexcept
 void IntervalBuilder::stop(const CornerOverlap& overlap) noexcept
 {
     carries_.clear();
+    greatest_feed_ = 0;
     if (queue_.interval_end() == queue_.published()) {
         return;
     }
@@ -280,6 +315,7 @@ void IntervalBuilder::publish_to(std::uint32_t end) noexcept
 void IntervalBuilder::clear() noexcept
 {
     carries_.clear();
+    greatest_feed_ = 0;
     pending_time_ = 0;
 }
 

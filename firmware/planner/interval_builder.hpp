@@ -47,12 +47,18 @@ private:
     struct Carry {
         float distance;  // mm, still to come
         Allowance allowance;
+        bool feed_alone;  // allows all but faster feeds
     };
     static constexpr std::uint32_t kCarries = 8;
 
     void restrict_end(std::uint32_t at, float reached, const Allowance& allowance) noexcept;
+    template <class Binds>
+    void spread_back(float distance, const Allowance& allowance, Binds binds_on) noexcept;
     void spread_back(float distance, const Allowance& allowance) noexcept;
-    void carry(float distance, const Allowance& allowance) noexcept;
+    void spread_feed_back(float distance, float squared_feed) noexcept;
+    void carry(float distance, const Allowance& allowance, bool feed_alone = false) noexcept;
+    template <class Keep>
+    void keep_carries(Keep keep) noexcept;
     void merge_closest_carries() noexcept;
     void travel(float distance) noexcept;
     void append_piece(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
@@ -63,6 +69,7 @@ private:
     PathQueue& queue_;
     Reach reach_{};
     StaticVector<Carry, kCarries> carries_;  // in rising order of distance
+    float greatest_feed_{0};                 // squared; no interval not published has a greater one
     std::uint64_t pending_time_{0};          // of the intervals not published, units of 0.1 us
 };
 

@@ -16,11 +16,6 @@ struct Shares {
 
 float greater(const Shares& shares) noexcept { return std::max(shares.acceleration, shares.jerk); }
 
-Vec3f smaller(Vec3f a, Vec3f b) noexcept
-{
-    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-
 // Combined effect of jumps of curvature at the speed v, 1/mm: the largest net change. Where the
 // speed has a minimum between them, its decrease is bounded by jerk along the path.
 Vec3f counted_curvature(const JunctionRun& run,
@@ -66,16 +61,31 @@ Shares shares_at(const Junction& junction,
     return shares;
 }
 
+// What a run takes at a speed.
+struct Taken {
+    Vec3f curvature;  // that counts
+    Shares shares;
+};
+
+Taken taken_at(const JunctionRun& run,
+               const MachineLimits& limits,
+               AxisFilter filter,
+               float v) noexcept
+{
+    const Vec3f curvature = counted_curvature(run, limits, filter, v);
+    return {curvature, shares_at(run.all, curvature, limits, filter, v, v)};
+}
+
 // The jerk that jumps of direction make grows with the speed, and so does that of a dip of the speed
 // between jumps of curvature: as a line over the squared speed half of it counts at rest, and all of what does not depend on the speed.
 JunctionShare junction_share_at(const JunctionRun& run,
                                 const MachineLimits& limits,
                                 AxisFilter filter,
-                                float v) noexcept
+                                float v,
+                                const Taken& taken) noexcept
 {
-    const Vec3f curvature = counted_curvature(run, limits, filter, v);
-    const Shares shares = shares_at(run.all, curvature, limits, filter, v, v);
-    const Vec3f of_dip = curvature - smaller(curvature, run.greatest);
+    const Shares& shares = taken.shares;
+    const Vec3f of_dip = taken.curvature - smaller(taken.curvature, run.greatest);
     const float moving = shares_at(run.all, of_dip, limits, filter, v, v).jerk;
     const float standing = shares_at(run.all, {}, limits, filter, 0.0F, v).jerk;
     return {v, shares.acceleration, std::min(0.5F * (moving + standing), shares.jerk), shares.jerk};
@@ -127,19 +137,17 @@ JunctionShare junction_share(const JunctionRun& run,
         const float root = std::sqrt(half * half + bend * blur.deviation);
         fast = std::min(fast, blur.deviation / std::max(half + root, 1e-12F));
     }
-    const auto share_at = [&](float v) {
-        const Vec3f curvature = counted_curvature(run, limits, filter, v);
-        return greater(shares_at(run.all, curvature, limits, filter, v, v));
-    };
-    if (share_at(fast) <= max_share) {
-        return junction_share_at(run, limits, filter, fast);
+    const Taken at_fast = taken_at(run, limits, filter, fast);
+    if (greater(at_fast.shares) <= max_share) {
+        return junction_share_at(run, limits, filter, fast, at_fast);
     }
     float slow = 0;
     for (unsigned i = 0; i < kBisections; ++i) {
         const float middle = 0.5F * (slow + fast);
-        (share_at(middle) <= max_share ? slow : fast) = middle;
+        const Taken taken = taken_at(run, limits, filter, middle);
+        (greater(taken.shares) <= max_share ? slow : fast) = middle;
     }
-    return junction_share_at(run, limits, filter, slow);
+    return junction_share_at(run, limits, filter, slow, taken_at(run, limits, filter, slow));
 }
 
 }  // namespace cusp::planner

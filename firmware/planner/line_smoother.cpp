@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "firmware/base/assert.hpp"
 #include "firmware/base/lane_vec.hpp"
@@ -123,13 +124,13 @@ void LineSmoother::add(const path::Move& move) noexcept
         origin_ = move.start;
         has_start_ = false;
         lines_before_ = 1;
-        (void)vertices_.try_push_back({{}, move.line});
+        (void)vertices_.try_push_back({{}, move.line, 0});
     }
     const Position from = move.end - origin_;
-    const bool added = vertices_.try_push_back(
-        {{static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
-          static_cast<std::int32_t>(from.z)},
-         move.line});
+    const Vec3<std::int32_t> at{static_cast<std::int32_t>(from.x),
+                                static_cast<std::int32_t>(from.y),
+                                static_cast<std::int32_t>(from.z)};
+    const bool added = vertices_.try_push_back({at, move.line, travel(vertices_.back().at, at)});
     CUSP_ASSERT(added);
 }
 
@@ -148,11 +149,12 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 // How many lines before a vertex, and after it, a knot takes.
 std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
 {
+    const std::size_t most = std::min(index, kBeyond);
     std::size_t lines = 0;
     const Vertex* vertex = vertices_.begin() + index;
-    for (std::int32_t sum = 0; lines < std::min(index, kBeyond) && sum < kKnotTravel; ++lines) {
+    for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
+        sum += vertex->travel;
         --vertex;
-        sum += travel(vertex[0].at, vertex[1].at);
     }
     return lines;
 }
@@ -163,8 +165,8 @@ std::size_t LineSmoother::knot_lines_after(std::size_t index) const noexcept
     std::size_t lines = 0;
     const Vertex* vertex = vertices_.begin() + index;
     for (std::int32_t sum = 0; lines < most && sum < kKnotTravel; ++lines) {
-        sum += travel(vertex[0].at, vertex[1].at);
         ++vertex;
+        sum += vertex->travel;
     }
     return lines;
 }
@@ -198,7 +200,7 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     const bool one_sided = index == from || index == to;
     const std::size_t terms = std::min<std::size_t>(count, one_sided ? kTerms - 1 : kTerms);
-    LaneVec place = to_lanes({});
+    LaneVec place = all_lanes(0.0F);
     LaneVec slope = place;
     LaneVec bend = place;
     // Value, first and second derivative at the knot, of this polynomial and the one before.
@@ -215,6 +217,30 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     float square_before = 1;
     float worst = 0;
+    // The vertices leave a polynomial and meet the next, which the first makes without the one before.
+    const auto pass = [&](LaneVec part, float shift, float back, auto is_first) {
+        square = 0;
+        moment = 0;
+        product = all_lanes(0.0F);
+        for (std::size_t i = 0; i < count; ++i) {
+            float next = x[i] - shift;
+            LaneVec rest = left[i].value;
+            if constexpr (is_first) {
+                rest = rest - part;
+                before[i] = 1.0F;
+            } else {
+                const float v = value[i];
+                rest = rest - part * v;
+                next = next * v - back * before[i];
+                before[i] = v;
+            }
+            value[i] = next;
+            left[i].value = rest;
+            square += next * next;
+            moment += x[i] * next * next;
+            product = product + rest * next;
+        }
+    };
     for (std::size_t k = 0;; ++k) {
         const LaneVec part = product / square;
         place = place + part * now[0];
@@ -230,27 +256,10 @@ float LineSmoother::fit_knot(std::size_t index,
         const float shift = moment / square;
         const float back = k == 0 ? 0.0F : square / square_before;
         square_before = square;
-        square = 0;
-        moment = 0;
-        product = to_lanes({});
-        // The vertices leave this polynomial and meet the next.
-        for (std::size_t i = 0; i < count; ++i) {
-            float next = x[i] - shift;
-            LaneVec rest = left[i].value;
-            if (k == 0) {
-                rest = rest - part;
-                before[i] = 1.0F;
-            } else {
-                const float v = value[i];
-                rest = rest - part * v;
-                next = next * v - back * before[i];
-                before[i] = v;
-            }
-            value[i] = next;
-            left[i].value = rest;
-            square += next * next;
-            moment += x[i] * next * next;
-            product = product + rest * next;
+        if (k == 0) {
+            pass(part, shift, back, std::true_type{});
+        } else {
+            pass(part, shift, back, std::false_type{});
         }
         const float following[3] = {-shift * now[0] - back * last[0],
                                     now[0] - shift * now[1] - back * last[1],
@@ -286,31 +295,36 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
 {
     const float tolerance = kShareOfTolerance * model_.tolerance;
     const float square = tolerance * tolerance;
-    float along = 0;
     float whole = 0;
     const Vertex* const vertices = vertices_.begin();
     for (std::size_t i = 0; i < last; ++i) {
         whole += norm(scaled_difference(vertices[i + 1].at, vertices[i].at, kMillimetre));
     }
-    const LaneQuintic piece = lane_quintic(fit.piece, fit.chord);
+    const LaneQuintic piece = lane_quintic(fit.piece.bulge, fit.chord);
     const LaneVec start = to_lanes(start_.at);
+    // Whether a place of the lines, by their length up to it, is near the piece.
+    const auto is_near = [&](LaneVec place, float along) {
+        const float x = along / whole;
+        const LaneVec off = place - point_at(piece, x);
+        const float distance = dot(off, off);
+        if (distance <= square) {
+            return true;  // whichever way the curve goes
+        }
+        const LaneVec slope = slope_at(piece, x);
+        const float ahead = dot(off, slope);
+        const bool is_off = distance - ahead * ahead / dot(slope, slope) > square;
+        return !is_off;
+    };
+    float along = 0;
     LaneVec before = to_lanes(-start_.at);
     for (std::size_t i = 1; i <= last; ++i) {
         const LaneVec here = scaled_difference(vertices[i].at, vertices[0].at, kMillimetre) - start;
-        const float length = norm(here - before);
-        for (const float part : {0.5F, 1.0F}) {
-            const LaneVec point = before + (here - before) * part;
-            const float x = (along + length * part) / whole;
-            const LaneVec off = point - point_at(piece, x);
-            const float distance = dot(off, off);
-            if (distance <= square) {
-                continue;  // near whichever way the curve goes
-            }
-            const LaneVec slope = slope_at(piece, x);
-            const float ahead = dot(off, slope);
-            if (distance - ahead * ahead / dot(slope, slope) > square) {
-                return false;
-            }
+        const LaneVec line = here - before;
+        const float length = norm(line);
+        // before + line is not here itself, for rounding.
+        if (!is_near(before + line * 0.5F, along + length * 0.5F) ||
+            !is_near(before + line, along + length)) {
+            return false;
         }
         along += length;
         before = here;
@@ -406,13 +420,16 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 
 void LineSmoother::drop(std::size_t count) noexcept
 {
-    const std::size_t left = vertices_.size() - count;
-    const Vec3<std::int32_t> first = vertices_[count].at;
-    origin_ = origin_ + Position{first.x, first.y, first.z};
-    for (std::size_t i = 0; i < left; ++i) {
-        vertices_[i] = {vertices_[i + count].at - first, vertices_[i + count].line};
+    std::copy(vertices_.begin() + count, vertices_.end(), vertices_.begin());
+    vertices_.shrink(vertices_.size() - count);
+    const Vec3<std::int32_t> first = vertices_[0].at;
+    if (travel({}, first) <= kFarthest) {
+        return;
     }
-    vertices_.shrink(left);
+    origin_ = origin_ + Position{first.x, first.y, first.z};
+    for (Vertex& vertex : vertices_) {
+        vertex.at = vertex.at - first;
+    }
 }
 
 }  // namespace cusp::planner

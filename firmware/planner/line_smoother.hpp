@@ -54,6 +54,7 @@ private:
     struct Vertex {
         Vec3<std::int32_t> at;  // nm from origin_
         std::uint32_t line;
+        std::int32_t travel;  // nm, from the vertex before: of the axis that travels farthest
     };
     static constexpr std::size_t kVertices = 80;
     // A piece replaces at most this many lines. A knot takes vertices on either side: at most so
@@ -61,6 +62,9 @@ private:
     static constexpr std::size_t kMostLines = 48;
     static constexpr std::size_t kBeyond = 16;
     static constexpr std::int32_t kKnotTravel = 3'000'000;  // nm, of the axis that travels farthest
+    // nm: the first vertex becomes the origin where it is farther from it. The others are within
+    // 160 mm of the first.
+    static constexpr std::int32_t kFarthest = 1'000'000'000;
 
     // Where two pieces meet: the curve through the vertices around it.
     struct Knot {

@@ -15,9 +15,14 @@ float braking(const SpeedLimit& limit, float end, float length, float half_filte
         return limit.least;
     }
     // The acceleration at no less than the highest speed of the interval, which is the least.
-    const float most = limit.acceleration_at(std::sqrt(end), half_filter);
+    const float least_from = limit.least_from(half_filter);
+    const float slowest = std::sqrt(end);
+    if (slowest >= least_from) {
+        return limit.least;
+    }
+    const float most = limit.acceleration_below(slowest, least_from);
     const float fastest = std::min(end + 2.0F * length * most, limit.cap);
-    return limit.acceleration_at(std::sqrt(fastest), half_filter);
+    return limit.acceleration_below(std::sqrt(fastest), least_from);
 }
 
 // The limits at an interval's end set by the path after it.
@@ -28,39 +33,37 @@ struct Ahead {
     bool origin_is_rapid;
 };
 
-Ahead start_of(const Interval& interval) noexcept
-{
-    const Envelope& envelope = interval.envelope;
-    const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
-    const float speed = envelope.end_speed + 2.0F * envelope.slope * length;
-    const float feed = envelope.feed_end + 2.0F * envelope.slope * length;
-    const bool own = envelope.limit.feed <= feed;
-    return {std::min(envelope.limit.cap, speed), own ? envelope.limit.feed : feed,
-            own ? envelope.limit.feed : envelope.feed_origin,
-            own ? interval.rapid : interval.origin_is_rapid};
-}
-
-// False where nothing changed.
-bool update(Interval& interval, const Ahead& ahead, float half_filter) noexcept
+// Takes the limits at the interval's end to those at its start. False where nothing changed.
+bool update(Interval& interval, Ahead& ahead, float half_filter) noexcept
 {
     Envelope& envelope = interval.envelope;
+    const float cap = envelope.limit.cap;
+    const float own_feed = envelope.limit.feed;
     const bool stops = interval.stop_at_end;
-    const float end = stops ? 0.0F : std::min(envelope.limit.cap, ahead.speed);
-    const float feed = stops ? envelope.limit.feed : ahead.feed;
-    const bool feed_is_own = stops || envelope.limit.feed <= feed;
-    const float feed_end = feed_is_own ? envelope.limit.feed : feed;
-    if (end == envelope.end_speed && feed_end == envelope.feed_end && envelope.slope > 0) {
+    const float end = stops ? 0.0F : std::min(cap, ahead.speed);
+    if (stops || own_feed <= ahead.feed) {
+        ahead = {0.0F, own_feed, own_feed, interval.rapid};
+    }
+    if (end == envelope.end_speed && ahead.feed == envelope.feed_end && envelope.slope > 0) {
         return false;
     }
     const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
     // A higher end may mean less braking over the interval: that first, or the tick could see the
     // higher end with the stronger brake.
-    envelope.slope = braking(envelope.limit, end, length, half_filter);
-    envelope.feed_origin = feed_is_own ? envelope.limit.feed : ahead.feed_origin;
-    interval.origin_is_rapid = feed_is_own ? interval.rapid : ahead.origin_is_rapid;
+    const float slope = braking(envelope.limit, end, length, half_filter);
+    envelope.slope = slope;
+    envelope.feed_origin = ahead.feed_origin;
+    interval.origin_is_rapid = ahead.origin_is_rapid;
     std::atomic_signal_fence(std::memory_order_seq_cst);
     envelope.end_speed = end;
-    envelope.feed_end = feed_end;
+    envelope.feed_end = ahead.feed;
+
+    const float gained = 2.0F * slope * length;
+    ahead.speed = std::min(cap, end + gained);
+    ahead.feed += gained;
+    if (own_feed <= ahead.feed) {
+        ahead = {ahead.speed, own_feed, own_feed, interval.rapid};
+    }
     return true;
 }
 
@@ -70,13 +73,12 @@ void look_ahead(PathQueue& queue) noexcept
 {
     Ahead ahead{0.0F, kUnlimited, kUnlimited, false};
     const std::uint32_t begin = queue.interval_begin();
+    const float half_filter = queue.half_filter();
     for (std::uint32_t i = queue.published(); i != begin; --i) {
-        Interval& interval = queue.interval(i - 1);
-        if (!update(interval, ahead, queue.half_filter())) {
+        if (!update(queue.interval(i - 1), ahead, half_filter)) {
             return;
         }
         queue.note_change(i - 1);
-        ahead = start_of(interval);
     }
 }
 

@@ -109,8 +109,8 @@ public:
     // Notes that the envelope of intervals from `first` on has risen.
     void note_change(std::uint32_t first) noexcept
     {
-        if (first - interval_begin() <
-            changed_from_.load(std::memory_order_relaxed) - interval_begin()) {
+        const std::uint32_t begin = interval_begin();
+        if (first - begin < changed_from_.load(std::memory_order_relaxed) - begin) {
             changed_from_.store(first, std::memory_order_relaxed);
         }
     }

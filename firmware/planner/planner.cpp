@@ -113,6 +113,7 @@ void Planner::reset(Position at) noexcept
     end_length_ = 0;
     close_requested_ = false;
     starved_ = false;
+    ahead_.reset();
     next_stretch_ = 0;
     stretches_ = 0;
     tail_ = at;
@@ -238,26 +239,21 @@ void Planner::work() noexcept
 // Whether there is nothing to do: no room, or no move. It is asked at every poll.
 bool Planner::waits() const noexcept
 {
-    if (close_requested_ || queue_.published() == queue_.interval_begin()) {
+    const PathQueue& queue = queue_;  // each atomic read would fetch the reference again
+    const std::uint32_t begin = queue.interval_begin();
+    if (close_requested_ || queue.published() == begin) {
         return false;
     }
-    if (queue_.free_intervals() <= kIntervalsOfAStretch) {
-        return true;
-    }
-    return next_stretch_ == stretches_ &&
-           (queue_.free_blocks() == 0 || queue_.free_curves() == 0 || (starved_ && maker_.done()));
+    return starved_ || kIntervalCount - (queue.interval_end() - begin) <= kIntervalsOfAStretch ||
+           (next_stretch_ == stretches_ && (queue.free_blocks() == 0 || queue.free_curves() == 0));
 }
 
 void Planner::go_on() noexcept
 {
-    std::optional<StretchAhead> ahead;
     bool changed = false;
     while (queue_.free_intervals() > kIntervalsOfAStretch) {
         if (next_stretch_ != stretches_) {
-            if (!ahead) {
-                ahead.emplace(stretch_ahead(queue_.block(queue_.block_end() - 1)));
-            }
-            add_stretch(*ahead);
+            add_stretch();
             changed = true;
             continue;
         }
@@ -272,8 +268,9 @@ void Planner::go_on() noexcept
         if (!maker_.done() && maker_.make(move_, queue_, block)) {
             next_stretch_ = 0;
             stretches_ = static_cast<std::uint8_t>(stretch_count(block));
-            ahead.emplace(stretch_ahead(block));
-            add_block(block, *ahead);
+            ahead_.emplace(block);
+            read_stretch();
+            add_block(block);
         }
     }
     const bool cut = maker_.done() && next_stretch_ == stretches_;
@@ -291,12 +288,12 @@ void Planner::go_on() noexcept
 }
 
 // The block lies where the queue has the next.
-void Planner::add_block(const Block& block, const StretchAhead& ahead) noexcept
+void Planner::add_block(const Block& block) noexcept
 {
     // Only rounding makes a jump where one line or arc was cut into blocks.
     const bool goes_on = within_move_ && block.shape != BlockShape::kCurve;
     if (end_ && !goes_on) {
-        join(start_geometry(block), block, ahead.stretch, ahead.allowance);
+        join(start_geometry(block), block, ahead_->stretch, ahead_->allowance);
     }
     within_move_ = true;
     const BlockShape before = queue_.block(queue_.block_end() - 1).shape;
@@ -320,8 +317,8 @@ void Planner::join(const EndGeometry& after,
 {
     const float fastest = std::min(end_speed_, greatest_speed(of_first, block.rapid));
     const float window = window_of(end_filter_);
-    const Junction junction =
-        make_junction(*end_, after, larger(bounds_behind(fastest * window), first.derivatives));
+    const Junction junction = make_junction(
+        *end_, after, larger(bounds_behind(fastest * window), to_vec(first.derivatives)));
     if (junction.turn > kCornerTurn || end_filter_ != block.filter) {
         end_in_stop(overlap_at_corner(after, block));
         return;

@@ -87,9 +87,10 @@ private:
     void spread_bend(const Vec3f& curvature) noexcept;
     // The next stretch of the last block, and what it allows.
     struct StretchAhead {
+        explicit StretchAhead(const Block& block) noexcept : reader{block, 0} {}
         StretchReader reader;
-        Stretch stretch;
-        Allowance allowance;
+        Stretch stretch{};
+        Allowance allowance{};
     };
     void work() noexcept;
     void go_on() noexcept;
@@ -98,15 +99,14 @@ private:
     bool next_move() noexcept;
     bool next_smoothed(path::Move& move) noexcept;
     void start() noexcept;
-    void add_block(const Block& block, const StretchAhead& ahead) noexcept;
-    StretchAhead stretch_ahead(const Block& block) const noexcept;
-    void read_stretch(StretchAhead& ahead) const noexcept;
+    void add_block(const Block& block) noexcept;
+    void read_stretch() noexcept;
     void join(const EndGeometry& after,
               const Block& block,
               const Stretch& first,
               const Allowance& of_first) noexcept;
     Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
-    void add_stretch(StretchAhead& ahead) noexcept;
+    void add_stretch() noexcept;
     JunctionShare share_of(const Junction& junction,
                            std::size_t earlier,
                            float distance,
@@ -151,8 +151,11 @@ private:
     std::uint8_t next_stretch_{0};
     std::uint8_t stretches_{0};
     std::uint32_t stretch_end_{0};
+    // The next to add, where there is one: reckoned once, also where there is no room for it yet.
+    std::optional<StretchAhead> ahead_;
     bool within_move_{false};  // a block of move_ is on the path
-    // The moves so far make no further one: until another comes there is nothing to do.
+    // The moves so far make no further one, and all made are on the path: until another comes there is
+    // nothing to do.
     bool starved_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;

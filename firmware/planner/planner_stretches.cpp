@@ -27,40 +27,37 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
-    MachineLimits limits = limits_;
-    if (block.shape == BlockShape::kCurve) {
-        leave_to_rounding(limits, block.filter);
+    const auto within = [&](const MachineLimits& limits) {
+        Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
+                                      kGreatestSpeed, jerk_share(move_));
+        of_part.feed = feed * feed;
+        return of_part;
+    };
+    if (block.shape != BlockShape::kCurve) {
+        return within(limits_);
     }
-    Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
-                                  kGreatestSpeed, jerk_share(move_));
-    of_part.feed = feed * feed;
-    return of_part;
+    MachineLimits limits = limits_;
+    leave_to_rounding(limits, block.filter);
+    return within(limits);
 }
 
-// Of a block that has stretches left, the next of which is next_stretch_.
-Planner::StretchAhead Planner::stretch_ahead(const Block& block) const noexcept
+void Planner::read_stretch() noexcept
 {
-    StretchAhead ahead{{block, next_stretch_}, {}, {}};
-    read_stretch(ahead);
-    return ahead;
-}
-
-void Planner::read_stretch(StretchAhead& ahead) const noexcept
-{
-    ahead.stretch = ahead.reader.next();
-    ahead.allowance = allowance_of(ahead.reader.block(), ahead.stretch);
+    ahead_->stretch = ahead_->reader.next();
+    ahead_->allowance = allowance_of(ahead_->reader.block(), ahead_->stretch);
 }
 
 // Adds the next stretch of the last block, and those behind it that allow nearly the same.
-void Planner::add_stretch(StretchAhead& ahead) noexcept
+void Planner::add_stretch() noexcept
 {
+    const StretchAhead& ahead = *ahead_;
     const Block& block = ahead.reader.block();
     const std::uint32_t begin = next_stretch_ == 0 ? 0 : stretch_end_;
     Stretch whole = ahead.stretch;
     const Allowance of_first = ahead.allowance;
     Allowance allowed = of_first;
     while (++next_stretch_ != stretches_) {
-        read_stretch(ahead);
+        read_stretch();
         const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
         const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
         if (!is_short && !are_alike(of_first, ahead.allowance)) {
@@ -68,17 +65,18 @@ void Planner::add_stretch(StretchAhead& ahead) noexcept
         }
         whole.end = ahead.stretch.end;
         whole.derivatives = larger(whole.derivatives, ahead.stretch.derivatives);
-        allowed = stricter(allowed, ahead.allowance);
+        restrict_to(allowed, ahead.allowance);
     }
     stretch_end_ = whole.end;
     if (whole.end == begin) {
         return;
     }
-    apply_junction_limits(whole.derivatives);
-    spread_bend(whole.derivatives.second);
+    const PathDerivatives bounds = to_vec(whole.derivatives);
+    apply_junction_limits(bounds);
+    spread_bend(bounds.second);
     builder_.append(whole.end - begin, allowed, block.rapid);
-    spread_bend(whole.derivatives.second);
-    age_bounds(whole.derivatives, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
+    spread_bend(bounds.second);
+    age_bounds(bounds, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
     end_speed_ = greatest_speed(allowed, block.rapid);
 }
 

@@ -27,7 +27,7 @@ bool make_quintic(
     float length = norm(chord);
     for (unsigned i = 0; i < kTries; ++i) {
         piece = hermite(chord, from, to, length);
-        const LaneQuintic lanes = lane_quintic(piece, chord);
+        const LaneQuintic lanes = lane_quintic(piece.bulge, chord);
         const float a = norm(slope_at(lanes, 0.25F));
         const float m = norm(slope_at(lanes, 0.5F));
         const float b = norm(slope_at(lanes, 0.75F));

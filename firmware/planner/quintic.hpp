@@ -33,9 +33,8 @@ struct LaneQuintic {
     std::array<LaneVec, 4> bulge;
 };
 
-inline LaneQuintic lane_quintic(const path::Quintic& piece, Vec3f chord) noexcept
+inline LaneQuintic lane_quintic(const std::array<Vec3f, 4>& q, Vec3f chord) noexcept
 {
-    const auto& q = piece.bulge;
     return {to_lanes(chord), {{to_lanes(q[0]), to_lanes(q[1]), to_lanes(q[2]), to_lanes(q[3])}}};
 }
 

@@ -27,12 +27,13 @@ float cube_root(float q) noexcept
 
 // The least of the cube roots. Rounding aside a root rises with its cube: of all floats below 1e15
 // none has a root below that of one smaller by more than 7e-8 of it.
+constexpr float kNextCube = 1.0F + 1e-4F;
+
 float least_root(Vec3f cubes, float least_cube) noexcept
 {
-    constexpr float kNext = 1e-4F;
     float least = cube_root(least_cube);
     for (const float cube : {cubes.x, cubes.y, cubes.z}) {
-        if (cube != least_cube && cube <= (1.0F + kNext) * least_cube) {
+        if (cube != least_cube && cube <= kNextCube * least_cube) {
             least = std::min(least, cube_root(cube));
         }
     }
@@ -59,46 +60,63 @@ void straighten(BentLine& bent) noexcept
     bent.at_rest = std::min(bent.at_rest, 2.0F * bent.at_half - bent.at_cap);
 }
 
-// Under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From y = 1/2 on
-// it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to there
-// not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
-// at 1 and at 1/2.
-BentLine jerk_bound(float j, float k, float p, float q) noexcept
+// Of each axis under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From
+// y = 1/2 on it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to
+// there not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
+// at 1 and at 1/2. Returns the least of the axes.
+BentLine jerk_bound(LaneVec j, LaneVec k, LaneVec p, LaneVec q) noexcept
 {
     constexpr float kRootOfHalf = 0.70710678F;
-    const float whole = p + q;
-    const float at_cap = (j - k) / whole;
-    const float fall = (k * (2.0F - kRootOfHalf) * whole + (j - k) * 0.5F * q) / (whole * whole);
-    const float part = p + kRootOfHalf * q;
-    const float rest = j - 0.5F * kRootOfHalf * k;
-    BentLine bent;
-    bent.at_cap = at_cap;
-    bent.at_half = at_cap + 0.5F * fall;
-    bent.at_rest = rest / part + 0.5F * kRootOfHalf * (k * part + rest * q) / (part * part);
-    straighten(bent);
-    return bent;
+    const LaneVec whole = p + q;
+    const LaneVec left = j - k;
+    const LaneVec at_cap = quotient(left, whole);
+    const LaneVec fall = quotient(
+        product(k * (2.0F - kRootOfHalf), whole) + product(left * 0.5F, q), product(whole, whole));
+    const LaneVec part = p + q * kRootOfHalf;
+    const LaneVec rest = j - k * (0.5F * kRootOfHalf);
+    const LaneVec at_half = at_cap + fall * 0.5F;
+    const LaneVec at_rest =
+        quotient(rest, part) +
+        quotient((product(k, part) + product(rest, q)) * (0.5F * kRootOfHalf), product(part, part));
+    // As straighten().
+    return {least(kUnlimited, smaller(at_rest, at_half * 2.0F - at_cap)),
+            least(kUnlimited, at_half), least(kUnlimited, at_cap)};
 }
 
-// The acceleration u with which a bound r - d (v + h u)^2 is u itself.
-float behind(float r, float d, float v, float h) noexcept
+// A bound r - d v^2 of the acceleration at the speed v of the tool.
+struct Fall {
+    float r;
+    float d;
+};
+
+// The acceleration u with which a bound at the speed v + h u is u itself.
+float behind(const Fall& bound, float v, float h) noexcept
 {
-    const float left = r - d * v * v;
+    const float d = bound.d;
+    const float left = bound.r - d * v * v;
     const float b = 1.0F + 2.0F * d * v * h;
     return 2.0F * left / (b + std::sqrt(b * b + 4.0F * d * h * h * left));
 }
 
-// Under both lines: the first holds where the tool is at no more than half the cap.
-float behind(const BentLine& bent, float cap, float v, float h) noexcept
-{
-    const float twice = 2.0F / cap;
-    const float u = behind(bent.at_rest, twice * (bent.at_rest - bent.at_half), v, h);
-    const float tool = v + h * u;
-    if (twice * tool * tool <= 1.0F) {
-        return u;
+// Under both lines of a bound: the first holds where the tool is at no more than half the cap.
+struct TwoFalls {
+    TwoFalls(const BentLine& bent, float cap) noexcept
+        : twice{2.0F / cap},
+          first{bent.at_rest, twice * (bent.at_rest - bent.at_half)},
+          second{bent.at_half + (bent.at_half - bent.at_cap), twice * (bent.at_half - bent.at_cap)}
+    {
     }
-    const float fall = bent.at_half - bent.at_cap;
-    return behind(bent.at_half + fall, twice * fall, v, h);
-}
+    float behind(float v, float h) const noexcept
+    {
+        const float u = planner::behind(first, v, h);
+        const float tool = v + h * u;
+        return twice * tool * tool <= 1.0F ? u : planner::behind(second, v, h);
+    }
+
+    float twice;  // over the cap
+    Fall first;
+    Fall second;
+};
 
 }  // namespace
 
@@ -112,29 +130,51 @@ PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexc
     return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};
 }
 
-Allowance stricter(const Allowance& a, const Allowance& b) noexcept
+void restrict_to(Allowance& a, const Allowance& b) noexcept
 {
-    Allowance both;
-    both.cap = std::min(a.cap, b.cap);
-    both.feed = std::min(a.feed, b.feed);
-    const float part_of_a = both.cap / a.cap;
-    const float part_of_b = both.cap / b.cap;
-    const auto least = [&](const Line& of_a, const Line& of_b) {
-        return Line{std::min(of_a.at_rest, of_b.at_rest),
-                    std::min(value(of_a, part_of_a), value(of_b, part_of_b))};
+    // The lower cap is all of itself.
+    const bool by_b = b.cap < a.cap;
+    const Allowance& low = by_b ? b : a;
+    const Allowance& high = by_b ? a : b;
+    const float part = low.cap / high.cap;
+    const auto least = [part](const Line& of_low, const Line& of_high) {
+        return Line{std::min(of_low.at_rest, of_high.at_rest),
+                    std::min(value(of_low, 1.0F), value(of_high, part))};
     };
-    both.by_acceleration = least(a.by_acceleration, b.by_acceleration);
-    both.by_jerk = {
-        std::min(a.by_jerk.at_rest, b.by_jerk.at_rest),
-        std::min(value(a.by_jerk, 0.5F * part_of_a), value(b.by_jerk, 0.5F * part_of_b)),
-        std::min(value(a.by_jerk, part_of_a), value(b.by_jerk, part_of_b))};
-    both.jerk_left = {1, 1};
-    if (!a.jerk_left.at_cap.is_whole() || !b.jerk_left.at_cap.is_whole()) {
-        const Line left = least(line(a.jerk_left), line(b.jerk_left));
-        both.jerk_left = {left.at_rest, left.at_cap};
+    const BentLine& jerk = low.by_jerk;
+    const BentLine by_jerk{std::min(jerk.at_rest, high.by_jerk.at_rest),
+                           std::min(value(jerk, 0.5F), value(high.by_jerk, 0.5F * part)),
+                           std::min(jerk.at_cap, value(high.by_jerk, part))};
+    const Line by_acceleration = least(low.by_acceleration, high.by_acceleration);
+    if (a.jerk_left.at_cap.is_whole() && b.jerk_left.at_cap.is_whole()) {
+        a.jerk_left = {1, 1};
+    } else {
+        const Line left = least(line(low.jerk_left), line(high.jerk_left));
+        a.jerk_left = {left.at_rest, left.at_cap};
     }
-    both.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
-    return both;
+    a.cap = low.cap;
+    a.feed = std::min(a.feed, b.feed);
+    a.by_acceleration = by_acceleration;
+    a.by_jerk = by_jerk;
+    a.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
+}
+
+// What is bounded by kUnlimited stays; a line's value at its cap need not be at_cap itself, for
+// rounding.
+void restrict_to_feed(Allowance& a, float squared_feed) noexcept
+{
+    const auto again = [](const Line& line) {
+        return Line{line.at_rest, value(line, 1.0F)};
+    };
+    a.feed = std::min(a.feed, squared_feed);
+    a.by_acceleration = again(a.by_acceleration);
+    a.by_jerk.at_half = value(a.by_jerk, 0.5F);
+    if (a.jerk_left.at_cap.is_whole()) {
+        a.jerk_left = {1, 1};
+    } else {
+        const Line left = again(line(a.jerk_left));
+        a.jerk_left = {left.at_rest, left.at_cap};
+    }
 }
 
 bool binds(const Allowance& a, const Allowance& b) noexcept
@@ -189,20 +229,15 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept
     SpeedLimit limit{allowance.cap, least, least, allowance.feed, 1.0F, 1.0F};
     const float least_from = std::sqrt(allowance.cap) - half_filter * least;
     if (bent.at_rest > least && least_from > 0) {
-        limit.at_rest = behind(bent, allowance.cap, 0.0F, half_filter);
-        limit.half = behind(bent, allowance.cap, 0.5F * least_from, half_filter) / limit.at_rest;
-        limit.most = behind(bent, allowance.cap, 0.75F * least_from, half_filter) / limit.at_rest;
+        const TwoFalls falls{bent, allowance.cap};
+        limit.at_rest = falls.behind(0.0F, half_filter);
+        limit.half = falls.behind(0.5F * least_from, half_filter) / limit.at_rest;
+        limit.most = falls.behind(0.75F * least_from, half_filter) / limit.at_rest;
     }
     return limit;
 }
 
-float greatest_speed(const Allowance& allowance, bool rapid) noexcept
-{
-    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
-    return std::sqrt(std::min(allowance.cap, feed));
-}
-
-Allowance allowance(const PathDerivatives& derivatives,
+Allowance allowance(const LaneDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,
@@ -210,47 +245,32 @@ Allowance allowance(const PathDerivatives& derivatives,
                     float jerk_share) noexcept
 {
     const auto& [first, second, third] = derivatives;
-    float cap = max_speed * max_speed;
-    float least_cube = kUnlimited;
-    const auto cube_of = [&](float p3, float j) {
-        return jerk_share * j / std::max(p3, kTiny);
-    };
-    const auto cap_axis = [&](float p1, float p2, float cube, float v, float a) {
-        const float ratio = v / std::max(p1, kTiny);
-        cap = std::min(cap, ratio < 1e12F ? ratio * ratio : kUnlimited);
-        cap = std::min(cap, kCentripetalShare * a / std::max(p2, kTiny));
-        least_cube = std::min(least_cube, cube);
-    };
-    const auto& [velocity, acceleration, jerk] = limits;
-    const Vec3f cubes{cube_of(third.x, jerk.x), cube_of(third.y, jerk.y), cube_of(third.z, jerk.z)};
-    cap_axis(first.x, second.x, cubes.x, velocity.x, acceleration.x);
-    cap_axis(first.y, second.y, cubes.y, velocity.y, acceleration.y);
-    cap_axis(first.z, second.z, cubes.z, velocity.z, acceleration.z);
-    if (least_cube < 1e15F) {
-        const float jerk_speed = least_root(cubes, least_cube);
-        cap = std::min(cap, jerk_speed * jerk_speed);
-    }
+    const LaneVec tiny = all_lanes(kTiny);
+    const LaneVec acceleration = to_lanes(limits.acceleration);
+    const LaneVec jerk = to_lanes(limits.jerk);
+    const LaneVec along = larger(first, tiny);
+    const LaneVec ratio = quotient(to_lanes(limits.velocity), along);
+    float cap = least(max_speed * max_speed, product(ratio, ratio));
+    cap = least(cap, quotient(acceleration * kCentripetalShare, larger(second, tiny)));
     cap = std::min(cap, max_centripetal / std::max(norm(second), kTiny));
+    float speed = std::sqrt(cap);
+    const LaneVec cubes = quotient(jerk * jerk_share, larger(third, tiny));
+    const float least_cube = least(kUnlimited, cubes);
+    // No root, mostly: of a cube above that of the speed the square is above the cap, as
+    // cube_root() is below the true root by less than 1e-6 of it.
+    if (least_cube < 1e15F && least_cube < kNextCube * cap * speed) {
+        const float jerk_speed = least_root(to_vec(cubes), least_cube);
+        cap = std::min(cap, jerk_speed * jerk_speed);
+        speed = std::sqrt(cap);
+    }
 
-    const float speed = std::sqrt(cap);
-    Allowance least = kAllowsAll;
-    least.cap = cap;
-    const auto limit_axis = [&](float p1, float p2, float p3, float a, float j) {
-        const float along = std::max(p1, kTiny);
-        const float inward = p2 * cap;
-        Line& by_acceleration = least.by_acceleration;
-        by_acceleration.at_rest = std::min(by_acceleration.at_rest, a / along);
-        by_acceleration.at_cap = std::min(by_acceleration.at_cap, (a - inward) / along);
-        const BentLine bent = jerk_bound(j, p3 * speed * cap, along / filter_s, 3.0F * p2 * speed);
-        BentLine& by_jerk = least.by_jerk;
-        by_jerk.at_rest = std::min(by_jerk.at_rest, bent.at_rest);
-        by_jerk.at_half = std::min(by_jerk.at_half, bent.at_half);
-        by_jerk.at_cap = std::min(by_jerk.at_cap, bent.at_cap);
-    };
-    limit_axis(first.x, second.x, third.x, acceleration.x, jerk.x);
-    limit_axis(first.y, second.y, third.y, acceleration.y, jerk.y);
-    limit_axis(first.z, second.z, third.z, acceleration.z, jerk.z);
-    return least;
+    Allowance allowed = kAllowsAll;
+    allowed.cap = cap;
+    allowed.by_acceleration = {least(kUnlimited, quotient(acceleration, along)),
+                               least(kUnlimited, quotient(acceleration - second * cap, along))};
+    allowed.by_jerk =
+        jerk_bound(jerk, third * speed * cap, along / filter_s, second * 3.0F * speed);
+    return allowed;
 }
 
 }  // namespace cusp::planner

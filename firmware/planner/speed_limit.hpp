@@ -1,9 +1,11 @@
 // Limits set by the geometry of a stretch of path: its speed, and the acceleration along it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "firmware/base/lane_vec.hpp"
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/vec.hpp"
 
@@ -16,9 +18,29 @@ struct PathDerivatives {
     Vec3f third;
 };
 
+// The same, as they are reckoned.
+struct LaneDerivatives {
+    LaneVec first;
+    LaneVec second;
+    LaneVec third;
+};
+
+inline LaneDerivatives to_lanes(const PathDerivatives& a) noexcept
+{
+    return {cusp::to_lanes(a.first), cusp::to_lanes(a.second), cusp::to_lanes(a.third)};
+}
+inline PathDerivatives to_vec(const LaneDerivatives& a) noexcept
+{
+    return {cusp::to_vec(a.first), cusp::to_vec(a.second), cusp::to_vec(a.third)};
+}
+
 // The larger of both, axis by axis.
 Vec3f larger(Vec3f a, Vec3f b) noexcept;
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
+inline LaneDerivatives larger(const LaneDerivatives& a, const LaneDerivatives& b) noexcept
+{
+    return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};
+}
 
 // A share of a limit in [0, 1], kept in 16 bits: 1 is exact, others are rounded down.
 class Share {
@@ -52,19 +74,26 @@ struct SpeedLimit {
     // mm/s^2, at a speed, mm/s, with half the length of the path filter, s, that it was made for.
     float acceleration_at(float speed, float half_filter) const noexcept
     {
-        if (at_rest == least) {
+        return at_rest == least ? least : acceleration_below(speed, least_from(half_filter));
+    }
+
+    // mm/s: from there on the acceleration is the least.
+    float least_from(float half_filter) const noexcept
+    {
+        return std::sqrt(cap) - half_filter * least;
+    }
+    // As acceleration_at(), `from` being least_from(). Precondition: at_rest != least.
+    float acceleration_below(float speed, float from) const noexcept
+    {
+        if (speed >= from) {
             return least;
         }
-        const float least_from = std::sqrt(cap) - half_filter * least;
-        if (speed >= least_from) {
-            return least;
-        }
-        const float quarters = 4.0F * speed / least_from;
+        const float quarters = 4.0F * speed / from;
+        const float at_half = at_rest * half;
         if (quarters < 2.0F) {
-            return at_rest - (at_rest - at_rest * half) * (0.5F * quarters);
+            return at_rest - (at_rest - at_half) * (0.5F * quarters);
         }
         const float at_most = at_rest * most;
-        const float at_half = at_rest * half;
         return quarters < 3.0F ? at_half - (at_half - at_most) * (quarters - 2.0F)
                                : at_most - (at_most - least) * (quarters - 3.0F);
     }
@@ -105,8 +134,11 @@ inline constexpr Line kNoLine{kUnlimited, kUnlimited};
 inline constexpr BentLine kNoBentLine{kUnlimited, kUnlimited, kUnlimited};
 inline constexpr Allowance kAllowsAll{kUnlimited, kUnlimited, kNoLine, kNoBentLine, {1, 1}, 1};
 
-// Holds wherever both a and b hold.
-Allowance stricter(const Allowance& a, const Allowance& b) noexcept;
+// Leaves of `a` what holds wherever both a and b hold. Precondition: caps are above 0.
+void restrict_to(Allowance& a, const Allowance& b) noexcept;
+
+// As restrict_to() with an allowance of all but a faster feed, the same bits.
+void restrict_to_feed(Allowance& a, float squared_feed) noexcept;
 
 // Whether b allows something that a does not.
 bool binds(const Allowance& a, const Allowance& b) noexcept;
@@ -121,7 +153,11 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept;
 inline constexpr float kGreatestFeedFactor = 4.0F;
 
 // The fastest that caps and feed allow at any override, mm/s.
-float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
+inline float greatest_speed(const Allowance& allowance, bool rapid) noexcept
+{
+    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
+    return std::sqrt(std::min(allowance.cap, feed));
+}
 
 // Squared speed is capped where the centripetal acceleration takes this part of an axis' limit, so
 // that some is left to change the speed.
@@ -139,11 +175,11 @@ inline constexpr float kTransitionJerkShare = 0.9F;
 //   filter_s         length of the path filter, s, > 0: jerk along the path is at most
 //                    acceleration/filter_s.
 //   max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by the axis filters.
-//   max_speed        mm/s; another bound of the speed.
+//   max_speed        mm/s, < 1e12; another bound of the speed.
 //
 // Each axis keeps  |P'| u + |P''| v^2 <= a  and  |P'| u/filter_s + 3 |P''| v u + |P'''| v^3 <= j.
 // Source: docs/numerics.md, "Limits along the path".
-Allowance allowance(const PathDerivatives& derivatives,
+Allowance allowance(const LaneDerivatives& derivatives,
                     const MachineLimits& limits,
                     float filter_s,
                     float max_centripetal,

@@ -149,7 +149,7 @@ bool keeps_to(const path::Quintic& piece,
 {
     constexpr unsigned kPlaces = 16;
     const Vec3d start = to_millimetres(from);
-    const LaneQuintic lanes = lane_quintic(piece, chord);
+    const LaneQuintic lanes = lane_quintic(piece.bulge, chord);
     const double half = 0.5 * static_cast<double>(piece.length);
     for (unsigned i = 1; i < kPlaces; ++i) {
         const double x = static_cast<double>(i) / kPlaces;

@@ -39,6 +39,14 @@ TEST(LaneVec, HasTheBitsOfAVec3f)
         CHECK_TEXT(to_vec(magnitude(p)) == magnitude(a), where.c_str());
         const Vec3f most{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
         CHECK_TEXT(to_vec(larger(p, q)) == most, where.c_str());
+        const Vec3f fewest{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+        CHECK_TEXT(to_vec(smaller(p, q)) == fewest, where.c_str());
+        const Vec3f products{a.x * b.x, a.y * b.y, a.z * b.z};
+        CHECK_TEXT(to_vec(product(p, q)) == products, where.c_str());
+        const Vec3f quotients{a.x / b.x, a.y / b.y, a.z / b.z};
+        CHECK_TEXT(to_vec(quotient(p, q)) == quotients, where.c_str());
+        CHECK_TEXT(to_vec(all_lanes(k)) == (Vec3f{k, k, k}), where.c_str());
+        CHECK_TEXT(least(k, p) == std::min({k, a.x, a.y, a.z}), where.c_str());
         CHECK_TEXT(dot(p, q) == dot(a, b), where.c_str());
         CHECK_TEXT(norm(p) == norm(a), where.c_str());
         const auto nanometres = [&] {

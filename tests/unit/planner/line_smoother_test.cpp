@@ -233,3 +233,31 @@ TEST(LineSmoothers, ACornerEndsTheRun)
     CHECK(!smoother.continues(line({100'000, 0, 0}, {100'000, 100'000, 0})));
     CHECK(smoother.continues(line({100'000, 0, 0}, {200'000, 10'000, 0})));
 }
+
+// Vertices are kept in 32 bits of nanometres from an origin, which follows a run of metres.
+TEST(LineSmoothers, FollowsARunOfThreeMetres)
+{
+    constexpr int kLines = 1700;
+    std::vector<Position> vertices;
+    for (int i = 0; i <= kLines; ++i) {
+        const double s = 1.8 * i;
+        vertices.push_back(to_position({-500.0 - s, 10 * std::sin(s / 300), 0.01 * s}));
+    }
+    Position at = vertices.front();
+    std::size_t passed = 0;
+    for (const path::Move& piece : smoothed(vertices)) {
+        CHECK(piece.start == at);
+        at = piece.end;
+        double nearest = 1e9;
+        for (std::size_t i = passed + 1; i < std::min(passed + 50, vertices.size()); ++i) {
+            const double off = norm(to_millimetres(vertices[i] - at));
+            if (off < nearest) {
+                nearest = off;
+                passed = off < static_cast<double>(kTolerance) ? i : passed;
+            }
+        }
+        CHECK_TEXT(nearest < static_cast<double>(kTolerance), std::to_string(passed).c_str());
+    }
+    CHECK(at == vertices.back());
+    UNSIGNED_LONGS_EQUAL(kLines, passed);
+}

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <string>
 
@@ -67,8 +68,8 @@ TEST(SpeedLimit, KeepsEveryAxisWithinItsLimitsThoughTheToolIsFaster)
     std::mt19937_64 random{kLimitSeed};
     for (int k = 0; k < 5000; ++k) {
         const PathDerivatives path = any_path(random);
-        const SpeedLimit limit =
-            speed_limit(allowance(path, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+        const SpeedLimit limit = speed_limit(
+            allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
         CHECK(limit.least >= 0);
         const double greatest = std::sqrt(static_cast<double>(limit.cap));
         for (int step = 0; step <= 40; ++step) {
@@ -88,8 +89,8 @@ TEST(SpeedLimit, AllowsNearlyAllThatTheAxesDoWhereOneBendsAlone)
 {
     for (const float third : {0.01F, 0.3F, 10.0F}) {
         const PathDerivatives path{{1, 0, 0}, {}, {third, 0, 0}};
-        const SpeedLimit limit =
-            speed_limit(allowance(path, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+        const SpeedLimit limit = speed_limit(
+            allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
         const double greatest = std::sqrt(static_cast<double>(limit.cap));
         for (int step = 0; step <= 40; ++step) {
             const double v = greatest * step / 40;
@@ -110,8 +111,8 @@ TEST(SpeedLimit, AllowsNearlyAllThatTheAxesDoWhereOneBendsAlone)
 TEST(SpeedLimit, ALineMayUseAllOfItsAxis)
 {
     const PathDerivatives along_x{{1, 0, 0}, {}, {}};
-    const SpeedLimit limit =
-        speed_limit(allowance(along_x, {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
+    const SpeedLimit limit = speed_limit(
+        allowance(to_lanes(along_x), {}, kFilterTime, kUnlimited, 2000.0F), kHalfFilter);
     DOUBLES_EQUAL(100.0 * 100.0, static_cast<double>(limit.cap), 0.1);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.at_rest), 0.01);
     DOUBLES_EQUAL(1000.0, static_cast<double>(limit.least), 0.01);
@@ -124,11 +125,12 @@ TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
         const auto any = [&random] {
             const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
                                        any_vector(random, 1e-4, 40)};
-            return allowance(path, {}, kFilterTime, kUnlimited, 300.0F);
+            return allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 300.0F);
         };
         const Allowance a = any();
         const Allowance b = any();
-        const Allowance both = stricter(a, b);
+        Allowance both = a;
+        restrict_to(both, b);
         CHECK(!binds(a, both) || a.cap == both.cap);
         CHECK(both.cap <= a.cap);
         for (int step = 0; step <= 8; ++step) {
@@ -144,6 +146,43 @@ TEST(SpeedLimit, WhatIsStricterThanTwoBindsBoth)
             CHECK(at(both.by_acceleration, both.cap) <=
                   at(a.by_acceleration, a.cap) * 1.0001F + 0.01F);
             CHECK(bent_at(both.by_jerk, both.cap) <= bent_at(a.by_jerk, a.cap) * 1.0001F + 0.01F);
+        }
+    }
+}
+
+TEST(SpeedLimit, AFeedAloneRestrictsToTheSameBits)
+{
+    std::mt19937_64 random{kLimitSeed + 2};
+    const auto any = [&random](unsigned k) {
+        const PathDerivatives path{any_vector(random, 0.1, 1), any_vector(random, 1e-3, 5),
+                                   any_vector(random, 1e-4, 40)};
+        Allowance allowed = allowance(to_lanes(path), {}, kFilterTime, kUnlimited, 300.0F);
+        allowed.feed = std::uniform_real_distribution<float>{1, 1e4F}(random);
+        const auto share = [&random] {
+            return std::uniform_real_distribution<float>{0.02F, 1}(random);
+        };
+        if (k % 3 != 0) {
+            const float at_cap = share();
+            allowed.jerk_left = {k % 3 == 1 ? at_cap : share(), at_cap};
+            allowed.acceleration_left = share();
+        }
+        return allowed;
+    };
+    const auto same_bits = [](const Allowance& a, const Allowance& b) {
+        return std::memcmp(&a, &b, sizeof(Allowance)) == 0;
+    };
+    for (unsigned k = 0; k < 5000; ++k) {
+        Allowance feed = kAllowsAll;
+        feed.feed = any(0).feed;
+        Allowance one = any(k);
+        Allowance other = one;
+        for (unsigned i = 0; i < 2; ++i) {
+            CHECK_EQUAL(feed.feed < one.feed, binds(feed, one));
+            restrict_to(one, feed);
+            restrict_to_feed(other, feed.feed);
+            CHECK(same_bits(one, other));
+            restrict_to(one, any(k + 1));
+            other = one;
         }
     }
 }

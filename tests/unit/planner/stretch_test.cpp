@@ -74,7 +74,7 @@ TEST(Stretches, BoundTheDerivativesBetweenTheirPlaces)
                 const float s = from + (to - from) * static_cast<float>(n) / 32.0F;
                 const nurbs::CurveState state =
                     nurbs::state_at(curve.piece, nurbs::parameter_at(curve.table, s, interval));
-                const PathDerivatives& bound = part.derivatives;
+                const PathDerivatives bound = to_vec(part.derivatives);
                 worst.first.x = std::max(worst.first.x, excess_over(state.tangent, bound.first));
                 worst.second.x =
                     std::max(worst.second.x, excess_over(state.curvature, bound.second));
@@ -115,7 +115,7 @@ TEST(Stretches, BoundTheDerivativesOfQuintics)
                     a[1] + (a[2] * 2 + (a[3] * 3 + (a[4] * 4 + a[5] * (5 * x)) * x) * x) * x;
                 const Vec3f second = a[2] * 2 + (a[3] * 6 + (a[4] * 12 + a[5] * (20 * x)) * x) * x;
                 const Vec3f third = a[3] * 6 + (a[4] * 24 + a[5] * (60 * x)) * x;
-                const PathDerivatives& bound = part.derivatives;
+                const PathDerivatives bound = to_vec(part.derivatives);
                 worst.first.x = std::max(worst.first.x, excess_over(first, bound.first));
                 worst.second.x = std::max(worst.second.x, excess_over(second, bound.second));
                 worst.third.x = std::max(worst.third.x, excess_over(third, bound.third));
@@ -161,9 +161,12 @@ TEST(Stretches, AreTheSameReadInOrderAndAlone)
             const Stretch alone = stretch(block, i);
             const std::string where = "block " + std::to_string(k) + ", " + std::to_string(i);
             CHECK_TEXT(next.end == alone.end, where.c_str());
-            CHECK_TEXT(next.derivatives.first == alone.derivatives.first, where.c_str());
-            CHECK_TEXT(next.derivatives.second == alone.derivatives.second, where.c_str());
-            CHECK_TEXT(next.derivatives.third == alone.derivatives.third, where.c_str());
+            CHECK_TEXT(to_vec(next.derivatives.first) == to_vec(alone.derivatives.first),
+                       where.c_str());
+            CHECK_TEXT(to_vec(next.derivatives.second) == to_vec(alone.derivatives.second),
+                       where.c_str());
+            CHECK_TEXT(to_vec(next.derivatives.third) == to_vec(alone.derivatives.third),
+                       where.c_str());
         }
         UNSIGNED_LONGS_EQUAL(16'000'000, stretch(block, count - 1).end);
     }

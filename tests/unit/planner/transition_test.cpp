@@ -58,7 +58,7 @@ Vec3d point_of(const path::Move& move, double t)
                arc->v * (arc->radius * std::sin(t * arc->sweep)) + arc->axial * t;
     }
     if (const auto* quintic = std::get_if<path::Quintic>(&move.path)) {
-        const planner::LaneQuintic lanes = planner::lane_quintic(*quintic, to_float(chord));
+        const planner::LaneQuintic lanes = planner::lane_quintic(quintic->bulge, to_float(chord));
         const Vec3f at = to_vec(planner::point_at(lanes, static_cast<float>(t)));
         return start + Vec3d{at.x, at.y, at.z};
     }
