@@ -14,7 +14,7 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr std::size_t kCellShares = 64;    // each with a drop cutter of its own where one is needed
+constexpr std::size_t kCellShares = 16;    // each with a drop cutter of its own where one is needed
 constexpr std::size_t kCellsBetween = 16;  // ends of parts of a share
 constexpr std::size_t kMiddles = 4096;     // evaluated by one thread
 constexpr double kSharedCell = 24;         // in stepovers: larger cells are divided before
