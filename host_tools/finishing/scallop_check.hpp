@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -155,6 +156,7 @@ private:
     void cut_missing(OpenCells& open,
                      const std::function<void(const Points&)>& cut,
                      const std::function<void(double)>& progress);
+    std::vector<Points> next_traces(std::map<int, OpenOnSurface>& by_surface, OpenCells& open);
     Points next_trace(OpenOnSurface& surface, OpenCells& open) const;
     std::vector<Cell> cells_changed(const OpenCells& open);
     void measure_left(std::vector<Cell>& beside_edges);

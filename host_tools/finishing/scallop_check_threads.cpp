@@ -1,6 +1,5 @@
 // Cells are shared out to copies of the check, the same cells to a copy for any number of threads.
 #include <algorithm>
-#include <map>
 #include <mutex>
 
 #include "host_tools/cancellation/cancellation.hpp"
@@ -162,6 +161,8 @@ Points ScallopCheck::next_trace(OpenOnSurface& surface, OpenCells& open) const
         const Cell& cell = open.cells[k];
         if (queries_ != nullptr) {
             queries_->next();
+        } else {
+            path_fitter_.model().forget_many_cells();
         }
         moved_clear_ = open.findings[k].moved_clear;
         const std::optional<MissingPass> found = uncovered_point(cell);
@@ -189,32 +190,42 @@ void ScallopCheck::cut_missing(OpenCells& open,
             ++missing;
         }
     }
-    std::size_t looked = 0;
     while (!by_surface.empty()) {
-        std::vector<Cell> first;
-        std::vector<OpenOnSurface*> turn;
-        for (auto& [number, surface] : by_surface) {
-            first.push_back(open.cells[surface.cells[surface.next]]);
-            turn.push_back(&surface);
-            looked -= surface.next;
-        }
-        std::vector<Points> traces(turn.size());
-        share_out(
-            first,
-            [&](ScallopCheck& copy, std::size_t k) { traces[k] = copy.next_trace(*turn[k], open); },
-            [](double) {});
-        for (const Points& one : traces) {
+        for (const Points& one : next_traces(by_surface, open)) {
             for (const Points& run : places_.runs_of(one)) {
                 cut(run);
             }
         }
+        std::size_t left = 0;
         for (auto at = by_surface.begin(); at != by_surface.end();) {
-            looked += at->second.next;
-            const bool over = at->second.next == at->second.cells.size();
-            at = over ? by_surface.erase(at) : std::next(at);
+            const std::size_t more = at->second.cells.size() - at->second.next;
+            left += more;
+            at = more == 0 ? by_surface.erase(at) : std::next(at);
         }
-        progress(static_cast<double>(looked) / static_cast<double>(missing));
+        progress(1 - static_cast<double>(left) / static_cast<double>(missing));
     }
+}
+
+// The next pass of each surface. The last surface is searched by this check itself, which keeps what it
+// has found; copies begin anew.
+std::vector<Points> ScallopCheck::next_traces(std::map<int, OpenOnSurface>& by_surface,
+                                              OpenCells& open)
+{
+    if (by_surface.size() == 1) {
+        return {next_trace(by_surface.begin()->second, open)};
+    }
+    std::vector<Cell> first;
+    std::vector<OpenOnSurface*> turn;
+    for (auto& [number, surface] : by_surface) {
+        first.push_back(open.cells[surface.cells[surface.next]]);
+        turn.push_back(&surface);
+    }
+    std::vector<Points> traces(turn.size());
+    share_out(
+        first,
+        [&](ScallopCheck& copy, std::size_t k) { traces[k] = copy.next_trace(*turn[k], open); },
+        [](double) {});
+    return traces;
 }
 
 // Cells with a new pass, and those where passes cut since may have left a steep step.
