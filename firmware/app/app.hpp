@@ -21,12 +21,15 @@ class App {
     static_assert(hal::is_board<Board>());
 
 public:
-    // Loads the settings and says hello on the line. Board and queue must
+    // Loads the settings and says hello on the line. Board, queue and factory settings must
     // outlive the App.
     //
     //   queue    the path ahead, in whatever memory the board has for it
-    //   factory  the settings where the store holds none, and after `$RST=$`.
-    App(Board& board, planner::PathQueue& queue, const machine::Settings& factory = {}) noexcept
+    //   factory  the settings where the store holds none, and after `$RST=$`; those of Grbl where it
+    //            is null
+    App(Board& board,
+        planner::PathQueue& queue,
+        const machine::Settings* factory = nullptr) noexcept
         : board_{board},
           log_{board.settings_store},
           machine_{queue, factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}

@@ -14,7 +14,9 @@ constexpr std::int64_t kPeckClearanceNm = 254000;
 
 DrillCycle::DrillCycle(const DrillWords& words, const path::Move& feed_move) noexcept
     : words_{words},
-      pattern_{feed_move},
+      feed_{feed_move.feed},
+      tolerance_{feed_move.tolerance},
+      line_{feed_move.line},
       at_{words.start},
       hole_{words.hole},
       depth_nm_{words.clearance_nm},
@@ -44,13 +46,8 @@ bool DrillCycle::move_to(Position target, path::MoveKind kind, Action& action) n
     if (target == at_) {
         return false;
     }
-    path::Move move = pattern_;
-    move.kind = kind;
-    move.path = path::Line{};
-    move.start = at_;
-    move.end = target;
+    action = path::Move{kind, path::Line{}, at_, target, feed_, tolerance_, 0, line_};
     at_ = target;
-    action = move;
     return true;
 }
 

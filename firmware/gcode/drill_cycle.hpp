@@ -53,7 +53,9 @@ private:
     void begin_hole() noexcept;
 
     DrillWords words_{};
-    path::Move pattern_{};
+    float feed_{0};       // mm/s
+    float tolerance_{0};  // mm
+    std::uint32_t line_{0};
     Position at_;
     ExactPosition hole_;
     std::int64_t depth_nm_{0};

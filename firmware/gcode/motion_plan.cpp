@@ -90,7 +90,11 @@ bool MotionPlan::next(nurbs::PieceStream& curve, Action& action) noexcept
                 action = parameters;
                 return true;
             case Step::kFlow:
-                action = flow;
+                if (const auto* pause = std::get_if<Pause>(&flow)) {
+                    action = *pause;
+                } else {
+                    action = ProgramEnd{};
+                }
                 return true;
             case Step::kMotion:
             case Step::kEnd:

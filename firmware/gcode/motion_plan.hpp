@@ -53,7 +53,7 @@ public:
     Dwell dwell{};
     ParametersChanged parameters{};
     MotionSource motion;
-    Action flow;  // Pause or ProgramEnd
+    std::variant<Pause, ProgramEnd> flow;
 
 private:
     bool next_motion(nurbs::PieceStream& curve, Action& action) noexcept;

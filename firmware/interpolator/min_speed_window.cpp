@@ -33,16 +33,18 @@ void MinSpeedWindow::restart(std::uint32_t interval, std::uint64_t end_position)
     started_ = true;
 }
 
-void MinSpeedWindow::push(const Entry& entry) noexcept
+void MinSpeedWindow::push(std::uint64_t position, float speed) noexcept
 {
-    Entry added = entry;
+    const Entry added{static_cast<std::uint32_t>(position),
+                      static_cast<std::uint32_t>(position >> 32U), speed};
     while (end_ != begin_ && entries_[(end_ - 1) % kEntries].speed >= added.speed) {
         --end_;
     }
     if (end_ - begin_ == kEntries) {
         // Full: the newest two become one, as strict as both for as long as both.
         Entry& last = entries_[(end_ - 1) % kEntries];
-        last.position = added.position;
+        last.low = added.low;
+        last.high = added.high;
         return;
     }
     entries_[end_ % kEntries] = added;
@@ -54,7 +56,7 @@ float MinSpeedWindow::least_between(const PathQueue& queue,
                                     std::uint64_t to,
                                     const OverrideFactors& factors) noexcept
 {
-    while (begin_ != end_ && entries_[begin_ % kEntries].position < from) {
+    while (begin_ != end_ && entries_[begin_ % kEntries].position() < from) {
         ++begin_;
     }
     const std::uint32_t published = queue.published();
@@ -66,8 +68,8 @@ float MinSpeedWindow::least_between(const PathQueue& queue,
         if (interval_ + 1 == published || passed.stop_at_end || i == kIntervalsPerTick) {
             return 0.0F;
         }
-        push({interval_end_,
-              std::min(cap_of(passed, factors), braking_before_end(passed, 0.0F, factors))});
+        push(interval_end_,
+             std::min(cap_of(passed, factors), braking_before_end(passed, 0.0F, factors)));
         ++interval_;
         interval_end_ += queue.interval(interval_).length;
     }

@@ -43,14 +43,18 @@ public:
                         const OverrideFactors& factors) noexcept;
 
 private:
+    // The position in halves: a whole one of 64 bits would leave four bytes of each entry unused.
     struct Entry {
-        std::uint64_t position;
+        std::uint32_t low;
+        std::uint32_t high;
         float speed;  // squared
+
+        std::uint64_t position() const noexcept { return std::uint64_t{high} << 32U | low; }
     };
     static constexpr std::uint32_t kEntries = 64;
     static constexpr std::uint32_t kIntervalsPerTick = 48;
 
-    void push(const Entry& entry) noexcept;
+    void push(std::uint64_t position, float speed) noexcept;
 
     std::array<Entry, kEntries> entries_{};
     std::uint32_t begin_{0};

@@ -12,18 +12,20 @@ constexpr std::uint32_t kReplyRoom = 256;
 }  // namespace
 
 Machine::Machine(planner::PathQueue& queue,
-                 const Settings& factory,
+                 const Settings* factory,
                  const BoardLimits& board) noexcept
-    : factory_{factory}, board_{board}, motion_{queue, factory}
+    : factory_{factory},
+      board_{board},
+      motion_{queue, factory != nullptr ? *factory : stored_.settings}
 {
-    stored_.settings = factory;
+    restore_settings();
     planner_blocks_ = motion_.free_blocks();
 }
 
 void Machine::start(LogState loaded) noexcept
 {
     if (!stored_.settings.sound(board_)) {
-        stored_.settings = factory_;
+        restore_settings();
         loaded = LogState::kLost;
     }
     motion_.configure(stored_.settings);

@@ -35,10 +35,11 @@ namespace cusp::machine {
 // Context: main loop, but for tick().
 class Machine {
 public:
-    //   factory  the settings where the store holds none, and after `$RST=$`
+    //   factory  the settings where the store holds none, and after `$RST=$`; those of Grbl where
+    //            it is null. Must outlive the machine.
     //   board    its capabilities: settings beyond them are refused
     Machine(planner::PathQueue& queue,
-            const Settings& factory,
+            const Settings* factory,
             const BoardLimits& board = {}) noexcept;
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
@@ -160,6 +161,7 @@ private:
     void tell_fault(const SettingFault& fault) noexcept;
     void tell_range(std::uint32_t number, float value) noexcept;
     void restore(bool settings, bool parameters, bool texts) noexcept;
+    void restore_settings() noexcept;
     void toggle_check_mode() noexcept;
     void unlock() noexcept;
     void start_homing(AxisMask axes) noexcept;
@@ -197,7 +199,7 @@ private:
     void take_tool_length() noexcept;
 
     StoredState stored_;
-    const Settings factory_;
+    const Settings* const factory_;  // may be null
     const BoardLimits board_;
     Motion motion_;
     gcode::Interpreter interpreter_;

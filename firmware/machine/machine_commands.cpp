@@ -209,10 +209,15 @@ void Machine::tell_fault(const SettingFault& fault) noexcept
     (void)replies_.text(rate ? " us]" : " ms]").end_line();
 }
 
+void Machine::restore_settings() noexcept
+{
+    stored_.settings = factory_ != nullptr ? *factory_ : Settings{};
+}
+
 void Machine::restore(bool settings, bool parameters, bool texts) noexcept
 {
     if (settings) {
-        stored_.settings = factory_;
+        restore_settings();
     }
     if (parameters) {
         stored_.parameters = gcode::Parameters{};

@@ -290,18 +290,19 @@ bool make_arc_length_table(const path::BezierPiece& piece, ArcLengthTable& table
     return true;
 }
 
-float parameter_at(const ArcLengthTable& table, float s, unsigned& interval) noexcept
+float parameter_at(const ArcLengthTable& table, float s, std::uint8_t& interval) noexcept
 {
     const unsigned last = table.size - 2U;
-    interval = std::min(interval, last);
-    while (interval < last && s >= table.nodes[interval + 1].s) {
-        ++interval;
+    unsigned at = std::min<unsigned>(interval, last);
+    while (at < last && s >= table.nodes[at + 1].s) {
+        ++at;
     }
-    while (interval > 0 && s < table.nodes[interval].s) {
-        --interval;
+    while (at > 0 && s < table.nodes[at].s) {
+        --at;
     }
-    const ArcLengthNode& a = table.nodes[interval];
-    const ArcLengthNode& b = table.nodes[interval + 1];
+    interval = static_cast<std::uint8_t>(at);
+    const ArcLengthNode& a = table.nodes[at];
+    const ArcLengthNode& b = table.nodes[at + 1];
     const float length = b.s - a.s;
     const float x = (s - a.s) / length;
     if (!(x > 0)) {

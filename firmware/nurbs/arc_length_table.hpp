@@ -24,7 +24,8 @@ inline constexpr unsigned kMaxArcLengthNodes = 16;
 
 struct ArcLengthTable {
     std::array<ArcLengthNode, kMaxArcLengthNodes> nodes;
-    std::uint8_t size{0};  // 2 to kMaxArcLengthNodes once made
+    std::uint8_t size{0};        // 2 to kMaxArcLengthNodes once made
+    std::uint8_t last_found{0};  // interval, for whoever calls parameter_at() again and again
 
     // mm
     float length() const noexcept { return nodes[size - 1U].s; }
@@ -45,7 +46,7 @@ bool make_arc_length_table(const path::BezierPiece& piece, ArcLengthTable& table
 //   interval  that of the previous call, 0 at first. Calls with rising or falling s take O(1).
 //
 // Context: servo tick.
-float parameter_at(const ArcLengthTable& table, float s, unsigned& interval) noexcept;
+float parameter_at(const ArcLengthTable& table, float s, std::uint8_t& interval) noexcept;
 
 // The point at parameter u in [0, 1], mm from the start of the piece; exactly the first and last
 // control points at 0 and 1. Context: servo tick.

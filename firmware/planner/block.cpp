@@ -114,7 +114,7 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
 {
     const float s = static_cast<float>(offset) / kPathUnitsPerMillimetre;
     const Vec3f place =
-        nurbs::point_at(curve.piece, nurbs::parameter_at(curve.table, s, curve.interval));
+        nurbs::point_at(curve.piece, nurbs::parameter_at(curve.table, s, curve.table.last_found));
     return {rounded(place.x * kPathUnitsPerMillimetre), rounded(place.y * kPathUnitsPerMillimetre),
             rounded(place.z * kPathUnitsPerMillimetre)};
 }
@@ -168,13 +168,13 @@ struct CurvePlace {
 
 CurvePlace curve_place(const CurveBlock& curve, unsigned index) noexcept
 {
-    unsigned interval = index / kStretchesPerTableInterval;
+    auto interval = static_cast<std::uint8_t>(index / kStretchesPerTableInterval);
     const nurbs::ArcLengthNode& node = curve.table.nodes[interval];
     const unsigned part = index % kStretchesPerTableInterval;
     if (part == 0) {
         return {node.s, node.u};
     }
-    const float length = curve.table.nodes[interval + 1].s - node.s;
+    const float length = curve.table.nodes[interval + 1U].s - node.s;
     const float s = node.s + length * (static_cast<float>(part) /
                                        static_cast<float>(kStretchesPerTableInterval));
     return {s, nurbs::parameter_at(curve.table, s, interval)};

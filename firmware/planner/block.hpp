@@ -39,8 +39,7 @@ struct ArcBlock {
 // A rational Bezier piece with its parameter as a function of arc length.
 struct CurveBlock {
     path::BezierPiece piece;
-    nurbs::ArcLengthTable table;
-    unsigned interval;  // of the table, found last: the servo tick's
+    nurbs::ArcLengthTable table;  // its last_found is the servo tick's
 };
 
 // What path::Quintic adds to the chord.
@@ -60,10 +59,10 @@ struct Block {
     bool stops{false};  // the path stops at its end
     AxisFilter filter{};
     std::uint32_t line{0};
-    CurveBlock* curve{nullptr};  // for kCurve
     union {
         ArcBlock arc;          // for kArc
         QuinticBlock quintic;  // for kQuintic
+        CurveBlock* curve;     // for kCurve
     };
 };
 

@@ -129,7 +129,6 @@ bool BlockMaker::make_curve(const path::BezierPiece& piece,
     CurveBlock& curve = queue.new_curve();
     curve.piece = piece;
     curve.table = table;
-    curve.interval = 0;
     block.shape = BlockShape::kCurve;
     block.curve = &curve;
     set_length(block, units(static_cast<double>(table.length())));

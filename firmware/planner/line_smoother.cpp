@@ -108,7 +108,7 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     }
     const Vec3<std::int32_t>& last = vertices_[count - 1].at;
     const Position end = origin_ + Position{last.x, last.y, last.z};
-    if (move.feed != model_.feed || move.tolerance != model_.tolerance || end != move.start) {
+    if (move.feed != feed_ || move.tolerance != tolerance_ || end != move.start) {
         return false;
     }
     const Vec3f before = unit(between(count - 2, count - 1));
@@ -119,7 +119,9 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
 void LineSmoother::add(const path::Move& move) noexcept
 {
     if (vertices_.empty()) {
-        model_ = move;
+        kind_ = move.kind;
+        feed_ = move.feed;
+        tolerance_ = move.tolerance;
         at_ = move.start;
         origin_ = move.start;
         has_start_ = false;
@@ -278,7 +280,7 @@ float LineSmoother::fit_knot(std::size_t index,
 // By as many vertices on either side as one cubic passes.
 LineSmoother::Knot LineSmoother::knot_at(std::size_t index) const noexcept
 {
-    const float allowed = kKnotShare * model_.tolerance;
+    const float allowed = kKnotShare * tolerance_;
     const std::size_t before = knot_lines_before(index);
     const std::size_t after = knot_lines_after(index);
     Knot knot;
@@ -293,7 +295,7 @@ LineSmoother::Knot LineSmoother::knot_at(std::size_t index) const noexcept
 
 bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noexcept
 {
-    const float tolerance = kShareOfTolerance * model_.tolerance;
+    const float tolerance = kShareOfTolerance * tolerance_;
     const float square = tolerance * tolerance;
     float whole = 0;
     const Vertex* const vertices = vertices_.begin();
@@ -394,9 +396,11 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     Fit best{};
     const std::size_t good = longest_fit(most, best);
     // The number of the first line: a reported line is never ahead of the tool.
-    model_.line = vertices_[1].line;
-    piece = model_;
-    piece.departure = kShareOfTolerance * model_.tolerance;
+    piece.line = vertices_[1].line;
+    piece.kind = kind_;
+    piece.feed = feed_;
+    piece.tolerance = tolerance_;
+    piece.departure = kShareOfTolerance * tolerance_;
     piece.start = at_;
     const std::size_t passed = std::max<std::size_t>(good, 1);
     lines_before_ = static_cast<std::uint8_t>(passed);

@@ -89,8 +89,10 @@ private:
 
     Position origin_{};
     StaticVector<Vertex, kVertices> vertices_;
-    path::Move model_{};  // feed, tolerance and kind of the run
-    Knot start_{};        // at the first vertex, where a piece ended there
+    path::MoveKind kind_{path::MoveKind::kFeed};  // of the run, as feed and tolerance
+    float feed_{0};                               // mm/s
+    float tolerance_{0};                          // mm
+    Knot start_{};                                // at the first vertex, where a piece ended there
     bool has_start_{false};
     std::uint8_t lines_before_{1};  // that the piece before replaced
     Position at_{};                 // where the next piece starts

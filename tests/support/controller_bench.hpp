@@ -19,7 +19,7 @@ class ControllerBench {
 public:
     explicit ControllerBench(const hal::MillGeometry& geometry = {},
                              const machine::Settings& factory = {})
-        : board{geometry}, app{board, queue, factory}
+        : board{geometry}, factory_{factory}, app{board, queue, &factory_}
     {
     }
 
@@ -58,6 +58,11 @@ public:
 
     hal::SimulatedBoard board;
     planner::PathQueue queue;
+
+private:
+    const machine::Settings factory_;
+
+public:
     app::App<hal::SimulatedBoard> app;
 
 private:

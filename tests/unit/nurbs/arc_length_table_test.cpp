@@ -67,7 +67,7 @@ TEST(ArcLengthTable, KeepsTheSpeedWithin1e4)
         ++made;
         // Over steps of 1/300 of the piece, so that float rounding does not hide the quintic.
         constexpr int kSteps = 300;
-        unsigned interval = 0;
+        std::uint8_t interval = 0;
         const double step = static_cast<double>(table.length()) / kSteps;
         Vec3d last{};
         for (int k = 1; k <= kSteps; ++k) {
@@ -96,7 +96,7 @@ TEST(ArcLengthTable, EndsExactlyAtTheEnds)
         if (!make_arc_length_table(piece, table)) {
             continue;
         }
-        unsigned interval = 0;
+        std::uint8_t interval = 0;
         CHECK(parameter_at(table, 0, interval) == 0.0F);
         CHECK(parameter_at(table, table.length(), interval) == 1.0F);
         CHECK(parameter_at(table, -1, interval) == 0.0F);
@@ -110,7 +110,7 @@ TEST(ArcLengthTable, IsMonotonic)
     const path::BezierPiece piece = random_piece(random);
     ArcLengthTable table;
     CHECK(make_arc_length_table(piece, table));
-    unsigned interval = 0;
+    std::uint8_t interval = 0;
     float last = 0;
     for (int i = 1; i <= 10000; ++i) {
         const float u =

@@ -100,7 +100,7 @@ double largest_fluctuation(const std::vector<Piece>& pieces, double step)
     for (const Piece& piece : pieces) {
         ArcLengthTable table;
         CHECK(make_arc_length_table(piece.bezier, table));
-        unsigned interval = 0;
+        std::uint8_t interval = 0;
         double last = 0;
         for (int k = 1; k * step < static_cast<double>(table.length()); ++k) {
             const float u = parameter_at(table, static_cast<float>(k * step), interval);

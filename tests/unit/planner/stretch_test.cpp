@@ -66,7 +66,7 @@ TEST(Stretches, BoundTheDerivativesBetweenTheirPlaces)
         set_length(block,
                    static_cast<std::uint32_t>(curve.table.length() * kPathUnitsPerMillimetre));
         float from = 0;
-        unsigned interval = 0;
+        std::uint8_t interval = 0;
         for (unsigned i = 0; i < stretch_count(block); ++i) {
             const Stretch part = stretch(block, i);
             const float to = static_cast<float>(part.end) / kPathUnitsPerMillimetre;
