@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/grid_pocket/flat_end_steps.hpp"
 
 namespace cusp::grid_pocket {
 
@@ -20,8 +21,8 @@ constexpr int kMostHeights = 20000;
 // Squares ranked this much below the highest found are skipped.
 constexpr double kRankDoubt = 1.35;
 
-// A ridge between lattice places may be higher than the highest place by this factor; the rim of a
-// flat end leaves steps between them.
+// A ridge between lattice places may be higher than the highest place by this factor; the flat of a
+// bull nose leaves steps between them.
 constexpr double kBetween = 1.03;
 constexpr double kBetweenSteps = 1.25;
 
@@ -68,6 +69,9 @@ public:
     Roughness(const CellGrid& grid, const TipSurface& surface, const Tracks& tracks, Tool tool)
         : grid_{grid}, surface_{surface}, tracks_{tracks}, tool_{tool}
     {
+        if (tool.corner_radius == 0) {
+            steps_.emplace(grid, surface, tracks, tool.radius);
+        }
     }
 
     // Rank of the square whose lower left cell is `c`, by the heights at cells alone.
@@ -82,6 +86,9 @@ public:
     // The scallop of the square with exact heights; `evaluations` grows by their number.
     double exact(Cell c, int& evaluations)
     {
+        if (steps_) {
+            return steps_->left_in(c, evaluations);
+        }
         const double reach = std::max(tool_.corner_radius, tool_.radius / 4);
         const auto places = [&](double size) {
             return std::clamp(2 * static_cast<int>(std::ceil(5 * size / reach)), 4, 14);
@@ -109,6 +116,7 @@ private:
     const TipSurface& surface_;
     const Tracks& tracks_;
     Tool tool_;
+    std::optional<FlatEndSteps> steps_;  // of a flat end
     int nx_{};
     int ny_{};
     std::vector<double> lattice_;
@@ -348,7 +356,7 @@ private:
         const std::size_t cells = tips_.size();
         const double wall = surface_.to_wall_pass(in_plan(here));
         if (wall < tool_.radius) {
-            // The wall pass beside the place, and slightly to either side, for flat ends.
+            // The wall pass beside the place, and slightly to either side, for bull noses.
             const Vec2d foot = surface_.on_wall_pass(in_plan(here));
             for (const Vec2d shift :
                  {Vec2d{0, 0}, Vec2d{0.3, 0}, Vec2d{-0.3, 0}, Vec2d{0, 0.3}, Vec2d{0, -0.3}}) {
@@ -370,7 +378,7 @@ private:
         return most;
     }
 
-    // For the rim of a flat end, which may touch the surface in several places. The result is at
+    // For the rim of a flat, which may touch the surface in several places. The result is at
     // least the height that can be reached, so no place counts for too much.
     double left_around(Vec3d here) const
     {
@@ -459,7 +467,9 @@ double grid_roughness(const CellGrid& grid,
     }
     std::sort(squares.begin(), squares.end(),
               [](const Ranked& a, const Ranked& b) { return a.rank > b.rank; });
-    const double between = tool.corner_radius < tool.radius ? kBetweenSteps : kBetween;
+    const double between = tool.corner_radius == 0            ? 1
+                           : tool.corner_radius < tool.radius ? kBetweenSteps
+                                                              : kBetween;
     double most = 0;
     double ratio = 1;
     int evaluations = 0;

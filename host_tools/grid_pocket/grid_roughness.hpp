@@ -47,7 +47,8 @@ struct TipSurface {
 // and ranked value.
 //
 // For a ball the result is at least the scallop of a cut in memory, and mostly less than a tenth
-// above it; for a flat end it is coarser (tests/property/grid_pocket).
+// above it; for a bull nose it is coarser (tests/property/grid_pocket). For a flat end it is the
+// highest step (flat_end_steps.hpp), two or three times what a cut in memory shows.
 double grid_roughness(const CellGrid& grid,
                       const TipSurface& surface,
                       const Tracks& tracks,

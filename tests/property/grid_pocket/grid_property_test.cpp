@@ -91,4 +91,11 @@ TEST(GridProperty, SoAreRandomPocketsWithLayersOfBoundedEngagement)
     }
 }
 
+// A flat end left more than was computed.
+TEST(GridProperty, SeedThatOnceFailed)
+{
+    Random random{110004};
+    check_pocket(random_adaptive_pocket(random));
+}
+
 }  // namespace cusp::test
