@@ -153,6 +153,19 @@ TEST(SimulatedTimes, OfPartsAreThoseOfTheWholeProgram)
     CHECK(parts > 3 * static_cast<std::size_t>(cases));
 }
 
+TEST(SimulatedTimes, AreTheSameForAnyNumberOfThreads)
+{
+    std::vector<std::size_t> begins;
+    const std::string program = RandomContours{11}.program(begins);
+    std::vector<std::vector<double>> found;
+    for (const int threads : {1, 2, 5}) {
+        parallel::set_threads(threads);
+        found.push_back(simulated_times(program, begins, {}, kPart).value());
+    }
+    CHECK(found[0] == found[1]);
+    CHECK(found[0] == found[2]);
+}
+
 // `before`, then 40 lifts with 1 s of cutting each.
 std::string lifts_after(const std::string& before)
 {
