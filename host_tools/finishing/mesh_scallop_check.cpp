@@ -233,7 +233,7 @@ ReachableHeight::Drops MeshScallopCheck::work_at(
     while (const std::optional<std::size_t> k = share.next()) {
         work(copy, *k);
         if (copy.effort() >= enough && share.left() > 1) {
-            share.give_half(copy.places_.drops());
+            share.give_half({});
             enough = copy.effort() + kEnoughFacets;
         }
     }

@@ -1,6 +1,7 @@
 // A tree of shares: those given by one are its children.
 #include "host_tools/finishing/work_in_shares.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 
@@ -33,21 +34,23 @@ struct WorkedShare {
     std::vector<std::unique_ptr<WorkedShare>> given;
 };
 
-void begin(parallel::Tasks& tasks, const Work& work, WorkedShare& parent, Share share, Drops known)
+// Adds the share to those that the parent gives.
+std::function<void()> given(
+    parallel::Tasks& tasks, const Work& work, WorkedShare& parent, Share share, Drops known)
 {
     parent.given.push_back(std::make_unique<WorkedShare>());
     WorkedShare& here = *parent.given.back();
     const auto open = std::make_shared<OpenShare>(
         std::move(share), std::move(known), [&](Share half, Drops found) {
-            begin(tasks, work, here, std::move(half), std::move(found));
+            tasks.add(given(tasks, work, here, std::move(half), std::move(found)));
         });
-    tasks.add([&here, &work, open] {
+    return [&here, &work, open] {
         try {
             here.drops = work(*open);
         } catch (...) {
             here.fault = std::current_exception();
         }
-    });
+    };
 }
 
 void collect(WorkedShare& share, std::vector<Drops>& out)
@@ -67,9 +70,12 @@ std::vector<Drops> work_in_shares(const std::vector<Share>& shares, const Work& 
 {
     WorkedShare all;
     parallel::Tasks tasks;
+    std::vector<std::function<void()>> first;
     for (const Share& share : shares) {
-        begin(tasks, work, all, share, {});
+        first.push_back(given(tasks, work, all, share, {}));
     }
+    // A thread begins with what it has added last.
+    std::for_each(first.rbegin(), first.rend(), [&](auto& task) { tasks.add(std::move(task)); });
     tasks.finish();
     std::vector<Drops> out;
     collect(all, out);
