@@ -78,7 +78,9 @@ std::vector<Drops> work_in_shares(const std::vector<Share>& shares, const Work& 
     std::for_each(first.rbegin(), first.rend(), [&](auto& task) { tasks.add(std::move(task)); });
     tasks.finish();
     std::vector<Drops> out;
-    collect(all, out);
+    for (const std::unique_ptr<WorkedShare>& share : all.given) {
+        collect(*share, out);
+    }
     return out;
 }
 
