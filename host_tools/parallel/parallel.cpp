@@ -115,8 +115,13 @@ public:
 
     void add(std::function<void()> task)
     {
+        std::function<void()>* place = nullptr;
+        {
+            const std::lock_guard lock{mutex_};
+            place = &tasks_.emplace_back(std::move(task));
+        }
         order_.fetch_add(1, std::memory_order_acq_rel);
-        group_.run(Run{this, std::make_shared<std::function<void()>>(std::move(task))});
+        group_.run(Run{this, place});
     }
 
     void finish()
@@ -129,20 +134,23 @@ private:
     // As LoopCall.
     struct Run {
         Implementation* tasks;
-        std::shared_ptr<std::function<void()>> task;
+        std::function<void()>* task;
         [[gnu::no_sanitize("thread")]] void operator()() const { tasks->run(*task); }
     };
 
-    void run(const std::function<void()>& task)
+    void run(std::function<void()>& place)
     {
         static_cast<void>(order_.load(std::memory_order_acquire));
         {
+            const std::function<void()> task = std::exchange(place, nullptr);
             const cancellation::Part part{part_};
             task();
         }
         order_.fetch_add(1, std::memory_order_acq_rel);
     }
 
+    std::mutex mutex_;
+    std::deque<std::function<void()>> tasks_;  // stay where they are
     cancellation::Part::Text part_{cancellation::Part::current()};
     std::atomic<std::size_t> order_{0};  // as Loop::done
     tbb::task_group group_;
