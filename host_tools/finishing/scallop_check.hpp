@@ -96,7 +96,7 @@ public:
 private:
     static constexpr int kDeepestCheck = 40;  // halvings of a cell
     static constexpr int kOwnParts = 12;      // the first of these end a part of the shared queries
-    static constexpr std::size_t kDrop = 15;
+    static constexpr std::size_t kCellsOfDrop = 15;
     struct Place {
         double u;
         double v;
@@ -156,8 +156,8 @@ private:
                    const std::function<void(double)>& progress);
     ReachableHeight::Drops work_at(
         OpenShare& share, const std::function<void(ScallopCheck&, std::size_t)>& work) const;
-    // About the time of a copy, in cells looked at: a drop takes as long as kDrop of them.
-    std::size_t effort() const { return kDrop * places_.drops_made() + judged_; }
+    // About the time of a copy, in cells looked at: a drop takes as long as `kCellsOfDrop`.
+    std::size_t effort() const { return kCellsOfDrop * places_.drops_made() + judged_; }
     std::vector<CellFinding> findings_of(const std::vector<Cell>& cells, bool measure);
     void cut_missing(OpenCells& open,
                      const std::function<void(const Points&)>& cut,
