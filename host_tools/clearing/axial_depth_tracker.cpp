@@ -39,12 +39,18 @@ void AxialDepthTracker::begin(const Tool& tool)
 
 void AxialDepthTracker::track(const std::vector<ToolMove>& path)
 {
+    std::vector<StockHeightMap::Move> moves;
     for (; tracked_moves_ < path.size(); ++tracked_moves_) {
         for (const Vec3d p : points_of(path[tracked_moves_], at_, kChord)) {
             // The start of a path's first move is above the stock.
-            deepest_ = tracked_moves_ > 0 ? std::max(deepest_, stock_.cut(at_, p)) : deepest_;
+            if (tracked_moves_ > 0) {
+                moves.push_back({at_, p});
+            }
             at_ = p;
         }
+    }
+    for (const double depth : stock_.cut(moves)) {
+        deepest_ = std::max(deepest_, depth);
     }
 }
 
@@ -77,15 +83,18 @@ std::optional<double> AxialDepthTracker::allowed_height_over(Vec3d start,
     }
     const double limit = share * *max_depth_;
     std::optional<double> height;
+    std::vector<StockHeightMap::Move> steps;
+    walk(start, moves, [&](Vec3d from, Vec3d to) { steps.push_back({from, to}); });
     stock_.begin_trial();
-    walk(start, moves, [&](Vec3d from, Vec3d to) {
-        const double depth = stock_.cut_with_shrunk_tool(from, to) + kBetween;
+    const std::vector<double> deepest = stock_.cut_with_shrunk_tool(steps);
+    stock_.end_trial();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        const double depth = deepest[k] + kBetween;
         if (depth > limit) {
-            const double here = to.z + depth - kAimed * limit;
+            const double here = steps[k].to.z + depth - kAimed * limit;
             height = std::max(height.value_or(here), here);
         }
-    });
-    stock_.end_trial();
+    }
     return height;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/parallel/parallel.hpp"
+
 namespace cusp::clearing {
 
 using offset::Box2d;
@@ -13,9 +15,11 @@ namespace {
 
 constexpr double kSpacingShare = 1.0 / 10;  // of the radius
 constexpr double kMostPlaces = 4e6;
-constexpr double kLeastSliver = 2e-3;  // mm
-constexpr double kHeights = 256;       // of the tool's lower side
-constexpr double kLevel = 1e-9;        // mm: rounding of a level move's heights
+constexpr double kLeastSliver = 2e-3;      // mm
+constexpr double kHeights = 256;           // of the tool's lower side
+constexpr double kLevel = 1e-9;            // mm: rounding of a level move's heights
+constexpr std::size_t kBands = 8;          // of columns, which threads share
+constexpr std::size_t kManySamples = 200;  // fewer are not worth sharing: 0.1 ms
 
 }  // namespace
 
@@ -82,13 +86,11 @@ double StockHeightMap::contact_height(Vec2d at, double share) const
     return highest - sliver_;
 }
 
-void StockHeightMap::cut_column(std::size_t column,
-                                Range rows,
-                                const Position& position,
-                                double& deepest)
+void StockHeightMap::cut_column(
+    std::size_t column, Range rows, const Position& position, double& deepest, Cuts& cuts)
 {
     const Vec3d tip = position.tip;
-    const Profile& taken = position.shrunk ? probe_profile_ : tool_;
+    const Profile& taken = profile_of(position);
     const double scale = kHeights / tool_.reach;
     const double dx = origin_.x + static_cast<double>(column) * pitch_ - tip.x;
     float* heights = heights_.data() + column * rows_;
@@ -109,7 +111,7 @@ void StockHeightMap::cut_column(std::size_t column,
         const double left = taken.at(squared);
         if (left < over) {
             if (on_trial_) {
-                lowered_.push_back({column * rows_ + j, heights[j]});
+                cuts.lowered.push_back({column * rows_ + j, heights[j]});
             }
             heights[j] = static_cast<float>(tip.z + left);
         }
@@ -120,11 +122,11 @@ void StockHeightMap::cut_column(std::size_t column,
 // the tip, a ball's lower side R - sqrt(R^2 - q) rises by at least (q' - q) / 2R from q to q' > q:
 // points whose q has grown by 2R times the tool's descent are no lower. A descending flat end is
 // lower everywhere.
-StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d tip) const
+StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d tip, Vec3d last) const
 {
-    const Vec2d way{tip.x - last_->tip.x, tip.y - last_->tip.y};
-    const Vec2d middle{last_->tip.x + 0.5 * way.x, last_->tip.y + 0.5 * way.y};
-    const double down = last_->tip.z - tip.z;
+    const Vec2d way{tip.x - last.x, tip.y - last.y};
+    const Vec2d middle{last.x + 0.5 * way.x, last.y + 0.5 * way.y};
+    const double down = last.z - tip.z;
     if (tool_.flat > 0.0 && down > kLevel) {
         return rows;
     }
@@ -139,16 +141,19 @@ StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d ti
 }
 
 // The rows of a column, among those, below the last position of the flat.
-StockHeightMap::Range StockHeightMap::under_last(double x, Range rows, Vec3d tip) const
+StockHeightMap::Range StockHeightMap::under_last(double x,
+                                                 Range rows,
+                                                 Vec3d tip,
+                                                 const Position& last) const
 {
     constexpr double kInside = 1.0 - 1e-9;
-    const double foot = kInside * (last_->shrunk ? probe_profile_ : tool_).flat;
-    const double dx = x - last_->tip.x;
-    if (dx * dx >= foot * foot || last_->tip.z > tip.z + kLevel) {
+    const double foot = kInside * (profile_of(last)).flat;
+    const double dx = x - last.tip.x;
+    if (dx * dx >= foot * foot || last.tip.z > tip.z + kLevel) {
         return {rows.begin, rows.begin};
     }
     const double half = std::sqrt(foot * foot - dx * dx);
-    const double y = last_->tip.y;
+    const double y = last.tip.y;
     const std::size_t begin = range(y - half, y - half, row_axis()).end;
     const std::size_t end = range(y + half, y + half, row_axis()).end;
     const std::size_t from = std::clamp(begin, rows.begin, rows.end);
@@ -157,27 +162,27 @@ StockHeightMap::Range StockHeightMap::under_last(double x, Range rows, Vec3d tip
 
 // The points under the last position are as low as the tool leaves them: rows that it cannot lower
 // further are skipped.
-void StockHeightMap::cut_at(const Position& position, double& deepest)
+void StockHeightMap::cut_at(const Sample& sample, const std::optional<Position>& last, Cuts& cuts)
 {
+    const Position& position = sample.position;
     const Vec3d tip = position.tip;
-    const double squared = (position.shrunk ? probe_profile_ : tool_).reach;
-    const double reach = std::sqrt(squared);
-    const bool onward = last_ && (position.shrunk || !last_->shrunk) &&
-                        std::hypot(tip.x - last_->tip.x, tip.y - last_->tip.y) < reach;
-    const Range columns = range(tip.x - reach, tip.x + reach, column_axis());
-    for (std::size_t i = columns.begin; i < columns.end; ++i) {
+    const double squared = profile_of(position).reach;
+    const bool onward = last && (position.shrunk || !last->shrunk) &&
+                        std::hypot(tip.x - last->tip.x, tip.y - last->tip.y) < std::sqrt(squared);
+    double& deepest = cuts.deepest[sample.move];
+    const std::size_t end = std::min(sample.columns.end, cuts.columns.end);
+    for (std::size_t i = std::max(sample.columns.begin, cuts.columns.begin); i < end; ++i) {
         const double x = origin_.x + static_cast<double>(i) * pitch_;
         const double half = std::sqrt(std::max(0.0, squared - (x - tip.x) * (x - tip.x)));
         Range rows = range(tip.y - half, tip.y + half, row_axis());
         if (onward) {
-            rows = maybe_lower(x, rows, tip);
-            const Range cut = under_last(x, rows, tip);
-            cut_column(i, {rows.begin, cut.begin}, position, deepest);
+            rows = maybe_lower(x, rows, tip, last->tip);
+            const Range cut = under_last(x, rows, tip, *last);
+            cut_column(i, {rows.begin, cut.begin}, position, deepest, cuts);
             rows.begin = cut.end;
         }
-        cut_column(i, rows, position, deepest);
+        cut_column(i, rows, position, deepest, cuts);
     }
-    last_ = position;
 }
 
 void StockHeightMap::begin_trial()
@@ -197,19 +202,67 @@ void StockHeightMap::end_trial()
     on_trial_ = false;
 }
 
-double StockHeightMap::sweep(Vec3d from, Vec3d to, bool inside)
+std::vector<StockHeightMap::Sample> StockHeightMap::samples_of(const std::vector<Move>& moves,
+                                                               bool shrunk) const
 {
-    if (std::min(from.z, to.z) >= top_) {
-        return 0;
-    }
-    const int count = std::max(1, static_cast<int>(std::ceil(norm(to - from) / spacing_)));
-    double deepest = 0;
-    for (int i = 1; i <= count; ++i) {
-        const Vec3d tip = from + (to - from) * (static_cast<double>(i) / count);
-        if (tip.z < top_) {
-            cut_at({tip, inside}, deepest);
+    const double reach = std::sqrt((shrunk ? probe_profile_ : tool_).reach);
+    std::vector<Sample> out;
+    for (std::size_t k = 0; k < moves.size(); ++k) {
+        const Vec3d from = moves[k].from;
+        const Vec3d way = moves[k].to - from;
+        if (std::min(from.z, moves[k].to.z) >= top_) {
+            continue;
+        }
+        const int count = std::max(1, static_cast<int>(std::ceil(norm(way) / spacing_)));
+        for (int i = 1; i <= count; ++i) {
+            const Vec3d tip = from + way * (static_cast<double>(i) / count);
+            if (tip.z < top_) {
+                out.push_back(
+                    {{tip, shrunk}, k, range(tip.x - reach, tip.x + reach, column_axis())});
+            }
         }
     }
+    return out;
+}
+
+void StockHeightMap::cut_samples(const std::vector<Sample>& samples, Cuts& cuts)
+{
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const Range under = samples[k].columns;
+        if (under.begin < cuts.columns.end && under.end > cuts.columns.begin) {
+            cut_at(samples[k], k > 0 ? std::optional{samples[k - 1].position} : last_, cuts);
+        }
+    }
+}
+
+// Each band of columns is cut by all positions in order. A cut looks at no other column, so that the
+// bands may be cut at once.
+std::vector<double> StockHeightMap::sweep(const std::vector<Move>& moves, bool shrunk)
+{
+    std::vector<double> deepest(moves.size());
+    const std::vector<Sample> samples = samples_of(moves, shrunk);
+    if (samples.empty()) {
+        return deepest;
+    }
+    Range all = samples.front().columns;
+    for (const Sample& sample : samples) {
+        all = {std::min(all.begin, sample.columns.begin), std::max(all.end, sample.columns.end)};
+    }
+    const std::size_t count = all.end - all.begin;
+    std::vector<Cuts> bands;
+    const std::size_t many = samples.size() < kManySamples ? 1 : kBands;
+    for (std::size_t k = 0; k < many; ++k) {
+        bands.push_back(
+            {{all.begin + count * k / many, all.begin + count * (k + 1) / many}, deepest});
+    }
+    parallel::for_each(many, [&](std::size_t k) { cut_samples(samples, bands[k]); });
+    for (const Cuts& band : bands) {
+        lowered_.insert(lowered_.end(), band.lowered.begin(), band.lowered.end());
+        for (std::size_t k = 0; k < moves.size(); ++k) {
+            deepest[k] = std::max(deepest[k], band.deepest[k]);
+        }
+    }
+    last_ = samples.back().position;
     return deepest;
 }
 

@@ -29,12 +29,24 @@ public:
     // that share of its radius; -kUnbounded, no bound, where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
-    // Removes the sweep of the tool on a straight move. Returns the deepest cut, mm.
-    double cut(Vec3d from, Vec3d to) { return sweep(from, to, false); }
+    // A straight move.
+    struct Move {
+        Vec3d from;
+        Vec3d to;
+    };
+    // Removes the sweep of the tool on a move. Returns the deepest cut, mm.
+    double cut(Vec3d from, Vec3d to) { return cut({{from, to}}).front(); }
+
+    // As cut() of one move after the other, on several threads where they are long; the deepest cut of
+    // each. Results do not depend on the number of threads.
+    std::vector<double> cut(const std::vector<Move>& moves) { return sweep(moves, false); }
 
     // As cut(), with a tool reduced by slivers: stock that it would only graze stays, and counts
     // for the next move that meets it.
-    double cut_with_shrunk_tool(Vec3d from, Vec3d to) { return sweep(from, to, true); }
+    std::vector<double> cut_with_shrunk_tool(const std::vector<Move>& moves)
+    {
+        return sweep(moves, true);
+    }
 
     // Cuts between the two are trials: end_trial() takes them back. One trial at a time, by one tool.
     void begin_trial();
@@ -61,9 +73,21 @@ private:
         Vec3d tip;
         bool shrunk;  // of cut_with_shrunk_tool()
     };
+    // A position of a move, by the move's number.
+    struct Sample {
+        Position position;
+        std::size_t move;
+        Range columns;  // under the tool
+    };
     struct Lowered {
         std::size_t place;  // in heights_
         float before;
+    };
+    // The cuts in some columns.
+    struct Cuts {
+        Range columns;
+        std::vector<double> deepest;  // of each move
+        std::vector<Lowered> lowered{};
     };
 
     double spacing_{};
@@ -87,11 +111,18 @@ private:
     Axis column_axis() const { return {origin_.x, pitch_, columns_}; }
     Axis row_axis() const { return {origin_.y, pitch_, rows_}; }
     static Range range(double low, double high, const Axis& axis);
-    double sweep(Vec3d from, Vec3d to, bool inside);
-    void cut_at(const Position& position, double& deepest);
-    void cut_column(std::size_t column, Range rows, const Position& position, double& deepest);
-    Range maybe_lower(double x, Range rows, Vec3d tip) const;
-    Range under_last(double x, Range rows, Vec3d tip) const;
+    const Profile& profile_of(const Position& position) const
+    {
+        return position.shrunk ? probe_profile_ : tool_;
+    }
+    std::vector<double> sweep(const std::vector<Move>& moves, bool shrunk);
+    std::vector<Sample> samples_of(const std::vector<Move>& moves, bool shrunk) const;
+    void cut_samples(const std::vector<Sample>& samples, Cuts& cuts);
+    void cut_at(const Sample& sample, const std::optional<Position>& last, Cuts& cuts);
+    void cut_column(
+        std::size_t column, Range rows, const Position& position, double& deepest, Cuts& cuts);
+    Range maybe_lower(double x, Range rows, Vec3d tip, Vec3d last) const;
+    Range under_last(double x, Range rows, Vec3d tip, const Position& last) const;
 };
 
 }  // namespace cusp::clearing

@@ -57,6 +57,24 @@ double LowestPositionSearch::height_under(Vec3d centre, Vec3d place) const
     return under < 0 ? kInfinite : centre.z - std::sqrt(under);
 }
 
+void LowestPositionSearch::begin_with(Nodes nodes)
+{
+    nodes_ = std::move(nodes);
+    begun_with_.clear();
+    for (const auto& [key, node] : nodes_) {
+        begun_with_.push_back(key);
+    }
+}
+
+LowestPositionSearch::Nodes LowestPositionSearch::take_nodes()
+{
+    for (const std::uint64_t key : begun_with_) {
+        nodes_.erase(key);
+    }
+    begun_with_.clear();
+    return std::exchange(nodes_, {});
+}
+
 // halvings  of the grid's pitch
 const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings,
                                                                     std::int64_t i,

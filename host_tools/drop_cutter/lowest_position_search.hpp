@@ -73,8 +73,11 @@ public:
     // Drops of other searches with the same grid and tool, which this one does not make again. They
     // must live, and not change, while this one searches.
     void use(const Nodes* known) { known_ = known; }
-    // The drops made since the last call.
-    Nodes take_nodes() { return std::exchange(nodes_, {}); }
+    // As if this one had made these drops. To be called before it searches.
+    void begin_with(Nodes nodes);
+    const Nodes& nodes() const { return nodes_; }
+    // The drops made since the last call; not those that it began with.
+    Nodes take_nodes();
 
 private:
     // Certificate that no lower ball position exists: parts of all directions, each with the
@@ -116,6 +119,7 @@ private:
     Drop drop_;
     const Nodes* known_{nullptr};
     Nodes nodes_;
+    std::vector<std::uint64_t> begun_with_;
     std::vector<Vec3d> contacts_;                      // near the point of the query
     std::unordered_map<std::uint64_t, Proof> proofs_;  // the last one of each square of the grid
     std::size_t parts_{};                              // of all proofs

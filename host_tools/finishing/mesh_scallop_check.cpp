@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
@@ -19,8 +19,9 @@ constexpr double kLargestFacet = 2;          // the same
 constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
-constexpr std::size_t kShares = 64;  // of a search on several threads
-constexpr double kSharedFacet = 16;  // in steps: larger ones are divided before they are shared
+constexpr std::size_t kShares = 64;           // of a search on several threads
+constexpr std::size_t kEnoughFacets = 40000;  // effort of a copy, which then gives half of the rest
+constexpr double kSharedFacet = 4;  // in steps: larger ones are divided before they are shared
 constexpr int kFacetSharedHalvings = 24;
 constexpr int kWaysAround = 12;
 constexpr double kFallsOff = 0.5;  // radii
@@ -50,6 +51,7 @@ bool MeshScallopCheck::is_hidden(Vec3d point) const
 
 MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
 {
+    ++judged_;
     const double longest = longest_side(cell.corners).length;
     if (longest > kLargestFacet * step()) {
         return Verdict::kHalve;
@@ -221,21 +223,36 @@ MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*ta
 {
 }
 
+ReachableHeight::Drops MeshScallopCheck::work_at(
+    OpenShare& share, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const
+{
+    MeshScallopCheck copy{*this, ForThread{}};
+    copy.places_.begin_with(share.take_known());
+    path_fitter_.model().forget_queries();
+    std::size_t enough = kEnoughFacets;
+    while (const std::optional<std::size_t> k = share.next()) {
+        work(copy, *k);
+        if (copy.effort() >= enough && share.left() > 1) {
+            share.give_half({});
+            enough = copy.effort() + kEnoughFacets;
+        }
+    }
+    return copy.places_.take_drops();
+}
+
 void MeshScallopCheck::share_out(std::size_t count,
                                  const std::function<void(MeshScallopCheck&, std::size_t)>& work)
 {
-    const std::size_t shares = std::min(count, kShares);
+    std::vector<Share> shares(std::min(count, kShares));
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        const std::size_t begin = count * k / shares.size();
+        shares[k].resize(count * (k + 1) / shares.size() - begin);
+        std::iota(shares[k].begin(), shares[k].end(), begin);
+    }
     // Later calls look near the same places.
     places_.share(places_.take_drops());
-    std::vector<ReachableHeight::Drops> drops(shares);
-    parallel::for_each(shares, [&](std::size_t share) {
-        MeshScallopCheck copy{*this, ForThread{}};
-        path_fitter_.model().forget_queries();
-        for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
-            work(copy, k);
-        }
-        drops[share] = copy.places_.take_drops();
-    });
+    std::vector<ReachableHeight::Drops> drops =
+        work_in_shares(shares, [&](OpenShare& share) { return work_at(share, work); });
     path_fitter_.model().forget_queries();
     for (ReachableHeight::Drops& some : drops) {
         places_.share(std::move(some));

@@ -9,6 +9,7 @@
 
 #include "host_tools/finishing/scallop_at_point.hpp"
 #include "host_tools/finishing/wall_side.hpp"
+#include "host_tools/finishing/work_in_shares.hpp"
 
 namespace cusp::finishing {
 
@@ -90,6 +91,10 @@ private:
     // A copy for another thread: without cells, with the passes of this one.
     struct ForThread {};
     MeshScallopCheck(const MeshScallopCheck& other, ForThread tag);
+    ReachableHeight::Drops work_at(
+        OpenShare& share, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
+    // What most of the time of a copy goes into: drops, and cells looked at.
+    std::size_t effort() const { return places_.drops_made() + judged_; }
     // The longest side of a triangle and its number.
     struct LongSide {
         double length;
@@ -135,6 +140,7 @@ private:
     double most_left_{};
     double blocked_area_{};
     bool overflowed_{};
+    mutable std::size_t judged_{};  // cells
     bool checking_{};
     mutable std::vector<std::uint32_t> near_;
 };

@@ -153,6 +153,7 @@ bool ScallopCheck::in_narrow_opening(int surface,
 // changes by two scallops a stepover, so the height between two points may exceed theirs by that.
 std::optional<ScallopCheck::MissingPass> ScallopCheck::uncovered_point(const Cell& cell) const
 {
+    ++judged_;
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     // No neighbouring cell checks a border.
     const auto on_border = [&](const Place& at) {

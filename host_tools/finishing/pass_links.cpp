@@ -1,15 +1,18 @@
-// Greedy order, or the one given. A link lies on the model, or is a retract and an entry.
+// Greedy order, or the one given; then all links, on several threads. A link lies on the model, or is a
+// retract and an entry.
 #include "host_tools/finishing/pass_links.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::finishing {
 
+using part_model::PartModel;
 using toolpath::ArcTo;
 using toolpath::LineTo;
 using toolpath::MoveKind;
@@ -19,8 +22,9 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-constexpr double kSamePlace = 1e-6;   // mm
-constexpr double kLongestDetour = 3;  // times the distance; beyond it a retract is better
+constexpr double kSamePlace = 1e-6;      // mm
+constexpr std::size_t kLinksAtOnce = 8;  // of one thread
+constexpr double kLongestDetour = 3;     // times the distance; beyond it a retract is better
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
@@ -53,18 +57,75 @@ void reverse(SurfacePass& pass)
     }
 }
 
+Vec3d end_of(const SurfacePass& pass)
+{
+    return pass.curve || pass.moves.empty() ? pass.points.back()
+                                            : toolpath::end_of(pass.moves.back());
+}
+
+// Points of a link on the model; none where the tool retracts.
+std::optional<Points> way_between(Vec3d at,
+                                  Vec3d start,
+                                  const LinkRules& rules,
+                                  GougeFreePathFitter& path_fitter)
+{
+    const double direct = norm(start - at);
+    if (direct <= kSamePlace) {
+        return Points{at};
+    }
+    if (plan_distance(at, start) > rules.stay_down) {
+        return std::nullopt;
+    }
+    if (path_fitter.clears_edges(at, start) && path_fitter.is_line_clear(at, start)) {
+        return Points{at, start};
+    }
+    Points way{at};
+    const Points over = path_fitter.sample_dropped(at, start);
+    way.insert(way.end(), over.begin(), over.end());
+    way.push_back(start);
+    if (length_of(way) > std::max(kLongestDetour * direct, rules.stay_down)) {
+        return std::nullopt;
+    }
+    return path_fitter.fit_lines(path_fitter.moved_clear_of_edges(way));
+}
+
+// To each pass from the one before; none to the first.
+std::vector<std::optional<Points>> ways_between(const std::vector<SurfacePass>& passes,
+                                                const LinkRules& rules,
+                                                GougeFreePathFitter& path_fitter)
+{
+    std::vector<std::optional<Points>> out(passes.size());
+    std::vector<double> least((passes.size() + kLinksAtOnce - 1) / kLinksAtOnce);
+    const PartModel::SharedQueries shared{path_fitter.model()};
+    parallel::for_each(least.size(), [&](std::size_t some) {
+        const PartModel::SharedQueries::Part queries{path_fitter.model()};
+        GougeFreePathFitter fitter = path_fitter;
+        const std::size_t end = std::min(passes.size(), (some + 1) * kLinksAtOnce);
+        for (std::size_t k = std::max<std::size_t>(1, some * kLinksAtOnce); k < end; ++k) {
+            out[k] = way_between(end_of(passes[k - 1]), passes[k].points.front(), rules, fitter);
+        }
+        least[some] = fitter.least_clearance();
+    });
+    path_fitter.model().forget_queries();
+    for (const double clearance : least) {
+        path_fitter.include_moves_with(clearance);
+    }
+    return out;
+}
+
 class Linker {
 public:
-    Linker(const LinkRules& rules, GougeFreePathFitter& path_fitter)
-        : rules_{rules}, path_fitter_{path_fitter}, writer_{out_.moves, {rules.clearance_z}}
+    explicit Linker(const LinkRules& rules)
+        : rules_{rules}, writer_{out_.moves, {rules.clearance_z}}
     {
     }
 
-    void add(const SurfacePass& pass)
+    void add(const SurfacePass& pass, const std::optional<Points>& way)
     {
-        const Vec3d start = pass.points.front();
-        if (!writer_.started() || !stay_down(start)) {
-            enter(start);
+        if (way) {
+            link(*way);
+        } else {
+            enter(pass.points.front());
         }
         append(pass);
         out_.cut_length += length_of(pass.points);
@@ -87,33 +148,12 @@ private:
         writer_.line(MoveKind::kPlunge, start);
     }
 
-    bool stay_down(Vec3d start)
+    void link(const Points& way)
     {
-        const Vec3d at = writer_.at();
-        const double direct = norm(start - at);
-        if (direct <= kSamePlace) {
-            return true;
-        }
-        if (plan_distance(at, start) > rules_.stay_down) {
-            return false;
-        }
-        Points way{at, start};
-        if (!path_fitter_.clears_edges(at, start) || !path_fitter_.is_line_clear(at, start)) {
-            way = {at};
-            const Points over = path_fitter_.sample_dropped(at, start);
-            way.insert(way.end(), over.begin(), over.end());
-            way.push_back(start);
-            const double length = length_of(way);
-            if (length > std::max(kLongestDetour * direct, rules_.stay_down)) {
-                return false;
-            }
-            way = path_fitter_.fit_lines(path_fitter_.moved_clear_of_edges(way));
-        }
         for (std::size_t k = 1; k < way.size(); ++k) {
             out_.link_length += norm(way[k] - writer_.at());
             writer_.line(MoveKind::kLink, way[k]);
         }
-        return true;
     }
 
     void append(const SurfacePass& pass)
@@ -131,28 +171,20 @@ private:
     }
 
     const LinkRules& rules_;
-    GougeFreePathFitter& path_fitter_;
     LinkedPasses out_;
     ToolpathWriter writer_;
 };
 
-}  // namespace
-
-LinkedPasses link_passes(std::vector<SurfacePass> passes,
-                         const LinkRules& rules,
-                         GougeFreePathFitter& path_fitter)
+// Always the nearest end next.
+std::vector<SurfacePass> in_greedy_order(std::vector<SurfacePass> passes)
 {
-    Linker linker{rules, path_fitter};
+    std::vector<SurfacePass> out;
     std::vector<bool> done(passes.size(), false);
     std::size_t next = 0;
-    for (std::size_t count = 0; count < passes.size(); ++count) {
+    while (out.size() < passes.size()) {
         done[next] = true;
-        linker.add(passes[next]);
-        if (rules.one_way) {
-            ++next;
-            continue;
-        }
-        const Vec3d at = passes[next].points.back();
+        out.push_back(std::move(passes[next]));
+        const Vec3d at = out.back().points.back();
         double nearest = kInfinite;
         bool turned = false;
         for (std::size_t k = 0; k < passes.size(); ++k) {
@@ -170,6 +202,22 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
         if (turned) {
             reverse(passes[next]);
         }
+    }
+    return out;
+}
+
+}  // namespace
+
+LinkedPasses link_passes(std::vector<SurfacePass> passes,
+                         const LinkRules& rules,
+                         GougeFreePathFitter& path_fitter)
+{
+    const std::vector<SurfacePass> ordered =
+        rules.one_way ? std::move(passes) : in_greedy_order(std::move(passes));
+    const std::vector<std::optional<Points>> ways = ways_between(ordered, rules, path_fitter);
+    Linker linker{rules};
+    for (std::size_t k = 0; k < ordered.size(); ++k) {
+        linker.add(ordered[k], ways[k]);
     }
     return linker.finish();
 }

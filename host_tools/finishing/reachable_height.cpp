@@ -58,6 +58,12 @@ void ReachableHeight::use(std::shared_ptr<Drops> drops)
     search_clear_of_edges_.use(&shared_drops_->clear_of_edges);
 }
 
+void ReachableHeight::begin_with(Drops drops)
+{
+    search_.begin_with(std::move(drops.any));
+    search_clear_of_edges_.begin_with(std::move(drops.clear_of_edges));
+}
+
 void ReachableHeight::share(Drops drops)
 {
     if (shared_drops_->any.size() + shared_drops_->clear_of_edges.size() < kMostShared) {
@@ -69,6 +75,7 @@ void ReachableHeight::share(Drops drops)
 // An edge that the tool would gouge counts as one more contact.
 LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
 {
+    ++drops_made_;
     LowestPositionSearch::DroppedTool rest{{x, y, kInfinite}, {}};
     if (surfaces_.empty()) {
         if (const auto on_mesh = path_fitter_.model().drop_ball(x, y, contact_radius_)) {
@@ -133,6 +140,7 @@ std::optional<ReachableHeight::Position> ReachableHeight::exact_over(Vec3d place
                                                                      double y,
                                                                      Edges edges) const
 {
+    ++drops_made_;
     std::optional<Vec3d> tip = path_fitter_.drop(x, y);
     if (!tip) {
         return std::nullopt;

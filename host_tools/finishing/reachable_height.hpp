@@ -49,6 +49,9 @@ public:
 
     double pitch() const { return search_.pitch(); }
 
+    // How many drops this one has made, those in vain included: most of its time.
+    std::size_t drops_made() const { return drops_made_; }
+
     // Drops on the grids, which the copies of one ReachableHeight share.
     struct Drops {
         drop_cutter::LowestPositionSearch::Nodes any;
@@ -56,6 +59,9 @@ public:
     };
     // The drops that this one made and does not share yet.
     Drops take_drops() { return {search_.take_nodes(), search_clear_of_edges_.take_nodes()}; }
+    // Those, copied; and the first ones of another copy, which take_drops() leaves out.
+    Drops drops() const { return {search_.nodes(), search_clear_of_edges_.nodes()}; }
+    void begin_with(Drops drops);
     // Shares drops of a copy, up to a number; of those at one node the first ones given. No copy may
     // search meanwhile.
     void share(Drops drops);
@@ -87,6 +93,7 @@ private:
     double accuracy_;
     double radius_;
     double contact_radius_;  // mm: of the ball grown by the band's offset, which touches the model
+    mutable std::size_t drops_made_{};
     drop_cutter::LowestPositionSearch search_;
     drop_cutter::LowestPositionSearch search_clear_of_edges_;
 };

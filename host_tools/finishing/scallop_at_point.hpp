@@ -66,6 +66,9 @@ public:
     // Drops of searches, which copies share: see ReachableHeight.
     ReachableHeight::Drops take_drops() { return reach_.take_drops(); }
     void share(ReachableHeight::Drops drops) { reach_.share(std::move(drops)); }
+    ReachableHeight::Drops drops() const { return reach_.drops(); }
+    void begin_with(ReachableHeight::Drops drops) { reach_.begin_with(std::move(drops)); }
+    std::size_t drops_made() const { return reach_.drops_made(); }
 
     // mm: stepover on level ground that leaves the scallop.
     double step() const { return step_; }

@@ -135,6 +135,7 @@ ScallopCheck::CellShape ScallopCheck::shape_of(const Cell& cell, const std::arra
 // Over 60 lines: a list of cases, each of which may decide.
 ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Corner, 4>& at) const
 {
+    ++judged_;
     const CellShape shape = shape_of(cell, at);
     const double long_u = shape.long_u;
     const double long_v = shape.long_v;

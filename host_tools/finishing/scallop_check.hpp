@@ -12,6 +12,7 @@
 
 #include "host_tools/finishing/scallop_at_point.hpp"
 #include "host_tools/finishing/visibility_from_above.hpp"
+#include "host_tools/finishing/work_in_shares.hpp"
 #include "host_tools/part_model/part_model.hpp"
 
 namespace cusp::finishing {
@@ -95,6 +96,7 @@ public:
 private:
     static constexpr int kDeepestCheck = 40;  // halvings of a cell
     static constexpr int kOwnParts = 12;      // the first of these end a part of the shared queries
+    static constexpr std::size_t kCellsOfDrop = 15;
     struct Place {
         double u;
         double v;
@@ -152,6 +154,10 @@ private:
     void share_out(const std::vector<Cell>& cells,
                    const std::function<void(ScallopCheck&, std::size_t)>& work,
                    const std::function<void(double)>& progress);
+    ReachableHeight::Drops work_at(
+        OpenShare& share, const std::function<void(ScallopCheck&, std::size_t)>& work) const;
+    // About the time of a copy, in cells looked at: a drop takes as long as `kCellsOfDrop`.
+    std::size_t effort() const { return kCellsOfDrop * places_.drops_made() + judged_; }
     std::vector<CellFinding> findings_of(const std::vector<Cell>& cells, bool measure);
     void cut_missing(OpenCells& open,
                      const std::function<void(const Points&)>& cut,
@@ -223,6 +229,7 @@ private:
     std::shared_ptr<SharedVisibility> visibility_{std::make_shared<SharedVisibility>()};
     // Of a copy that works.
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
+    mutable std::size_t judged_{};  // cells
     std::vector<Cell> uncovered_;
     double most_left_{};
     double left_beside_edges_{};

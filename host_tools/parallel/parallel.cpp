@@ -10,6 +10,7 @@
 
 #include "host_tools/cancellation/cancellation.hpp"
 
+#include "oneapi/tbb/blocked_range.h"
 #include "oneapi/tbb/global_control.h"
 #include "oneapi/tbb/parallel_for.h"
 #include "oneapi/tbb/task_group.h"
@@ -66,14 +67,21 @@ void call(Loop& loop, std::size_t number)
     loop.done.fetch_add(1, std::memory_order_acq_rel);
 }
 
+using Range = tbb::blocked_range<std::size_t>;
+
 // What oneTBB copies from thread to thread: read before ThreadSanitizer sees an order.
 struct LoopCall {
     Loop* loop;
-    [[gnu::no_sanitize("thread")]] void operator()(std::size_t number) const
+    [[gnu::no_sanitize("thread")]] void operator()(const Range& numbers) const
     {
-        call(*loop, number);
+        for (std::size_t k = numbers.begin(); k != numbers.end(); ++k) {
+            call(*loop, k);
+        }
     }
 };
+
+// Others leave a thread that is long at one number with those that it was to call next.
+constexpr std::size_t kMostTasks = 1024;
 
 }  // namespace
 
@@ -87,7 +95,8 @@ void for_each(std::size_t count, const std::function<void(std::size_t)>& body)
 {
     Loop loop{body, {}, {}, cancellation::Part::current()};
     loop.done.store(0, std::memory_order_release);
-    tbb::parallel_for(std::size_t{0}, count, LoopCall{&loop});
+    tbb::parallel_for(Range{0, count, 1 + count / kMostTasks}, LoopCall{&loop},
+                      tbb::simple_partitioner{});
     static_cast<void>(loop.done.load(std::memory_order_acquire));
     loop.fault.rethrow();
 }
@@ -96,6 +105,64 @@ void both(const std::function<void()>& first, const std::function<void()>& secon
 {
     for_each(2, [&](std::size_t k) { (k == 0 ? first : second)(); });
 }
+
+class Tasks::Implementation {
+public:
+    ~Implementation() { finish(); }
+    Implementation() = default;
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    void add(std::function<void()> task)
+    {
+        std::function<void()>* place = nullptr;
+        {
+            const std::lock_guard lock{mutex_};
+            place = &tasks_.emplace_back(std::move(task));
+        }
+        order_.fetch_add(1, std::memory_order_acq_rel);
+        group_.run(Run{this, place});
+    }
+
+    void finish()
+    {
+        group_.wait();
+        static_cast<void>(order_.load(std::memory_order_acquire));
+    }
+
+private:
+    // As LoopCall.
+    struct Run {
+        Implementation* tasks;
+        std::function<void()>* task;
+        [[gnu::no_sanitize("thread")]] void operator()() const { tasks->run(*task); }
+    };
+
+    void run(std::function<void()>& place)
+    {
+        static_cast<void>(order_.load(std::memory_order_acquire));
+        {
+            const std::function<void()> task = std::exchange(place, nullptr);
+            const cancellation::Part part{part_};
+            task();
+        }
+        order_.fetch_add(1, std::memory_order_acq_rel);
+    }
+
+    std::mutex mutex_;
+    std::deque<std::function<void()>> tasks_;  // stay where they are
+    cancellation::Part::Text part_{cancellation::Part::current()};
+    std::atomic<std::size_t> order_{0};  // as Loop::done
+    tbb::task_group group_;
+};
+
+Tasks::Tasks() : implementation_{std::make_unique<Implementation>()} {}
+
+Tasks::~Tasks() = default;
+
+void Tasks::add(std::function<void()> task) { implementation_->add(std::move(task)); }
+
+void Tasks::finish() { implementation_->finish(); }
 
 class TaskQueue::Implementation {
 public:

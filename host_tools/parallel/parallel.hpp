@@ -26,6 +26,27 @@ void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 // Calls first() and second() at once, as for_each() does.
 void both(const std::function<void()>& first, const std::function<void()>& second);
 
+// Tasks that run at once, in any order, and may add more. The cancellation::Part of the thread that
+// made this is theirs too.
+class Tasks {
+public:
+    Tasks();
+    // Waits for all.
+    ~Tasks();
+    Tasks(const Tasks&) = delete;
+    Tasks& operator=(const Tasks&) = delete;
+
+    // task  throws nothing
+    void add(std::function<void()> task);
+
+    // Returns when all tasks are done, those added meanwhile too.
+    void finish();
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
 // Tasks that run one after the other, in the order of add(), while the caller continues: the later
 // stage of work that comes in pieces. With one thread they run in add() and finish().
 class TaskQueue {

@@ -79,6 +79,8 @@ struct PartModel::State {
     History& history() const;
     // Clears the histories of all threads. To be called while no other thread queries.
     void forget_histories() const;
+    // Releases all halves. As forget_histories().
+    void forget_cells();
 
 private:
     static std::uint64_t next_number();

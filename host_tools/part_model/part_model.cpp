@@ -261,12 +261,9 @@ ToolDistance PartModel::distance(const Tool& tool, Vec3d tip, double limit) cons
 
 void PartModel::forget_cells() const
 {
-    state_->forget_histories();
-    for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
-        cell->forget();
-    }
-    [[maybe_unused]] const bool many = state_->halves > kWorthReturning;
-    state_->halves = 0;
+    [[maybe_unused]] const bool many =
+        state_->halves > kWorthReturning || state_->released.exchange(false);
+    state_->forget_cells();
 #ifdef __GLIBC__
     // The allocator would keep it: of 840 MB of a plan 380 were in use.
     if (many) {
@@ -297,7 +294,7 @@ PartModel::SharedQueries::SharedQueries(const PartModel& model) : model_{model}
 PartModel::SharedQueries::~SharedQueries()
 {
     --model_.state_->sharers;
-    if (model_.state_->sharers == 0 && model_.state_->released.exchange(false)) {
+    if (model_.state_->sharers == 0 && model_.state_->released) {
         model_.forget_cells();
     }
     model_.forget_many_cells();
@@ -322,7 +319,8 @@ void PartModel::SharedQueries::Part::begin() const
         state.parts.unlock_shared();
         state.parts.lock();
         if (state.halves > kMostHalves) {
-            model_.forget_cells();
+            // The next parts need the memory again: to return it would take as long as to release it.
+            state.forget_cells();
             state.released = true;
         }
         state.parts.unlock();

@@ -72,6 +72,15 @@ PartModel::State::History& PartModel::State::history() const
     return *last.history;
 }
 
+void PartModel::State::forget_cells()
+{
+    forget_histories();
+    for (const std::unique_ptr<BezierCell>& cell : cells) {
+        cell->forget();
+    }
+    halves = 0;
+}
+
 void PartModel::State::forget_histories() const
 {
     for (const auto& [thread, history] : histories_) {

@@ -5,6 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "host_tools/parallel/parallel.hpp"
+
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -124,7 +127,8 @@ TEST(StockHeightMap, TrialsLeaveNoTrace)
         for (int i = 0; i < 60; ++i) {
             const Vec3d to = any(random) < 0.5 ? at + (place() - at) * 0.05 : place();
             stock.begin_trial();
-            deepest_trial = std::max(deepest_trial, stock.cut_with_shrunk_tool(place(), at));
+            deepest_trial =
+                std::max(deepest_trial, stock.cut_with_shrunk_tool({{place(), at}}).front());
             deepest_trial = std::max(deepest_trial, stock.cut(at, to));
             stock.end_trial();
             CHECK_EQUAL(untried.cut(at, to), stock.cut(at, to));
@@ -134,6 +138,51 @@ TEST(StockHeightMap, TrialsLeaveNoTrace)
             at = to;
         }
         CHECK(deepest_trial > 1.0);
+    }
+}
+
+// Long enough to be shared out: the same bits as move by move.
+TEST(StockHeightMap, CutsManyMovesAsOneByOne)
+{
+    constexpr unsigned kSeed = 20261127;
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> any{0.0, 1.0};
+    const auto place = [&] {
+        return Vec3d{kSide * any(random), kSide * any(random), 0.5 - 3.0 * any(random)};
+    };
+    Tool tool;
+    tool.radius = 2.0;
+    parallel::set_threads(3);
+    for (const double corner : {0.0, 0.5, 2.0}) {
+        tool.corner_radius = corner;
+        StockHeightMap stock{{0.0, 0.0, kSide, kSide}, tool, kTop};
+        StockHeightMap one_by_one = stock;
+        StockHeightMap untouched = stock;
+        std::vector<StockHeightMap::Move> moves;
+        Vec3d at = place();
+        for (int i = 0; i < 60; ++i) {
+            const Vec3d to = any(random) < 0.5 ? at + (place() - at) * 0.05 : place();
+            moves.push_back({at, to});
+            at = to;
+        }
+        stock.begin_trial();
+        stock.cut_with_shrunk_tool(moves);
+        stock.end_trial();
+        const std::vector<double> deepest = stock.cut(moves);
+        int deep = 0;
+        for (std::size_t k = 0; k < moves.size(); ++k) {
+            CHECK_EQUAL(one_by_one.cut(moves[k].from, moves[k].to), deepest[k]);
+            deep += deepest[k] > 0.5 ? 1 : 0;
+        }
+        CHECK(deep > 5);
+        int lower = 0;
+        for (int i = 0; i < 500; ++i) {
+            const Vec3d probe = place();
+            const double left = stock.contact_height({probe.x, probe.y}, 0.2);
+            CHECK_EQUAL(one_by_one.contact_height({probe.x, probe.y}, 0.2), left);
+            lower += left < untouched.contact_height({probe.x, probe.y}, 0.2) ? 1 : 0;
+        }
+        CHECK(lower > 250);
     }
 }
 

@@ -1,6 +1,8 @@
-// Loops: every number once, the exception of the lowest number, loops in loops. Queues: tasks in order.
+// Loops: every number once, the exception of the lowest number, loops in loops. Tasks: every one once, those
+// that tasks add too. Queues: tasks in order.
 #include "host_tools/parallel/parallel.hpp"
 
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -61,6 +63,32 @@ TEST(Parallel, RunsTwoTasks)
     parallel::both([&] { first = 1; }, [&] { second = 2; });
     LONGS_EQUAL(1, first);
     LONGS_EQUAL(2, second);
+}
+
+TEST(Parallel, RunsTasksThatAddTasks)
+{
+    for (const int threads : {1, 2, 4}) {
+        parallel::set_threads(threads);
+        constexpr std::size_t kTasks = 1023;  // the task k adds 2 k + 1 and 2 k + 2
+        std::vector<int> calls(kTasks);
+        parallel::Tasks tasks;
+        std::function<void(std::size_t)> add;
+        add = [&](std::size_t k) {
+            tasks.add([&, k] {
+                ++calls[k];
+                if (2 * k + 2 < kTasks) {
+                    add(2 * k + 1);
+                    add(2 * k + 2);
+                }
+            });
+        };
+        add(0);
+        tasks.finish();
+        CHECK(calls == std::vector<int>(kTasks, 1));
+        add(kTasks - 1);  // may go on
+        tasks.finish();
+        LONGS_EQUAL(2, calls.back());
+    }
 }
 
 TEST(Parallel, QueueRunsTasksInOrderBesideTheCaller)
