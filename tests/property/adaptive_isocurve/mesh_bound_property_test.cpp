@@ -171,6 +171,16 @@ TEST(MeshBoundProperty, HoldsBesideUprightFaces)
     hold_all({"adaptive_isocurve", true, Walls::kUpright}, 2);
 }
 
+TEST(MeshBoundProperty, HoldsBesideStandingWallsOfFaces)
+{
+    hold_all({"adaptive_isocurve", true, Walls::kStanding}, 2);
+}
+
+TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWallsOfFaces)
+{
+    hold_all({"parallel_planes", true, Walls::kStanding}, 2);
+}
+
 TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWalls)
 {
     hold_all({"parallel_planes", false, Walls::kStanding}, 2);
