@@ -96,14 +96,14 @@ WallPasses::WallPasses(const GougeFreePathFitter& path_fitter, ScallopAtPoint& p
 {
 }
 
-void WallPasses::share_out(
-    std::size_t count, const std::function<void(const ScallopAtPoint&, std::size_t)>& work) const
+void WallPasses::share_out(std::size_t count,
+                           const std::function<void(Search&, std::size_t)>& work) const
 {
     const std::size_t shares = std::min(count, kWallShares);
     {
         const PartModel::SharedQueries shared{path_fitter_.model()};
         parallel::for_each(shares, [&](std::size_t share) {
-            const ScallopAtPoint copy{places_};
+            Search copy{places_, {}};
             const PartModel::SharedQueries::Part queries{path_fitter_.model()};
             for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
                 work(copy, k);
@@ -124,9 +124,9 @@ void WallPasses::find(const std::vector<UprightFacet>& facets)
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return bottoms[a] < bottoms[b]; });
     std::vector<std::vector<Wall>> found(order.size());
-    share_out(order.size(), [&](const ScallopAtPoint& places, std::size_t k) {
+    share_out(order.size(), [&](Search& search, std::size_t k) {
         for (const WallSide& side : wall_sides_of(facets[order[k]], path_fitter_)) {
-            std::vector<WallSide::Run> runs = side.missing_runs(places);
+            std::vector<WallSide::Run> runs = side.missing_runs(search.places, search.known);
             if (!runs.empty()) {
                 found[k].push_back({side, std::move(runs)});
             }
@@ -142,8 +142,8 @@ void WallPasses::find(const std::vector<UprightFacet>& facets)
 
 void WallPasses::look_again()
 {
-    share_out(walls_.size(), [&](const ScallopAtPoint& places, std::size_t k) {
-        walls_[k].runs = walls_[k].side.missing_runs(places);
+    share_out(walls_.size(), [&](Search& search, std::size_t k) {
+        walls_[k].runs = walls_[k].side.missing_runs(search.places, search.known);
     });
     std::vector<Wall> kept;
     for (Wall& wall : walls_) {
@@ -164,7 +164,8 @@ void WallPasses::add_missing(const std::function<void(const Points&)>& cut)
         for (Wall& wall : walls_) {
             path_fitter_.model().forget_many_cells();
             if (cutter.has_cut_near(wall.side)) {
-                wall.runs = wall.side.missing_runs(places_);
+                WallSide::KnownReach known;
+                wall.runs = wall.side.missing_runs(places_, known);
             }
             for (const WallSide::Run& run : wall.runs) {
                 cutter.add(wall.side.pass_along(run));
@@ -179,9 +180,9 @@ double WallPasses::measure_left()
 {
     look_again();
     std::vector<double> left(walls_.size());
-    share_out(walls_.size(), [&](const ScallopAtPoint& places, std::size_t k) {
+    share_out(walls_.size(), [&](Search& search, std::size_t k) {
         for (const WallSide::Run& run : walls_[k].runs) {
-            left[k] = std::max(left[k], walls_[k].side.left_in(run, places));
+            left[k] = std::max(left[k], walls_[k].side.left_in(run, search.places));
         }
     });
     double most = 0;

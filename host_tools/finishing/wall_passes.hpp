@@ -43,8 +43,13 @@ private:
     };
     class Cutter;
 
+    struct Search {
+        const ScallopAtPoint places;
+        WallSide::KnownReach known;
+    };
+    // Calls work(search, k) for each k below count, neighbours with one search.
     void share_out(std::size_t count,
-                   const std::function<void(const ScallopAtPoint&, std::size_t)>& work) const;
+                   const std::function<void(Search&, std::size_t)>& work) const;
     void look_again();
 
     const GougeFreePathFitter& path_fitter_;

@@ -182,10 +182,48 @@ bool WallSide::one_move_cuts(const Column& a, const Column& b, const ScallopAtPo
     return places.one_move_cuts_wall(ends, off_);
 }
 
+bool WallSide::KnownReach::holds(Vec3d place, double away, double top) const
+{
+    return std::any_of(spots_.begin(), spots_.end(), [&](const Spot& spot) {
+        return spot.lowest >= top &&
+               std::hypot(place.x - spot.place.x, place.y - spot.place.y) + away <= spot.wide;
+    });
+}
+
+void WallSide::KnownReach::add(Vec3d place, double wide, double lowest)
+{
+    spots_[next_] = {{place.x, place.y}, wide, lowest};
+    next_ = (next_ + 1) % spots_.size();
+}
+
+// Whether no ball near the centre reaches the wall and rests. Balls half as large and half as large
+// again prove it far around.
+bool WallSide::is_unreached(Vec3d centre, double away, double top, KnownReach& known) const
+{
+    if (known.holds(centre, away, top)) {
+        return true;
+    }
+    const double radius = fitter_.offset_tool().radius;
+    const double wide = (1 - kLeastBall) * radius;
+    const std::optional<double> rest = drop_centre(centre, radius - wide);
+    if (rest && *rest >= top) {
+        known.add(centre, wide, *rest);
+        return true;
+    }
+    if (!rest && !drop_centre(centre, radius + wide)) {
+        known.add(centre, wide, kInfinite);
+        return true;
+    }
+    return false;
+}
+
 // Whether all that is reached between two places of a vertical wall is proved to be cut. If the ball
 // is clear somewhere between, the smaller ball inside it is clear in the middle at that height; if
 // the larger ball in the middle rests on nothing, neither does any ball inside it.
-bool WallSide::is_cut_between(double from, double to, const ScallopAtPoint& places) const
+bool WallSide::is_cut_between(double from,
+                              double to,
+                              const ScallopAtPoint& places,
+                              KnownReach& known) const
 {
     const Vec3d centre = centre_beside(0.5 * (from + to), corners_.front().z);
     const double radius = fitter_.offset_tool().radius;
@@ -210,11 +248,14 @@ bool WallSide::is_cut_between(double from, double to, const ScallopAtPoint& plac
         return places.one_move_cuts_wall(
             {{point_at(from, a.low), out_at(from)}, {point_at(to, b.low), out_at(to)}}, off_);
     };
-    if (cut() || !drop_centre(centre, radius + away)) {
+    if (cut() || is_unreached(centre, away, top, known)) {
         return true;
     }
     const std::optional<double> rest = drop_centre(centre, radius - away);
-    if (!rest || *rest <= std::min(a.low, b.low)) {
+    if (!rest) {
+        return !drop_centre(centre, radius + away);
+    }
+    if (*rest <= std::min(a.low, b.low)) {
         return false;
     }
     if (*rest >= top) {
@@ -229,11 +270,12 @@ bool WallSide::is_cut_between(double from, double to, const ScallopAtPoint& plac
 void WallSide::look_over(double from,
                          double to,
                          const ScallopAtPoint& places,
+                         KnownReach& known,
                          std::vector<Run>& out) const
 {
     const double apart = (to - from) / places.step();
     if (apart <= kLongestApart) {
-        if (is_cut_between(from, to, places)) {
+        if (is_cut_between(from, to, places, known)) {
             return;
         }
         if (apart <= kProvedApart) {
@@ -242,8 +284,8 @@ void WallSide::look_over(double from,
         }
     }
     const double middle = 0.5 * (from + to);
-    look_over(from, middle, places, out);
-    look_over(middle, to, places, out);
+    look_over(from, middle, places, known, out);
+    look_over(middle, to, places, known, out);
 }
 
 // The end of what is reached between a column that is and one that is not.
@@ -318,12 +360,13 @@ std::vector<double> WallSide::first_places(double step) const
     return out;
 }
 
-std::vector<WallSide::Run> WallSide::missing_runs(const ScallopAtPoint& places) const
+std::vector<WallSide::Run> WallSide::missing_runs(const ScallopAtPoint& places,
+                                                  KnownReach& known) const
 {
     std::vector<Run> out;
     const std::vector<double> at = first_places(places.step());
     for (std::size_t k = 1; k < at.size(); ++k) {
-        look_over(at[k - 1], at[k], places, out);
+        look_over(at[k - 1], at[k], places, known, out);
     }
     return out;
 }

@@ -2,6 +2,8 @@
 // that the ball's side or shank could remove, and the passes along it that do.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -23,6 +25,26 @@ namespace cusp::finishing {
 // column is too high for the ball and the next has nothing below, it is looked for between them.
 class WallSide {
 public:
+    // Places around which no ball reaches a wall below some height, or none that rests on something:
+    // behind a wall, and beside the part. The last few that were found.
+    class KnownReach {
+    public:
+        // Whether no centre within `away` (mm, in plan) of the place is below `top`, or rests.
+        bool holds(Vec3d place, double away, double top) const;
+        // lowest  z of the lowest centre within `wide` of the place; kInfinite: none rests
+        void add(Vec3d place, double wide, double lowest);
+
+    private:
+        struct Spot {
+            Vec2d place;
+            double wide{-1};
+            double lowest{};
+        };
+        std::array<Spot, 8> spots_{};
+        std::size_t next_{0};
+    };
+
+
     // turned  whether the side behind the facet is looked at
     // fitter  kept while the wall is used
     WallSide(const UprightFacet& facet, bool turned, const GougeFreePathFitter& fitter);
@@ -33,7 +55,8 @@ public:
         double to;     // the same
         double level;  // where on a leaning wall: 0 the lowest place reached, 1 the top
     };
-    std::vector<Run> missing_runs(const ScallopAtPoint& places) const;
+    // known  of this or other walls of the model, looked at with the same tool
+    std::vector<Run> missing_runs(const ScallopAtPoint& places, KnownReach& known) const;
 
     // Tips along the wall that remove what is left in a run.
     Points pass_along(const Run& run) const;
@@ -67,10 +90,15 @@ private:
     std::optional<double> missing_level(const Column& column, const ScallopAtPoint& places) const;
     bool one_move_cuts(const Column& a, const Column& b, const ScallopAtPoint& places) const;
     std::vector<double> first_places(double step) const;
-    bool is_cut_between(double from, double to, const ScallopAtPoint& places) const;
+    bool is_unreached(Vec3d centre, double away, double top, KnownReach& known) const;
+    bool is_cut_between(double from,
+                        double to,
+                        const ScallopAtPoint& places,
+                        KnownReach& known) const;
     void look_over(double from,
                    double to,
                    const ScallopAtPoint& places,
+                   KnownReach& known,
                    std::vector<Run>& out) const;
     void look_between(const Column& a,
                       const Column& b,
