@@ -121,11 +121,11 @@ double ScallopAtPoint::left_beside_wall(Vec3d point, Vec3d normal, double off) c
     return high;
 }
 
-bool ScallopAtPoint::is_upright(Vec3d normal) const
+double ScallopAtPoint::upright_normal() const
 {
     const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
-    return normal.z < kLevelWall ||
-           (normal.z < kUprightNormal && height * normal.z <= kPlaceShare * scallop_);
+    return std::clamp(kPlaceShare * scallop_ / std::max(height, kLevelWall), kLevelWall,
+                      kUprightNormal);
 }
 
 // mm: the stock over a point from `height` up to `now`, along the normal; at most the radius.

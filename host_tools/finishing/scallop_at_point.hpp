@@ -97,7 +97,10 @@ public:
 
     // Whether nothing thicker than the scallop would fit between a wall and a vertical line if the wall
     // were as high as the model.
-    bool is_upright(Vec3d normal) const;
+    bool is_upright(Vec3d normal) const { return normal.z <= upright_normal(); }
+
+    // The greatest z of the normal of such a wall.
+    double upright_normal() const;
 
     struct LowerTip {
         std::optional<Vec3d> tip;  // none where no tip removes more than the share

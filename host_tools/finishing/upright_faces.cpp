@@ -24,6 +24,7 @@ constexpr double kPlane = 1e-7;           // mm: control points off a plane
 constexpr double kOffShare = 0.04;        // of the scallop: a facet off its face
 constexpr double kOffBandShare = 0.15;    // the same, of half the band
 constexpr double kMostTurn = 0.1;         // of the normal over a cell
+constexpr double kBandShare = 0.25;         // of the greatest z of an upright normal: its lines off
 constexpr double kLeastRise = 0.125;      // of the scallop: height of a part
 constexpr double kLongestFacet = 32;      // in stepovers: shared out to threads
 constexpr std::size_t kMostCorners = 64;  // of a facet
@@ -113,6 +114,7 @@ public:
           model_{path_fitter.model()},
           places_{places},
           scallop_{scallop},
+          most_z_{places.upright_normal()},
           most_off_{std::min(kOffShare * scallop, kOffBandShare * path_fitter.band().half_width)}
     {
     }
@@ -123,7 +125,7 @@ public:
                          {surface_.u_end(), surface_.v_end()}};
         if (const std::optional<Vec3d> normal = plane_normal()) {
             if (places_.is_upright(*normal)) {
-                add(whole, frame_of(*normal, surface_.points.front()));
+                add(whole, frame_of(*normal, surface_.points.front()), {});
             }
             return out_;
         }
@@ -209,19 +211,6 @@ private:
         return out;
     }
 
-    static double rise_of(const Samples& at)
-    {
-        double low = at.points[0].z;
-        double high = low;
-        for (const Vec3d& p : at.points) {
-            low = std::min(low, p.z);
-            high = std::max(high, p.z);
-        }
-        return high - low;
-    }
-
-    bool is_upright(Vec3d normal) const { return places_.is_upright(upward(normal)); }
-
     // The plane through the middle of the samples, as the facet of the cell has it.
     static Frame fitted(const Samples& at)
     {
@@ -272,7 +261,6 @@ private:
         if (!at) {
             return;
         }
-        const double steep = std::max(std::abs(at->low), std::abs(at->high));
         const bool one_way = at->low > 0 || at->high < 0;
         const double least = std::min(std::abs(at->low), std::abs(at->high));
         if (one_way && least > at->turn + kUprightNormal) {
@@ -289,26 +277,55 @@ private:
             halve(at->turns_along_u);
             return;
         }
-        const double rise = rise_of(*at);
-        if (rise <= kLeastRise * scallop_) {
-            return;
-        }
-        const auto upright = std::count_if(at->normals.begin(), at->normals.end(),
-                                           [&](Vec3d n) { return is_upright(n); });
-        if (upright == 0 && one_way && least > at->high - at->low) {
-            return;
-        }
-        if (upright < 9 && steep > 0 && depth > 0) {
-            halve(at->rises_along_u);
+        if (one_way && least > most_z_ + 0.5 * (at->high - at->low)) {
             return;
         }
         Frame frame = fitted(*at);
         frame.off = off_of(*at, frame);
-        if (frame.off > most_off_ && depth > 0) {
+        const LevelLines lines = level_lines(*at);
+        if (depth > 0 && frame.off > most_off_) {
             halve(at->turns_along_u);
-            return;
+        } else if (depth > 0 && lines.off > kBandShare * most_z_ &&
+                   std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
+            halve(at->rises_along_u);
+        } else {
+            add(cell, frame, lines);
         }
-        add(cell, frame);
+    }
+
+    // z of the normal over a cell is about at_low + dot(slope, share of the cell), by so much.
+    struct LevelLines {
+        double at_low;
+        Vec2d slope;
+        double off;
+    };
+    static LevelLines level_lines(const Samples& at)
+    {
+        LevelLines out{0, {0, 0}, 0};
+        double mean = 0;
+        for (std::size_t k = 0; k < 9; ++k) {
+            const double z = at.normals[k].z;
+            mean += z / 9;
+            out.slope = out.slope + Vec2d{(static_cast<double>(k / 3) - 1) * z / 3,
+                                          (static_cast<double>(k % 3) - 1) * z / 3};
+        }
+        out.at_low = mean - 0.5 * (out.slope.x + out.slope.y);
+        for (std::size_t k = 0; k < 9; ++k) {
+            const double z = out.at_low + 0.5 * (out.slope.x * static_cast<double>(k / 3) +
+                                                 out.slope.y * static_cast<double>(k % 3));
+            out.off = std::max(out.off, std::abs(at.normals[k].z - z));
+        }
+        return out;
+    }
+
+    // The part of a loop in the cell that is upright.
+    Outline upright_part(const Outline& loop, const Cell& cell, const LevelLines& lines) const
+    {
+        const double most = most_z_ + 2 * lines.off;
+        const Vec2d slope{lines.slope.x / (cell.high.x - cell.low.x),
+                          lines.slope.y / (cell.high.y - cell.low.y)};
+        const double at_zero = lines.at_low - dot(slope, cell.low);
+        return clipped(clipped(loop, slope, -most - at_zero), slope * -1.0, at_zero - most);
     }
 
     // The sides of a loop in the frame; those that bend in space are divided.
@@ -329,7 +346,7 @@ private:
         }
     }
 
-    void add(const Cell& cell, const Frame& frame)
+    void add(const Cell& cell, const Frame& frame, const LevelLines& lines)
     {
         std::vector<Outline> inside{
             {cell.low, {cell.high.x, cell.low.y}, cell.high, {cell.low.x, cell.high.y}}};
@@ -351,7 +368,8 @@ private:
         // Corners off by as much leave a corner of the wall so high.
         const double corner_off = 0.25 * most_off_;
         std::vector<Outline> outlines;
-        for (const Outline& loop : inside) {
+        for (const Outline& whole : inside) {
+            const Outline loop = upright_part(whole, cell, lines);
             Outline flat;
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 append_side(loop[k], loop[(k + 1) % loop.size()], kSideHalvings, frame,
@@ -375,6 +393,7 @@ private:
     const PartModel& model_;
     const ScallopAtPoint& places_;
     double scallop_;
+    double most_z_;  // of a normal that is upright
     double most_off_;
     std::optional<TrimRegion> region_;
     std::vector<UprightFacet> out_;

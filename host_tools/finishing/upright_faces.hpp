@@ -10,9 +10,9 @@
 namespace cusp::finishing {
 
 // Cells of the domain are halved until each is plane within a small share of the scallop and of the
-// band, and either upright as ScallopAtPoint::is_upright() has it or not. A plane face stays whole,
-// and its facets are exact. Parts less high than an eighth of the scallop are left out: what is left
-// there differs little from that beside them.
+// band; of each remains what is upright, as ScallopAtPoint::is_upright() has it. A plane face stays
+// whole, and its facets are exact. Facets less high than an eighth of the scallop are left out: what
+// is left there differs little from that beside them.
 //
 // How far a curved face is off its facet, and how far its normal is off that of the facet, are looked
 // at in nine places, and twice that is taken.
