@@ -24,7 +24,7 @@ constexpr double kPlane = 1e-7;           // mm: control points off a plane
 constexpr double kOffShare = 0.04;        // of the scallop: a facet off its face
 constexpr double kOffBandShare = 0.15;    // the same, of half the band
 constexpr double kMostTurn = 0.1;         // of the normal over a cell
-constexpr double kBandShare = 0.25;         // of the greatest z of an upright normal: its lines off
+constexpr double kBandShare = 0.25;       // of the greatest z of an upright normal: its lines off
 constexpr double kLeastRise = 0.125;      // of the scallop: height of a part
 constexpr double kLongestFacet = 32;      // in stepovers: shared out to threads
 constexpr std::size_t kMostCorners = 64;  // of a facet
@@ -71,8 +71,8 @@ struct Samples {
     double turn{};                 // how much they differ
     double low{};                  // of their z
     double high{};
-    bool turns_along_u{};  // more than along v
-    bool rises_along_u{};  // the same, of z
+    bool turns_along_u{};       // more than along v
+    bool lines_bend_along_u{};  // the same, lines of equal z
 };
 
 // Corners of the loop inside a half plane (Sutherland & Hodgman). Sides along its border may lie
@@ -113,6 +113,7 @@ public:
           number_{number},
           model_{path_fitter.model()},
           places_{places},
+          radius_{path_fitter.tool().radius},
           scallop_{scallop},
           most_z_{places.upright_normal()},
           most_off_{std::min(kOffShare * scallop, kOffBandShare * path_fitter.band().half_width)}
@@ -204,10 +205,15 @@ private:
             out.low = std::min(out.low, n.z);
             out.high = std::max(out.high, n.z);
         }
-        out.turns_along_u =
-            norm(out.normals[7] - out.normals[1]) >= norm(out.normals[5] - out.normals[3]);
-        out.rises_along_u = std::abs(out.normals[7].z - out.normals[1].z) >=
-                            std::abs(out.normals[5].z - out.normals[3].z);
+        const auto turn_between = [&](std::size_t a, std::size_t b) {
+            return std::max(norm(out.normals[a] - out.normals[4]),
+                            norm(out.normals[b] - out.normals[4]));
+        };
+        out.turns_along_u = turn_between(1, 7) >= turn_between(3, 5);
+        const auto bend_between = [&](std::size_t a, std::size_t b) {
+            return std::abs(out.normals[a].z - 2 * out.normals[4].z + out.normals[b].z);
+        };
+        out.lines_bend_along_u = bend_between(1, 7) >= bend_between(3, 5);
         return out;
     }
 
@@ -238,6 +244,7 @@ private:
     {
         double off = 0;
         double turn = 0;
+        double rise = 0;
         const double middle = dot(frame.middle, frame.along);
         const double side = dot(at.normals[4], frame.normal) < 0 ? -1 : 1;
         for (std::size_t k = 0; k < 9; ++k) {
@@ -245,8 +252,13 @@ private:
             const Vec3d out =
                 frame.normal +
                 frame.along * (frame.bend * (dot(at.points[k], frame.along) - middle));
-            turn = std::max(turn, norm(at.normals[k] * side - out / norm(out)));
+            const Vec3d turned = at.normals[k] * side - out / norm(out);
+            turn = std::max(turn, std::hypot(turned.x, turned.y));
+            rise = std::max(rise, std::min(std::abs(turned.z), 2 * most_z_));
         }
+        // The side of the ball is steep where it leaves no more than the scallop: a point that is
+        // higher or lower is that much nearer or farther, times the slope.
+        turn += rise * std::min(1.0, std::sqrt(2 * scallop_ / radius_));
         // Between two places of a facet the straight way between raised points is lower.
         const double sag = 0.125 * scallop_ * at.turn * at.turn;
         return 2 * (off + scallop_ * turn) + sag;
@@ -287,7 +299,7 @@ private:
             halve(at->turns_along_u);
         } else if (depth > 0 && lines.off > kBandShare * most_z_ &&
                    std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
-            halve(at->rises_along_u);
+            halve(at->lines_bend_along_u);
         } else {
             add(cell, frame, lines);
         }
@@ -379,6 +391,11 @@ private:
         }
         const double longest = kLongestFacet * places_.step();
         for (const Outline& outline : column_outlines(outlines, longest, kMostCorners)) {
+            const auto [low, high] = std::minmax_element(
+                outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.y < b.y; });
+            if (high->y - low->y <= kLeastRise * scallop_) {
+                continue;
+            }
             UprightFacet facet{
                 {}, frame.normal, frame.bend, dot(frame.middle, frame.along), frame.off};
             for (const Vec2d at : outline) {
@@ -392,6 +409,7 @@ private:
     int number_;
     const PartModel& model_;
     const ScallopAtPoint& places_;
+    double radius_;
     double scallop_;
     double most_z_;  // of a normal that is upright
     double most_off_;

@@ -48,8 +48,7 @@ private:
         WallSide::KnownReach known;
     };
     // Calls work(search, k) for each k below count, neighbours with one search.
-    void share_out(std::size_t count,
-                   const std::function<void(Search&, std::size_t)>& work) const;
+    void share_out(std::size_t count, const std::function<void(Search&, std::size_t)>& work) const;
     void look_again();
 
     const GougeFreePathFitter& path_fitter_;

@@ -13,7 +13,8 @@ using toolpath::ToolShape;
 namespace {
 
 constexpr double kLongestApart = 2;          // in stepovers: columns
-constexpr double kProvedApart = 0.5;         // the same: reach is bounded between; tried once more
+constexpr double kProvedApart = 0.125;       // the same: reach is bounded between, down to this
+constexpr int kTriedEach = 2;                // halvings of a stretch before that is tried again
 constexpr double kLeastBall = 0.5;           // radii: to bound reach
 constexpr double kReachApart = 1.0 / 16;     // the same: those of which reach is looked at
 constexpr double kLeastApart = 1.0 / 64;     // the same
@@ -217,75 +218,98 @@ bool WallSide::is_unreached(Vec3d centre, double away, double top, KnownReach& k
     return false;
 }
 
-// Whether all that is reached between two places of a vertical wall is proved to be cut. If the ball
-// is clear somewhere between, the smaller ball inside it is clear in the middle at that height; if
-// the larger ball in the middle rests on nothing, neither does any ball inside it.
-bool WallSide::is_cut_between(double from,
-                              double to,
-                              const ScallopAtPoint& places,
-                              KnownReach& known) const
+// Whether all that is reached between two places is proved to be cut. If the ball is clear somewhere
+// between, the smaller ball inside it is clear in the middle at that height; if the larger ball in
+// the middle rests on nothing, neither does any ball inside it.
+//
+// far  whether to look far around, for other stretches too
+bool WallSide::is_cut_between(
+    double from, double to, bool far, const ScallopAtPoint& places, KnownReach& known) const
 {
-    const Vec3d centre = centre_beside(0.5 * (from + to), corners_.front().z);
     const double radius = fitter_.offset_tool().radius;
-    const double away = kReachSlack + std::max(norm(centre_beside(from, centre.z) - centre),
-                                               norm(centre_beside(to, centre.z) - centre));
-    if (leans_ || radius - away < kLeastBall * radius) {
-        return false;
-    }
     Column a = whole_column_at(from);
     Column b = whole_column_at(to);
+    double low = std::min(a.low, b.low);
     double top = std::max(a.top, b.top);
     bool has_corner_between = false;
     for (const Vec3d& corner : corners_) {
         const double along = dot(corner, along_);
         if (along > from && along < to) {
             has_corner_between = true;
+            low = std::min(low, corner.z);
             top = std::max(top, corner.z);
-            a.low = b.low = std::min({a.low, b.low, corner.z});
         }
     }
+    if (has_corner_between) {
+        a.low = b.low = low;
+        a.top = b.top = top;
+    }
     const auto cut = [&] {
-        return places.one_move_cuts_wall(
-            {{point_at(from, a.low), out_at(from)}, {point_at(to, b.low), out_at(to)}}, off_);
+        return one_move_cuts(a, b, places);
     };
-    if (cut() || is_unreached(centre, away, top, known)) {
+    if (cut()) {
+        return true;
+    }
+    const Vec3d centre = centre_beside(0.5 * (from + to), 0.5 * (low + top));
+    double away = 0;
+    for (const double along : {from, to}) {
+        for (const double z : leans_ ? std::array{low, top} : std::array{low, low}) {
+            const Vec3d off = centre_beside(along, z) - centre;
+            away = std::max(away, std::hypot(off.x, off.y) + kReachSlack);
+        }
+    }
+    if (radius - away < kLeastBall * radius) {
+        return false;
+    }
+    // A ball that touches the wall at z has its centre so much higher.
+    const double higher = out_.z * (radius + beside_) + kReachSlack;
+    if (far ? is_unreached(centre, away, top + higher, known)
+            : known.holds(centre, away, top + higher)) {
         return true;
     }
     const std::optional<double> rest = drop_centre(centre, radius - away);
     if (!rest) {
         return !drop_centre(centre, radius + away);
     }
-    if (*rest <= std::min(a.low, b.low)) {
+    const double reached = *rest - higher;
+    if (reached <= low) {
         return false;
     }
-    if (*rest >= top) {
+    if (reached >= top) {
         return true;
     }
-    const bool crosses = has_corner_between || *rest < std::max(a.low, b.low);
-    a.low = b.low = crosses ? std::max(*rest, std::min(a.low, b.low)) : *rest;
+    // Where the lower side of the facet crosses that height, all above the lower end counts.
+    const double lowest =
+        has_corner_between || reached < std::max(a.low, b.low) ? std::max(reached, low) : reached;
+    a.low = b.low = lowest;
+    a.top = std::max(a.top, lowest);
+    b.top = std::max(b.top, lowest);
     return cut();
 }
 
 // As look_between(), where much is proved without columns.
+//
+// tries  halvings since that was tried; negative: never
 void WallSide::look_over(double from,
                          double to,
+                         int tries,
                          const ScallopAtPoint& places,
                          KnownReach& known,
                          std::vector<Run>& out) const
 {
     const double apart = (to - from) / places.step();
-    if (apart <= kLongestApart) {
-        if (is_cut_between(from, to, places, known)) {
-            return;
-        }
-        if (apart <= kProvedApart) {
-            look_between(column_at(from), column_at(to), places, out);
-            return;
-        }
+    const bool tried = apart <= kLongestApart && (tries < 0 || tries >= kTriedEach);
+    if (tried && is_cut_between(from, to, tries < 0, places, known)) {
+        return;
     }
+    if (apart <= kProvedApart) {
+        look_between(column_at(from), column_at(to), places, out);
+        return;
+    }
+    const int since = tried ? 1 : tries < 0 ? tries : tries + 1;
     const double middle = 0.5 * (from + to);
-    look_over(from, middle, places, known, out);
-    look_over(middle, to, places, known, out);
+    look_over(from, middle, since, places, known, out);
+    look_over(middle, to, since, places, known, out);
 }
 
 // The end of what is reached between a column that is and one that is not.
@@ -366,7 +390,7 @@ std::vector<WallSide::Run> WallSide::missing_runs(const ScallopAtPoint& places,
     std::vector<Run> out;
     const std::vector<double> at = first_places(places.step());
     for (std::size_t k = 1; k < at.size(); ++k) {
-        look_over(at[k - 1], at[k], places, known, out);
+        look_over(at[k - 1], at[k], -1, places, known, out);
     }
     return out;
 }

@@ -19,7 +19,7 @@ namespace cusp::finishing {
 // would go down beside the part without end.
 //
 // Between two columns one move proves the wall, if it removes all four ends of what is reached.
-// Reach is bounded between columns of a vertical wall: a ball smaller by their distance rests
+// Reach is bounded between columns: a ball smaller by their distance rests
 // no higher in the middle than the ball itself does anywhere between. Where that proves nothing, reach
 // is looked at a sixteenth of a stepover apart, and nothing is proved of it between. Where one
 // column is too high for the ball and the next has nothing below, it is looked for between them.
@@ -43,7 +43,6 @@ public:
         std::array<Spot, 8> spots_{};
         std::size_t next_{0};
     };
-
 
     // turned  whether the side behind the facet is looked at
     // fitter  kept while the wall is used
@@ -91,12 +90,11 @@ private:
     bool one_move_cuts(const Column& a, const Column& b, const ScallopAtPoint& places) const;
     std::vector<double> first_places(double step) const;
     bool is_unreached(Vec3d centre, double away, double top, KnownReach& known) const;
-    bool is_cut_between(double from,
-                        double to,
-                        const ScallopAtPoint& places,
-                        KnownReach& known) const;
+    bool is_cut_between(
+        double from, double to, bool far, const ScallopAtPoint& places, KnownReach& known) const;
     void look_over(double from,
                    double to,
+                   int tries,
                    const ScallopAtPoint& places,
                    KnownReach& known,
                    std::vector<Run>& out) const;

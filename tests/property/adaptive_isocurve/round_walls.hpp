@@ -55,11 +55,8 @@ struct RoundWall {
 };
 
 // The rectangle of the domain as facets within kChord of the surface.
-inline void add_facets(Triangles& out,
-                       const nurbs::Surface& s,
-                       Vec2d low,
-                       Vec2d high,
-                       double radius)
+inline void add_facets(
+    Triangles& out, const nurbs::Surface& s, Vec2d low, Vec2d high, double radius)
 {
     const double arc = 2 * std::sqrt(2 * kChord / radius);  // radians
     const int us = 1 + static_cast<int>((high.x - low.x) * 0.5 * kPi / arc);
