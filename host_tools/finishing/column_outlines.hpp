@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "firmware/base/vec.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 
 namespace cusp::finishing {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/parallel/parallel.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
@@ -87,9 +88,90 @@ double lowest_missing(
     return lowest;
 }
 
+// A plate, and a wall of some height over its border y = 0, plane or bent.
+std::vector<Surface> plate_with_wall(bool bent)
+{
+    constexpr double kHigh = 4;
+    std::vector<Surface> faces{plate()};
+    if (!bent) {
+        faces.push_back(test::plane_face(
+            {{0, 0, 0}, {kSide, 0, 0}, {kSide, 0, kHigh}, {0, 0, kHigh}}, {0, -1, 0}));
+        return faces;
+    }
+    Surface wall = plate();
+    wall.degree_u = 2;
+    wall.knots_u = {0, 0, 0, 1, 1, 1};
+    wall.size_u = 3;
+    wall.points.clear();
+    for (const Vec2d at : {Vec2d{0, 0}, Vec2d{0.5 * kSide, -2}, Vec2d{kSide, 0}}) {
+        wall.points.push_back({at.x, at.y, 0});
+        wall.points.push_back({at.x, at.y, kHigh});
+    }
+    wall.weights.assign(6, 1.0);
+    faces.push_back(wall);
+    return faces;
+}
+
+struct WallResult {
+    double left_before;  // mm, beside the wall, of the plate's passes
+    double left_after;
+    std::size_t uncovered;
+    std::vector<Points> passes;
+};
+
+// Passes along y over the plate end before its wall; then those that are missing.
+WallResult cut_beside_wall(bool bent, int threads)
+{
+    const Tool ball{1, ToolShape::kBall, 2, 2};
+    const std::vector<Surface> faces = plate_with_wall(bent);
+    const PartModel model{faces};
+    const GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(0.01, true)};
+    ScallopCheck check{faces, path_fitter, 0.05, 0};
+    for (double x = 0; x <= kSide; x += 0.5) {
+        check.add({{x, 4, 0.006}, {x, kSide, 0.006}});
+    }
+    parallel::set_threads(threads);
+    WallResult out{check.left_beside_walls(), 0, 0, {}};
+    check.check_all([](double) {});
+    check.add_missing_passes(
+        [&](const Points& pass) {
+            out.passes.push_back(pass);
+            check.add(pass);
+        },
+        [](double) {});
+    out.left_after = check.left_beside_walls();
+    out.uncovered = check.uncovered();
+    return out;
+}
+
 }  // namespace
 
 TEST_GROUP(ScallopCheck){};
+
+// Beside a wall at the border nothing but passes along it removes the stock.
+TEST(ScallopCheck, CutsBesideAStandingWall)
+{
+    for (const bool bent : {false, true}) {
+        const WallResult result = cut_beside_wall(bent, 2);
+        CHECK(result.left_before > 1);
+        DOUBLES_EQUAL(0, result.left_after, 0);
+        LONGS_EQUAL(0, result.uncovered);
+    }
+}
+
+TEST(ScallopCheck, CutsTheSameBesideAWallWithAnyThreads)
+{
+    const WallResult one = cut_beside_wall(true, 1);
+    const WallResult three = cut_beside_wall(true, 3);
+    parallel::set_threads(2);
+    LONGS_EQUAL(one.passes.size(), three.passes.size());
+    for (std::size_t k = 0; k < one.passes.size(); ++k) {
+        LONGS_EQUAL(one.passes[k].size(), three.passes[k].size());
+        for (std::size_t i = 0; i < one.passes[k].size(); ++i) {
+            CHECK(norm(one.passes[k][i] - three.passes[k][i]) == 0);
+        }
+    }
+}
 
 // In the smallest cells an uncovered plate would have five million of them.
 TEST(ScallopCheck, ChecksAnUncutPlateInLargeCells)
