@@ -188,6 +188,18 @@ TEST(MeshBoundProperty, HoldsBesideStandingWallsOfFaces)
     hold_all({"adaptive_isocurve", true, Walls::kStanding}, 2);
 }
 
+// Four that kept 0.087 to 0.5 mm while walls of faces were not looked at.
+TEST(MeshBoundProperty, HoldsBesideFacesOnTheBorder)
+{
+    hold_seeds({"adaptive_isocurve", true, Walls::kStanding}, {6, 7, 9, 10});
+}
+
+// Two that kept 0.11 and 0.5 mm.
+TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
+{
+    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4});
+}
+
 // Cylinders and arched sheets, which hardly lean.
 TEST(MeshBoundProperty, HoldsBesideRoundFaces)
 {

@@ -80,7 +80,7 @@ TEST(MeshScallopCheck, AddsPassesAlongAWallOf89Degrees)
 }
 
 // Its foot carries a ball beside it. A pass there leaves the lean and the tolerance; if that is too
-// much, one more higher up on either facet removes it.
+// much, one more higher up along both facets removes it.
 TEST(MeshScallopCheck, AddsFewPassesWhereTheWallLeansLessThanTheScallop)
 {
     std::size_t uncovered = 1;
