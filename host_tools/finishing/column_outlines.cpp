@@ -130,6 +130,7 @@ Outline simplified(const Outline& loop, double most_off)
     return out;
 }
 
+// Over 60 lines: one sweep, whose state all its steps share.
 std::vector<Outline> column_outlines(const std::vector<Outline>& loops,
                                      double longest,
                                      std::size_t most_corners)

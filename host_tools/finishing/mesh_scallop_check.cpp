@@ -275,7 +275,7 @@ void MeshScallopCheck::check()
         }
     }
     checking_ = false;
-    walls_.find(upright_facets());
+    walls_.find(vertical_facets());
 }
 
 // A tip that would cut the stock over a point down to the scallop; none where the point is covered,

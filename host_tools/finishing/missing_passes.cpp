@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host_tools/finishing/scallop_check.hpp"
-#include "host_tools/finishing/upright_faces.hpp"
+#include "host_tools/finishing/vertical_faces.hpp"
 
 namespace cusp::finishing {
 
@@ -209,7 +209,7 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
             check_cell(cell, corners_of(cell), kMoreHalvings);
         }
     }
-    walls_.find(upright_faces(surfaces_, path_fitter_, places_, scallop_));
+    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
     walls_.add_missing(cut);
     measure_left(beside_edges);
     measure_beside_edges(beside_edges);
@@ -219,7 +219,7 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
 double ScallopCheck::left_beside_walls()
 {
     take_waiting();
-    walls_.find(upright_faces(surfaces_, path_fitter_, places_, scallop_));
+    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
     return walls_.measure_left();
 }
 

@@ -31,7 +31,7 @@ constexpr int kPassHalvings = 7;        // of it: dropped tips may jump
 
 }  // namespace
 
-WallSide::WallSide(const UprightFacet& facet, bool turned, const GougeFreePathFitter& fitter)
+WallSide::WallSide(const VerticalFacet& facet, bool turned, const GougeFreePathFitter& fitter)
     : corners_{facet.corners},
       out_{turned ? -facet.normal : facet.normal},
       // Behind the facet `along_` is turned as well.
@@ -221,6 +221,8 @@ bool WallSide::is_unreached(Vec3d centre, double away, double top, KnownReach& k
 // Whether all that is reached between two places is proved to be cut. If the ball is clear somewhere
 // between, the smaller ball inside it is clear in the middle at that height; if the larger ball in
 // the middle rests on nothing, neither does any ball inside it.
+//
+// Over 60 lines: a list of cases, each of which may decide.
 //
 // far  whether to look far around, for other stretches too
 bool WallSide::is_cut_between(
@@ -438,7 +440,7 @@ double WallSide::left_in(const Run& run, const ScallopAtPoint& places) const
     return most;
 }
 
-std::vector<WallSide> wall_sides_of(const UprightFacet& facet, const GougeFreePathFitter& fitter)
+std::vector<WallSide> wall_sides_of(const VerticalFacet& facet, const GougeFreePathFitter& fitter)
 {
     double low = kInfinite;
     double high = -kInfinite;

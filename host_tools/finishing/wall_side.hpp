@@ -9,7 +9,7 @@
 
 #include "host_tools/finishing/gouge_free_path.hpp"
 #include "host_tools/finishing/scallop_at_point.hpp"
-#include "host_tools/finishing/upright_facet.hpp"
+#include "host_tools/finishing/vertical_facet.hpp"
 
 namespace cusp::finishing {
 
@@ -46,7 +46,7 @@ public:
 
     // turned  whether the side behind the facet is looked at
     // fitter  kept while the wall is used
-    WallSide(const UprightFacet& facet, bool turned, const GougeFreePathFitter& fitter);
+    WallSide(const VerticalFacet& facet, bool turned, const GougeFreePathFitter& fitter);
 
     // A stretch along the wall where stock is left.
     struct Run {
@@ -118,6 +118,6 @@ private:
 };
 
 // Both sides of a facet that could be reached; none of a facet without height.
-std::vector<WallSide> wall_sides_of(const UprightFacet& facet, const GougeFreePathFitter& fitter);
+std::vector<WallSide> wall_sides_of(const VerticalFacet& facet, const GougeFreePathFitter& fitter);
 
 }  // namespace cusp::finishing

@@ -5,12 +5,12 @@
 
 #include "host_tools/finishing/gouge_free_path.hpp"
 #include "host_tools/finishing/scallop_at_point.hpp"
-#include "host_tools/finishing/upright_facet.hpp"
+#include "host_tools/finishing/vertical_facet.hpp"
 
 namespace cusp::finishing {
 
 // Cells of the domain are halved until each is plane within a small share of the scallop and of the
-// band; of each remains what is upright, as ScallopAtPoint::is_upright() has it. A plane face stays
+// band; of each remains what is vertical, as ScallopAtPoint::is_upright() has it. A plane face stays
 // whole, and its facets are exact. Facets less high than an eighth of the scallop are left out: what
 // is left there differs little from that beside them.
 //
@@ -18,9 +18,9 @@ namespace cusp::finishing {
 // at in nine places, and twice that is taken.
 //
 // scallop  mm: allowed height of uncut stock
-std::vector<UprightFacet> upright_faces(const std::vector<nurbs::Surface>& surfaces,
-                                        const GougeFreePathFitter& path_fitter,
-                                        const ScallopAtPoint& places,
-                                        double scallop);
+std::vector<VerticalFacet> vertical_faces(const std::vector<nurbs::Surface>& surfaces,
+                                          const GougeFreePathFitter& path_fitter,
+                                          const ScallopAtPoint& places,
+                                          double scallop);
 
 }  // namespace cusp::finishing

@@ -1,5 +1,5 @@
 // Cells of the domain are halved until they are plane; their trims divide them into columns.
-#include "host_tools/finishing/upright_faces.hpp"
+#include "host_tools/finishing/vertical_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,17 +19,17 @@ using part_model::TrimRegion;
 
 namespace {
 
-constexpr int kDeepestCell = 24;          // halvings
-constexpr double kPlane = 1e-7;           // mm: control points off a plane
-constexpr double kOffShare = 0.04;        // of the scallop: a facet off its face
-constexpr double kOffBandShare = 0.15;    // the same, of half the band
-constexpr double kMostTurn = 0.1;         // of the normal over a cell
-constexpr double kBandShare = 0.25;       // of the greatest z of an upright normal: its lines off
-constexpr double kLeastRise = 0.125;      // of the scallop: height of a part
-constexpr double kLongestFacet = 32;      // in stepovers: shared out to threads
-constexpr std::size_t kMostCorners = 64;  // of a facet
-constexpr int kSideHalvings = 8;          // of a side of an outline that bends
-constexpr double kNoNormal = 1e-12;       // mm2
+constexpr int kDeepestCell = 24;           // halvings
+constexpr double kPlane = 1e-7;            // mm: control points off a plane
+constexpr double kOffShare = 0.04;         // of the scallop: a facet off its face
+constexpr double kOffBandShare = 0.15;     // the same, of half the band
+constexpr double kMostTurn = 0.1;          // of the normal over a cell
+constexpr double kBandShare = 0.25;        // of the greatest z of an vertical normal: its lines off
+constexpr double kLeastFacetRise = 0.125;  // of the scallop: height of a part
+constexpr double kLongestFacet = 32;       // in stepovers: shared out to threads
+constexpr std::size_t kMostCorners = 64;   // of a facet
+constexpr int kSideHalvings = 8;           // of a side of an outline that bends
+constexpr double kNoNormal = 1e-12;        // mm2
 
 struct Cell {
     Vec2d low;  // (u, v)
@@ -102,13 +102,13 @@ Outline clipped(const Outline& loop, const Cell& cell)
                    {0, -1}, -cell.high.y);
 }
 
-class UprightFace {
+class VerticalFace {
 public:
-    UprightFace(const Surface& surface,
-                int number,
-                const GougeFreePathFitter& path_fitter,
-                const ScallopAtPoint& places,
-                double scallop)
+    VerticalFace(const Surface& surface,
+                 int number,
+                 const GougeFreePathFitter& path_fitter,
+                 const ScallopAtPoint& places,
+                 double scallop)
         : surface_{surface},
           number_{number},
           model_{path_fitter.model()},
@@ -120,7 +120,7 @@ public:
     {
     }
 
-    std::vector<UprightFacet> facets()
+    std::vector<VerticalFacet> facets()
     {
         const Cell whole{{surface_.u_begin(), surface_.v_begin()},
                          {surface_.u_end(), surface_.v_end()}};
@@ -178,7 +178,7 @@ private:
     std::optional<Samples> samples_of(const Cell& cell) const
     {
         Samples out;
-        int bare = 0;
+        int missing = 0;
         Vec3d sum{};
         for (std::size_t k = 0; k < 9; ++k) {
             const Vec2d share{0.5 * static_cast<double>(k / 3), 0.5 * static_cast<double>(k % 3)};
@@ -188,11 +188,11 @@ private:
             out.points[k] = p.point;
             const Vec3d area = cross(p.du, p.dv);
             const double size = norm(area);
-            bare += size > kNoNormal ? 0 : 1;
+            missing += size > kNoNormal ? 0 : 1;
             out.normals[k] = size > kNoNormal ? area / size : Vec3d{};
             sum = sum + out.normals[k];
         }
-        if (bare > 3 || !(norm(sum) > 0)) {
+        if (missing > 3 || !(norm(sum) > 0)) {
             return std::nullopt;
         }
         // At a pole that of the cell counts.
@@ -330,7 +330,7 @@ private:
         return out;
     }
 
-    // The part of a loop in the cell that is upright.
+    // The part of a loop in the cell that is vertical.
     Outline upright_part(const Outline& loop, const Cell& cell, const LevelLines& lines) const
     {
         const double most = most_z_ + 2 * lines.off;
@@ -393,10 +393,10 @@ private:
         for (const Outline& outline : column_outlines(outlines, longest, kMostCorners)) {
             const auto [low, high] = std::minmax_element(
                 outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.y < b.y; });
-            if (high->y - low->y <= kLeastRise * scallop_) {
+            if (high->y - low->y <= kLeastFacetRise * scallop_) {
                 continue;
             }
-            UprightFacet facet{
+            VerticalFacet facet{
                 {}, frame.normal, frame.bend, dot(frame.middle, frame.along), frame.off};
             for (const Vec2d at : outline) {
                 facet.corners.push_back(frame.point(at));
@@ -411,32 +411,32 @@ private:
     const ScallopAtPoint& places_;
     double radius_;
     double scallop_;
-    double most_z_;  // of a normal that is upright
+    double most_z_;  // of a normal that is vertical
     double most_off_;
     std::optional<TrimRegion> region_;
-    std::vector<UprightFacet> out_;
+    std::vector<VerticalFacet> out_;
 };
 
 }  // namespace
 
-std::vector<UprightFacet> upright_faces(const std::vector<Surface>& surfaces,
-                                        const GougeFreePathFitter& path_fitter,
-                                        const ScallopAtPoint& places,
-                                        double scallop)
+std::vector<VerticalFacet> vertical_faces(const std::vector<Surface>& surfaces,
+                                          const GougeFreePathFitter& path_fitter,
+                                          const ScallopAtPoint& places,
+                                          double scallop)
 {
-    std::vector<std::vector<UprightFacet>> found(surfaces.size());
+    std::vector<std::vector<VerticalFacet>> found(surfaces.size());
     {
         const PartModel::SharedQueries shared{path_fitter.model()};
         parallel::for_each(surfaces.size(), [&](std::size_t k) {
             const PartModel::SharedQueries::Part queries{path_fitter.model()};
-            UprightFace face{surfaces[k], static_cast<int>(k), path_fitter, places, scallop};
+            VerticalFace face{surfaces[k], static_cast<int>(k), path_fitter, places, scallop};
             found[k] = face.facets();
         });
     }
     path_fitter.model().forget_queries();
-    std::vector<UprightFacet> out;
-    for (std::vector<UprightFacet>& some : found) {
-        for (UprightFacet& facet : some) {
+    std::vector<VerticalFacet> out;
+    for (std::vector<VerticalFacet>& some : found) {
+        for (VerticalFacet& facet : some) {
             out.push_back(std::move(facet));
         }
     }
