@@ -106,7 +106,7 @@ private:
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;
     bool is_upright(Vec3d normal) const;
-    std::vector<VerticalFacet> vertical_facets() const;
+    std::vector<WallFacet> vertical_facets() const;
     Points trace_level(const Place& from) const;
     std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;

@@ -117,9 +117,9 @@ Points MeshScallopCheck::trace_level(const Place& from) const
     return out;
 }
 
-std::vector<VerticalFacet> MeshScallopCheck::vertical_facets() const
+std::vector<WallFacet> MeshScallopCheck::vertical_facets() const
 {
-    std::vector<VerticalFacet> out;
+    std::vector<WallFacet> out;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
         if (is_upright(facet.normal)) {

@@ -120,7 +120,7 @@ public:
     {
     }
 
-    std::vector<VerticalFacet> facets()
+    std::vector<WallFacet> facets()
     {
         const Cell whole{{surface_.u_begin(), surface_.v_begin()},
                          {surface_.u_end(), surface_.v_end()}};
@@ -396,7 +396,7 @@ private:
             if (high->y - low->y <= kLeastFacetRise * scallop_) {
                 continue;
             }
-            VerticalFacet facet{
+            WallFacet facet{
                 {}, frame.normal, frame.bend, dot(frame.middle, frame.along), frame.off};
             for (const Vec2d at : outline) {
                 facet.corners.push_back(frame.point(at));
@@ -414,17 +414,17 @@ private:
     double most_z_;  // of a normal that is vertical
     double most_off_;
     std::optional<TrimRegion> region_;
-    std::vector<VerticalFacet> out_;
+    std::vector<WallFacet> out_;
 };
 
 }  // namespace
 
-std::vector<VerticalFacet> vertical_faces(const std::vector<Surface>& surfaces,
-                                          const GougeFreePathFitter& path_fitter,
-                                          const ScallopAtPoint& places,
-                                          double scallop)
+std::vector<WallFacet> vertical_faces(const std::vector<Surface>& surfaces,
+                                      const GougeFreePathFitter& path_fitter,
+                                      const ScallopAtPoint& places,
+                                      double scallop)
 {
-    std::vector<std::vector<VerticalFacet>> found(surfaces.size());
+    std::vector<std::vector<WallFacet>> found(surfaces.size());
     {
         const PartModel::SharedQueries shared{path_fitter.model()};
         parallel::for_each(surfaces.size(), [&](std::size_t k) {
@@ -434,9 +434,9 @@ std::vector<VerticalFacet> vertical_faces(const std::vector<Surface>& surfaces,
         });
     }
     path_fitter.model().forget_queries();
-    std::vector<VerticalFacet> out;
-    for (std::vector<VerticalFacet>& some : found) {
-        for (VerticalFacet& facet : some) {
+    std::vector<WallFacet> out;
+    for (std::vector<WallFacet>& some : found) {
+        for (WallFacet& facet : some) {
             out.push_back(std::move(facet));
         }
     }

@@ -18,9 +18,9 @@ namespace cusp::finishing {
 // at in nine places, and twice that is taken.
 //
 // scallop  mm: allowed height of uncut stock
-std::vector<VerticalFacet> vertical_faces(const std::vector<nurbs::Surface>& surfaces,
-                                          const GougeFreePathFitter& path_fitter,
-                                          const ScallopAtPoint& places,
-                                          double scallop);
+std::vector<WallFacet> vertical_faces(const std::vector<nurbs::Surface>& surfaces,
+                                      const GougeFreePathFitter& path_fitter,
+                                      const ScallopAtPoint& places,
+                                      double scallop);
 
 }  // namespace cusp::finishing

@@ -10,7 +10,7 @@ namespace cusp::finishing {
 
 // Each vertical line crosses it once at most: its columns are single intervals. Of a curved face the
 // normal turns evenly along the facet.
-struct VerticalFacet {
+struct WallFacet {
     std::vector<Vec3d> corners;  // at least 3, in one plane
     Vec3d normal;                // of that plane, unit, never downward
     double bend{};               // 1/mm: how much the normal turns along the facet

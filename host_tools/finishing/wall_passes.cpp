@@ -15,7 +15,7 @@ constexpr int kWallRounds = 5;
 constexpr std::size_t kWallShares = 64;  // of a search on several threads
 constexpr double kJoined = 0.25;         // in stepovers: ends of passes along neighbouring facets
 
-double bottom_of(const VerticalFacet& facet)
+double bottom_of(const WallFacet& facet)
 {
     double low = facet.corners.front().z;
     for (const Vec3d& corner : facet.corners) {
@@ -113,7 +113,7 @@ void WallPasses::share_out(std::size_t count,
     path_fitter_.model().forget_queries();
 }
 
-void WallPasses::find(const std::vector<VerticalFacet>& facets)
+void WallPasses::find(const std::vector<WallFacet>& facets)
 {
     std::vector<std::size_t> order;
     std::vector<double> bottoms;

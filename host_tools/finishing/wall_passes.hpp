@@ -20,7 +20,7 @@ public:
 
     // Keeps the sides of facets beside which stock is left, the lowest first: a pass at the foot of a
     // wall also cuts the stock over it.
-    void find(const std::vector<VerticalFacet>& facets);
+    void find(const std::vector<WallFacet>& facets);
 
     // Adds the passes that are missing along them. Each is given to `cut`, which must add the path it
     // cuts to the places. Forgets sides that are cut then.

@@ -31,7 +31,7 @@ constexpr int kPassHalvings = 7;        // of it: dropped tips may jump
 
 }  // namespace
 
-WallSide::WallSide(const VerticalFacet& facet, bool turned, const GougeFreePathFitter& fitter)
+WallSide::WallSide(const WallFacet& facet, bool turned, const GougeFreePathFitter& fitter)
     : corners_{facet.corners},
       out_{turned ? -facet.normal : facet.normal},
       // Behind the facet `along_` is turned as well.
@@ -440,7 +440,7 @@ double WallSide::left_in(const Run& run, const ScallopAtPoint& places) const
     return most;
 }
 
-std::vector<WallSide> wall_sides_of(const VerticalFacet& facet, const GougeFreePathFitter& fitter)
+std::vector<WallSide> wall_sides_of(const WallFacet& facet, const GougeFreePathFitter& fitter)
 {
     double low = kInfinite;
     double high = -kInfinite;

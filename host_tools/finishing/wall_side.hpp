@@ -46,7 +46,7 @@ public:
 
     // turned  whether the side behind the facet is looked at
     // fitter  kept while the wall is used
-    WallSide(const VerticalFacet& facet, bool turned, const GougeFreePathFitter& fitter);
+    WallSide(const WallFacet& facet, bool turned, const GougeFreePathFitter& fitter);
 
     // A stretch along the wall where stock is left.
     struct Run {
@@ -118,6 +118,6 @@ private:
 };
 
 // Both sides of a facet that could be reached; none of a facet without height.
-std::vector<WallSide> wall_sides_of(const VerticalFacet& facet, const GougeFreePathFitter& fitter);
+std::vector<WallSide> wall_sides_of(const WallFacet& facet, const GougeFreePathFitter& fitter);
 
 }  // namespace cusp::finishing

@@ -22,7 +22,7 @@ namespace {
 constexpr double kScallop = 0.05;
 constexpr double kRadius = 4;  // mm, of walls
 
-std::vector<VerticalFacet> facets_of(const std::vector<Surface>& faces)
+std::vector<WallFacet> facets_of(const std::vector<Surface>& faces)
 {
     const Tool ball{1, ToolShape::kBall, 3, 3};
     const PartModel model{faces};
@@ -31,10 +31,10 @@ std::vector<VerticalFacet> facets_of(const std::vector<Surface>& faces)
     return vertical_faces(faces, path_fitter, places, kScallop);
 }
 
-double area_of(const std::vector<VerticalFacet>& facets)
+double area_of(const std::vector<WallFacet>& facets)
 {
     double sum = 0;
-    for (const VerticalFacet& facet : facets) {
+    for (const WallFacet& facet : facets) {
         Vec3d twice{};
         for (std::size_t k = 2; k < facet.corners.size(); ++k) {
             twice = twice + cross(facet.corners[k - 1] - facet.corners[0],
@@ -63,19 +63,19 @@ TEST(VerticalFaces, LeavesAPlaneFaceWhole)
     Surface wall = plane_face({{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}}, Vec3d{0, -1, 0});
     CHECK_EQUAL(1, facets_of({wall}).size());
     wall.trims.push_back(loop_of({{3, 1}, {3, 4}, {6, 4}, {6, 1}}));
-    const std::vector<VerticalFacet> facets = facets_of({wall});
+    const std::vector<WallFacet> facets = facets_of({wall});
     CHECK_EQUAL(4, facets.size());
     DOUBLES_EQUAL(41, area_of(facets), 1e-6);
-    for (const VerticalFacet& facet : facets) {
+    for (const WallFacet& facet : facets) {
         DOUBLES_EQUAL(0, facet.off, 1e-12);
     }
 }
 
 TEST(VerticalFaces, FollowsACylinderWithinWhatItSays)
 {
-    const std::vector<VerticalFacet> facets = facets_of({round_wall(kRadius, kRadius).surface()});
+    const std::vector<WallFacet> facets = facets_of({round_wall(kRadius, kRadius).surface()});
     DOUBLES_EQUAL(2 * kPi * kRadius * 6, area_of(facets), 0.05);
-    for (const VerticalFacet& facet : facets) {
+    for (const WallFacet& facet : facets) {
         CHECK(facet.off > 0 && facet.off < 0.06 * kScallop);
         const Vec3d along{-facet.normal.y, facet.normal.x, 0};
         for (const Vec3d& corner : facet.corners) {
@@ -93,14 +93,14 @@ TEST(VerticalFaces, FollowsACylinderWithinWhatItSays)
 TEST(VerticalFaces, TakesTheBandAtTheEquatorOnly)
 {
     constexpr double kBulge = 1;  // control point: half of it at the equator
-    const std::vector<VerticalFacet> facets =
+    const std::vector<WallFacet> facets =
         facets_of({round_wall(kRadius + 2 * kBulge, kRadius).surface()});
     // r(z) = R + 4 b t (1 - t) with t = z / 6: its slope is 8 b / 6 (t - 0.5) = 2 b (z - 3) / 9.
     const double normal = 0.98 * kScallop / 6;
     const double high = 2 * normal * 9 / (2 * kBulge);
     DOUBLES_EQUAL(2 * kPi * (kRadius + kBulge) * high, area_of(facets), 0.25 * area_of(facets));
     CHECK(!facets.empty());
-    for (const VerticalFacet& facet : facets) {
+    for (const WallFacet& facet : facets) {
         for (const Vec3d& corner : facet.corners) {
             DOUBLES_EQUAL(3, corner.z, high);
         }
