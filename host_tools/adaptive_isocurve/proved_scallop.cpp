@@ -71,12 +71,16 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
         const ScallopCheck::Unproved unproved = cells.unproved();
         blocked = std::max(blocked, unproved.blocked_left);
         beside_edges = std::max(beside_edges, cells.left_beside_edges());
+        double left = unproved.left;
         if (unproved.parts.empty()) {
-            return {std::min(guess.radius, std::max(bound, kBetweenPlaces * blocked)),
-                    beside_edges};
+            left = cells.left_beside_walls();
+            if (left == 0) {
+                return {std::min(guess.radius, std::max(bound, kBetweenPlaces * blocked)),
+                        beside_edges};
+            }
         }
         parts = unproved.parts;
-        bound = kProvedMore * std::max(bound, unproved.left);
+        bound = kProvedMore * std::max(bound, left);
     }
     return {guess.radius, beside_edges};
 }

@@ -39,7 +39,8 @@ MeshScallopCheck::MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& tria
       path_fitter_{path_fitter},
       scallop_{scallop},
       path_off_{path_off},
-      places_{no_surfaces_, path_fitter, scallop, path_off}
+      places_{no_surfaces_, path_fitter, scallop, path_off},
+      walls_{path_fitter, places_}
 {
 }
 
@@ -219,6 +220,7 @@ MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*ta
       scallop_{other.scallop_},
       path_off_{other.path_off_},
       places_{other.places_},
+      walls_{path_fitter_, places_},
       checking_{other.checking_}
 {
 }
@@ -290,7 +292,7 @@ void MeshScallopCheck::check()
         }
     }
     checking_ = false;
-    find_walls();
+    walls_.find(vertical_facets());
 }
 
 // A tip that would cut the stock over a point down to the scallop; none where the point is covered,
@@ -392,7 +394,7 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
             check_cell(cell, kFacetHalvings / 6);
         }
     }
-    add_passes_along_walls(cut);
+    walls_.add_missing(cut);
     measure_left();
 }
 
@@ -410,12 +412,7 @@ void MeshScallopCheck::measure_left()
         }
     }
     uncovered_ = std::move(kept);
-    forget_cut_walls();
-    for (const WallSide& wall : walls_) {
-        for (const WallSide::Run& run : wall.missing_runs(places_)) {
-            most_left_ = std::max(most_left_, wall.left_in(run, places_));
-        }
-    }
+    most_left_ = std::max(most_left_, walls_.measure_left());
 }
 
 // mm: the stock left where a pass is missing, above what the tool can reach; negative: none is.

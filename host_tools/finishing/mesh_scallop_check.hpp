@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_tools/finishing/scallop_at_point.hpp"
-#include "host_tools/finishing/wall_side.hpp"
+#include "host_tools/finishing/wall_passes.hpp"
 #include "host_tools/finishing/work_in_shares.hpp"
 
 namespace cusp::finishing {
@@ -69,6 +69,9 @@ public:
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
+    MeshScallopCheck(const MeshScallopCheck&) = delete;
+    MeshScallopCheck& operator=(const MeshScallopCheck&) = delete;
+
     // Calls work(copy, k) for each k below count, on several threads, in shares that do not depend on
     // their number. The copies have the passes of this one and no cells.
     void share_out(std::size_t count,
@@ -108,9 +111,7 @@ private:
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;
     bool is_upright(Vec3d normal) const;
-    void find_walls();
-    void forget_cut_walls();
-    void add_passes_along_walls(const std::function<void(const Points&)>& cut);
+    std::vector<WallFacet> vertical_facets() const;
     Points trace_level(const Place& from) const;
     std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;
@@ -136,7 +137,7 @@ private:
     double path_off_;
     ScallopAtPoint places_;
     std::vector<Cell> uncovered_;
-    std::vector<WallSide> walls_;  // with stock left, the lowest first
+    WallPasses walls_;
     double most_left_{};
     double blocked_area_{};
     bool overflowed_{};

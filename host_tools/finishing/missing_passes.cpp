@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host_tools/finishing/scallop_check.hpp"
+#include "host_tools/finishing/vertical_faces.hpp"
 
 namespace cusp::finishing {
 
@@ -209,8 +210,18 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
             check_cell(cell, corners_of(cell), kMoreHalvings);
         }
     }
+    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
+    walls_.add_missing(cut);
     measure_left(beside_edges);
     measure_beside_edges(beside_edges);
+    most_left_ = std::max(most_left_, walls_.measure_left());
+}
+
+double ScallopCheck::left_beside_walls()
+{
+    take_waiting();
+    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
+    return walls_.measure_left();
 }
 
 double ScallopCheck::scallop_over_reachable(const Corner& at, double resolution)

@@ -85,45 +85,47 @@ bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
 }
 
-bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share) const
+bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share, double off) const
 {
     const double allowed = share * scallop_;
     const Vec3d top = raised(point, normal, allowed, false);
     swept_->near_or_below(centre_under(top, normal, allowed, radius_), near_);
-    return std::any_of(near_.begin(), near_.end(),
-                       [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
+        return swept_->removes(move, top, path_off_ + off);
+    });
 }
 
-bool ScallopAtPoint::one_move_cuts_wall(const Points& points, Vec3d normal) const
+bool ScallopAtPoint::one_move_cuts_wall(const std::vector<WallPoint>& points, double off) const
 {
     Vec3d middle;
-    for (const Vec3d& point : points) {
-        middle = middle + point / static_cast<double>(points.size());
+    for (const WallPoint& at : points) {
+        middle = middle + at.point / static_cast<double>(points.size());
     }
-    swept_->near_or_below(middle + normal * radius_, near_);
+    swept_->near_or_below(middle + points.front().normal * radius_, near_);
     return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
-        return std::all_of(points.begin(), points.end(), [&](Vec3d point) {
-            return swept_->removes(move, raised(point, normal, scallop_, false), path_off_);
+        return std::all_of(points.begin(), points.end(), [&](const WallPoint& at) {
+            return swept_->removes(move, raised(at.point, at.normal, scallop_, false),
+                                   path_off_ + off);
         });
     });
 }
 
-double ScallopAtPoint::left_beside_wall(Vec3d point, Vec3d normal) const
+double ScallopAtPoint::left_beside_wall(Vec3d point, Vec3d normal, double off) const
 {
     double low = 0;
     double high = radius_;
     for (int k = 0; k < kLeftHalvings; ++k) {
         const double middle = 0.5 * (low + high);
-        (is_wall_cut(point, normal, middle / scallop_) ? high : low) = middle;
+        (is_wall_cut(point, normal, middle / scallop_, off) ? high : low) = middle;
     }
     return high;
 }
 
-bool ScallopAtPoint::is_upright(Vec3d normal) const
+double ScallopAtPoint::upright_normal() const
 {
     const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
-    return normal.z < kLevelWall ||
-           (normal.z < kUprightNormal && height * normal.z <= kPlaceShare * scallop_);
+    return std::clamp(kPlaceShare * scallop_ / std::max(height, kLevelWall), kLevelWall,
+                      kUprightNormal);
 }
 
 // mm: the stock over a point from `height` up to `now`, along the normal; at most the radius.

@@ -84,17 +84,26 @@ public:
     // As is_covered(), for walls steeper than kUprightNormal: the cut of the shank counts. Stock is
     // measured along the normal: little over the point may be much beside it, where the wall leans
     // out under it.
-    bool is_wall_cut(Vec3d point, Vec3d normal, double share) const;
+    //
+    // off  mm: how far the wall may be off the point
+    bool is_wall_cut(Vec3d point, Vec3d normal, double share, double off = 0) const;
 
+    struct WallPoint {
+        Vec3d point;
+        Vec3d normal;
+    };
     // Whether one move cuts the stock over all of these points of a wall, and so over their hull.
-    bool one_move_cuts_wall(const Points& points, Vec3d normal) const;
+    bool one_move_cuts_wall(const std::vector<WallPoint>& points, double off) const;
 
     // mm: the stock over a point of a wall, along the normal; at most the radius.
-    double left_beside_wall(Vec3d point, Vec3d normal) const;
+    double left_beside_wall(Vec3d point, Vec3d normal, double off = 0) const;
 
     // Whether nothing thicker than the scallop would fit between a wall and a vertical line if the wall
     // were as high as the model.
-    bool is_upright(Vec3d normal) const;
+    bool is_upright(Vec3d normal) const { return normal.z <= upright_normal(); }
+
+    // The greatest z of the normal of such a wall.
+    double upright_normal() const;
 
     struct LowerTip {
         std::optional<Vec3d> tip;  // none where no tip removes more than the share

@@ -40,7 +40,8 @@ ScallopCheck::ScallopCheck(const std::vector<Surface>& surfaces,
       scallop_{scallop},
       path_off_{path_off},
       max_uncovered_{most_gaps},
-      places_{surfaces, path_fitter, scallop, path_off}
+      places_{surfaces, path_fitter, scallop, path_off},
+      walls_{path_fitter, places_}
 {
 }
 

@@ -12,6 +12,7 @@
 
 #include "host_tools/finishing/scallop_at_point.hpp"
 #include "host_tools/finishing/visibility_from_above.hpp"
+#include "host_tools/finishing/wall_passes.hpp"
 #include "host_tools/finishing/work_in_shares.hpp"
 #include "host_tools/part_model/part_model.hpp"
 
@@ -28,6 +29,9 @@ namespace cusp::finishing {
 //
 // The deviation from flat is twice that by the second derivatives at the corners. Points that the
 // tool cannot touch are checked a quarter of a stepover apart; nothing is proved between them.
+//
+// Vertical parts of surfaces, and those that hardly lean, are checked by `WallSide` as well, from both
+// sides: where the side of a ball reaches them that rests on something.
 //
 // Not for use by two threads at once. Long searches run on several, each with a copy that shares the
 // passes; which copy looks at which cell does not depend on the number of threads.
@@ -82,8 +86,11 @@ public:
     };
     Unproved unproved();
 
-    // Cells still uncovered after add_missing_passes().
-    std::size_t uncovered() const { return uncovered_.size(); }
+    // mm: the most stock left beside walls, where that is more than the scallop; else 0.
+    double left_beside_walls();
+
+    // Cells still uncovered after add_missing_passes(), and walls.
+    std::size_t uncovered() const { return uncovered_.size() + walls_.size(); }
 
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
@@ -92,6 +99,9 @@ public:
     // are moved off these edges so as not to gouge them from the side. Not included in other
     // figures; 0 for a one-sided tolerance.
     double left_beside_edges() const { return left_beside_edges_; }
+
+    ScallopCheck(const ScallopCheck&) = delete;
+    ScallopCheck& operator=(const ScallopCheck&) = delete;
 
 private:
     static constexpr int kDeepestCheck = 40;  // halvings of a cell
@@ -231,6 +241,7 @@ private:
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
     mutable std::size_t judged_{};  // cells
     std::vector<Cell> uncovered_;
+    WallPasses walls_;
     double most_left_{};
     double left_beside_edges_{};
     bool overflowed_{};

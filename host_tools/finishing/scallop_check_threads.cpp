@@ -34,7 +34,8 @@ ScallopCheck::ScallopCheck(const ScallopCheck& other, ForThread /*tag*/)
       max_uncovered_{other.max_uncovered_},
       places_{other.places_},
       has_checked_{true},
-      visibility_{other.visibility_}
+      visibility_{other.visibility_},
+      walls_{path_fitter_, places_}
 {
 }
 

@@ -11,8 +11,7 @@ using part_model::Facet;
 
 namespace {
 
-constexpr double kLevelFacet = 1e-9;  // z of a normal: a facet has no height
-constexpr int kWallRounds = 5;
+constexpr double kLevelFacet = 1e-9;    // z of a normal: a facet has no height
 constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
 
 Vec3d level_along(Vec3d normal)
@@ -118,61 +117,16 @@ Points MeshScallopCheck::trace_level(const Place& from) const
     return out;
 }
 
-// Lowest first: a pass at the foot of a wall also cuts the stock over it.
-void MeshScallopCheck::find_walls()
+std::vector<WallFacet> MeshScallopCheck::vertical_facets() const
 {
-    std::vector<std::uint32_t> upright;
-    for (std::size_t k = 0; k < triangles_.size(); ++k) {
-        if (is_upright(Facet{triangles_[k]}.normal)) {
-            upright.push_back(static_cast<std::uint32_t>(k));
+    std::vector<WallFacet> out;
+    for (const auto& corners : triangles_) {
+        const Facet facet{corners};
+        if (is_upright(facet.normal)) {
+            out.push_back({{corners.begin(), corners.end()}, facet.normal});
         }
     }
-    const auto bottom = [&](std::uint32_t k) {
-        return std::min({triangles_[k][0].z, triangles_[k][1].z, triangles_[k][2].z});
-    };
-    std::stable_sort(upright.begin(), upright.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return bottom(a) < bottom(b); });
-    std::vector<std::vector<WallSide>> found(upright.size());
-    share_out(upright.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
-        for (const WallSide& side : wall_sides_of(triangles_[upright[k]], path_fitter_)) {
-            if (!side.missing_runs(copy.places_).empty()) {
-                found[k].push_back(side);
-            }
-        }
-    });
-    walls_.clear();
-    for (const std::vector<WallSide>& sides : found) {
-        for (const WallSide& side : sides) {
-            walls_.push_back(side);
-        }
-    }
-}
-
-void MeshScallopCheck::forget_cut_walls()
-{
-    std::vector<char> missing(walls_.size());
-    share_out(walls_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
-        missing[k] = walls_[k].missing_runs(copy.places_).empty() ? 0 : 1;
-    });
-    std::vector<WallSide> kept;
-    for (std::size_t k = 0; k < walls_.size(); ++k) {
-        if (missing[k] != 0) {
-            kept.push_back(walls_[k]);
-        }
-    }
-    walls_ = std::move(kept);
-}
-
-void MeshScallopCheck::add_passes_along_walls(const std::function<void(const Points&)>& cut)
-{
-    for (int round = 0; round < kWallRounds && !walls_.empty(); ++round) {
-        for (const WallSide& wall : walls_) {
-            for (const WallSide::Run& run : wall.missing_runs(places_)) {
-                cut(wall.pass_along(run));
-            }
-        }
-        forget_cut_walls();
-    }
+    return out;
 }
 
 }  // namespace cusp::finishing

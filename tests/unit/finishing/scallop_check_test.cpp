@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/parallel/parallel.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
@@ -87,9 +88,73 @@ double lowest_missing(
     return lowest;
 }
 
+// A plate, and a wall over its border y = 0.
+std::vector<Surface> plate_with_wall()
+{
+    constexpr double kHigh = 4;
+    return {plate(), test::plane_face({{0, 0, 0}, {kSide, 0, 0}, {kSide, 0, kHigh}, {0, 0, kHigh}},
+                                      {0, -1, 0})};
+}
+
+struct WallResult {
+    double left_before;  // mm, beside the wall, of the plate's passes
+    double left_after;
+    std::size_t uncovered;
+    std::vector<Points> passes;
+};
+
+// Passes over the plate keep off its wall; then those along the wall that are missing. The plate itself
+// is not looked at.
+WallResult cut_beside_wall(int threads)
+{
+    const Tool ball{1, ToolShape::kBall, 2, 2};
+    const std::vector<Surface> faces = plate_with_wall();
+    const PartModel model{faces};
+    const GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(0.01, true)};
+    ScallopCheck check{faces, path_fitter, 0.05, 0};
+    for (double y = ball.radius + 0.3; y <= kSide; y += 0.8) {
+        check.add({{0, y, 0.006}, {kSide, y, 0.006}});
+    }
+    parallel::set_threads(threads);
+    WallResult out{check.left_beside_walls(), 0, 0, {}};
+    check.add_missing_passes(
+        [&](const Points& pass) {
+            out.passes.push_back(pass);
+            check.add(pass);
+        },
+        [](double) {});
+    out.left_after = check.left_beside_walls();
+    out.uncovered = check.uncovered();
+    return out;
+}
+
 }  // namespace
 
 TEST_GROUP(ScallopCheck){};
+
+// Beside a wall at the border nothing but passes along it removes the stock.
+TEST(ScallopCheck, CutsBesideAStandingWall)
+{
+    const WallResult result = cut_beside_wall(2);
+    CHECK(result.left_before > 0.2);
+    CHECK(!result.passes.empty());
+    DOUBLES_EQUAL(0, result.left_after, 0);
+    LONGS_EQUAL(0, result.uncovered);
+}
+
+TEST(ScallopCheck, CutsTheSameBesideAWallWithAnyThreads)
+{
+    const WallResult one = cut_beside_wall(1);
+    const WallResult three = cut_beside_wall(3);
+    parallel::set_threads(2);
+    LONGS_EQUAL(one.passes.size(), three.passes.size());
+    for (std::size_t k = 0; k < one.passes.size(); ++k) {
+        LONGS_EQUAL(one.passes[k].size(), three.passes[k].size());
+        for (std::size_t i = 0; i < one.passes[k].size(); ++i) {
+            CHECK(norm(one.passes[k][i] - three.passes[k][i]) == 0);
+        }
+    }
+}
 
 // In the smallest cells an uncovered plate would have five million of them.
 TEST(ScallopCheck, ChecksAnUncutPlateInLargeCells)

@@ -1,0 +1,26 @@
+// The vertical parts of trimmed surfaces as plane facets, and how far the part may be off these.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/finishing/gouge_free_path.hpp"
+#include "host_tools/finishing/scallop_at_point.hpp"
+#include "host_tools/finishing/vertical_facet.hpp"
+
+namespace cusp::finishing {
+
+// Cells of the domain are halved until each is plane within a small share of the scallop and of the
+// band; of each remains what is vertical, as ScallopAtPoint::is_upright() has it. A plane face stays
+// whole, and its facets are exact. Facets less high than an eighth of the scallop are left out: what
+// is left there differs little from that beside them.
+//
+// How far a curved face is off its facet, and how far its normal is off that of the facet, are looked
+// at in nine places, and twice that is taken.
+//
+// scallop  mm: allowed height of uncut stock
+std::vector<WallFacet> vertical_faces(const std::vector<nurbs::Surface>& surfaces,
+                                      const GougeFreePathFitter& path_fitter,
+                                      const ScallopAtPoint& places,
+                                      double scallop);
+
+}  // namespace cusp::finishing
