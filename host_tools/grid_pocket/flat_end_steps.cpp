@@ -14,8 +14,7 @@ namespace {
 constexpr double kPlacesApart = 1.0 / 20;  // radii
 constexpr int kDirections = 128;
 constexpr std::array<double, 3> kRings{1, 0.6, 0.2};  // radii
-constexpr double kOnTheRim = 1e-6;                    // mm: rounding
-constexpr double kOnTheWallPass = 1e-6;               // mm: the same
+constexpr double kOnTheWallPass = 1e-6;               // mm: rounding
 
 int lattice_places(double size, double radius)
 {
@@ -40,39 +39,34 @@ FlatEndSteps::FlatEndSteps(const CellGrid& grid,
       radius_{radius},
       nx_{lattice_places(grid.gx(), radius)},
       ny_{lattice_places(grid.gy(), radius)},
-      sub_x_{parts_of(grid.gx() / nx_, radius)},
-      sub_y_{parts_of(grid.gy() / ny_, radius)},
-      short_by_{std::hypot(grid.gx() / (nx_ * sub_x_), grid.gy() / (ny_ * sub_y_)) / 2 +
-                kPi * radius / kDirections}
+      step_x_{grid.gx() / nx_},
+      step_y_{grid.gy() / ny_},
+      sub_x_{parts_of(step_x_, radius)},
+      sub_y_{parts_of(step_y_, radius)},
+      short_by_{std::hypot(step_x_ / sub_x_, step_y_ / sub_y_) / 2 + kPi * radius / kDirections}
 {
 }
 
-FlatEndSteps::Square FlatEndSteps::made(Cell c, int& evaluations) const
+// Heights at the corners of the lattice, and the wall pass beside them.
+FlatEndSteps::Lattice FlatEndSteps::read(Cell c, Square& out, int& evaluations) const
 {
-    Square out;
-    const Vec2d from = grid_.centre(c);
-    const double sx = grid_.gx() / nx_;
-    const double sy = grid_.gy() / ny_;
-    const auto columns = static_cast<std::size_t>(nx_ + 1);
-    std::vector<double> z(columns * static_cast<std::size_t>(ny_ + 1), kNoValue);
-    const auto at = [&](int i, int j) -> double& {
-        return z[static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i)];
-    };
+    Lattice lattice{static_cast<std::size_t>(nx_ + 1), {}};
+    lattice.z.assign(lattice.columns * static_cast<std::size_t>(ny_ + 1), kNoValue);
     for (int j = 0; j <= ny_; ++j) {
         for (int i = 0; i <= nx_; ++i) {
-            const Vec2d p = from + Vec2d{sx * i, sy * j};
+            const Vec2d p = grid_.centre(c) + Vec2d{step_x_ * i, step_y_ * j};
             const double inside = surface_.to_wall_pass(p);
             if (inside <= -kOnTheWallPass) {
                 continue;
             }
             const Cell corner{c.column + i / nx_, c.row + j / ny_};
             if (i % nx_ == 0 && j % ny_ == 0 && grid_.inside(corner)) {
-                at(i, j) = surface_.heights[grid_.index(corner)];
+                lattice.at(i, j) = surface_.heights[grid_.index(corner)];
             } else {
-                at(i, j) = surface_.height(p).value_or(kNoValue);
+                lattice.at(i, j) = surface_.height(p).value_or(kNoValue);
                 ++evaluations;
             }
-            if (inside < std::hypot(sx, sy)) {
+            if (inside < std::hypot(step_x_, step_y_)) {
                 const Vec2d wall = surface_.on_wall_pass(p);
                 if (const auto low = surface_.height(wall)) {
                     out.tips.push_back({wall.x, wall.y, *low});
@@ -82,28 +76,43 @@ FlatEndSteps::Square FlatEndSteps::made(Cell c, int& evaluations) const
             }
         }
     }
-    const auto add_track = [&](int i, int j, int di, int dj, int parts) {
-        const double a = at(i, j);
-        const double b = at(i + di, j + dj);
+    return lattice;
+}
+
+// Those of the square's own cell: to the east and to the north.
+void FlatEndSteps::add_tracks(Cell c, Lattice& lattice, Square& out) const
+{
+    if (!grid_.inside(c)) {
+        return;
+    }
+    const Vec2d from = grid_.centre(c);
+    const auto add = [&](int i, int j, int di, int dj, int parts) {
+        const double a = lattice.at(i, j);
+        const double b = lattice.at(i + di, j + dj);
         for (int k = 0; k < parts && !std::isnan(a) && !std::isnan(b); ++k) {
             const double part = static_cast<double>(k) / parts;
-            out.tips.push_back(
-                {from.x + sx * (i + di * part), from.y + sy * (j + dj * part), a + (b - a) * part});
+            out.tips.push_back({from.x + step_x_ * (i + di * part),
+                                from.y + step_y_ * (j + dj * part), a + (b - a) * part});
         }
     };
-    const bool here = grid_.inside(c);
-    for (int i = 0; here && tracks_.east(c) && i < nx_; ++i) {
-        add_track(i, 0, 1, 0, sub_x_);
+    for (int i = 0; tracks_.east(c) && i < nx_; ++i) {
+        add(i, 0, 1, 0, sub_x_);
     }
-    for (int j = 0; here && tracks_.north(c) && j < ny_; ++j) {
-        add_track(0, j, 0, 1, sub_y_);
+    for (int j = 0; tracks_.north(c) && j < ny_; ++j) {
+        add(0, j, 0, 1, sub_y_);
     }
-    if (here && !std::isnan(at(0, 0))) {
-        out.tips.push_back({from.x, from.y, at(0, 0)});
+    if (!std::isnan(lattice.at(0, 0))) {
+        out.tips.push_back({from.x, from.y, lattice.at(0, 0)});
     }
+}
+
+void FlatEndSteps::add_places(Cell c, Lattice& lattice, Square& out) const
+{
+    const Vec2d from = grid_.centre(c);
     for (int j = 0; j < ny_; ++j) {
         for (int i = 0; i < nx_; ++i) {
-            const std::array<double, 4> h{at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)};
+            const std::array<double, 4> h{lattice.at(i, j), lattice.at(i + 1, j),
+                                          lattice.at(i, j + 1), lattice.at(i + 1, j + 1)};
             if (std::any_of(h.begin(), h.end(), [](double v) { return std::isnan(v); })) {
                 continue;
             }
@@ -111,11 +120,19 @@ FlatEndSteps::Square FlatEndSteps::made(Cell c, int& evaluations) const
                 const double s = (k % sub_x_ + 0.5) / sub_x_;
                 const double t = (k / sub_x_ + 0.5) / sub_y_;
                 out.places.push_back(
-                    {from.x + sx * (i + s), from.y + sy * (j + t),
+                    {from.x + step_x_ * (i + s), from.y + step_y_ * (j + t),
                      (h[0] * (1 - s) + h[1] * s) * (1 - t) + (h[2] * (1 - s) + h[3] * s) * t});
             }
         }
     }
+}
+
+FlatEndSteps::Square FlatEndSteps::made(Cell c, int& evaluations) const
+{
+    Square out;
+    Lattice lattice = read(c, out, evaluations);
+    add_tracks(c, lattice, out);
+    add_places(c, lattice, out);
     return out;
 }
 

@@ -36,8 +36,21 @@ private:
         std::vector<Vec3d> tips;    // on its tracks to the east and north of its cell, and on walls
         std::vector<Vec3d> places;  // where the axis may be
     };
+    // Heights of one square's lattice; NaN where the axis may not be.
+    struct Lattice {
+        std::size_t columns;
+        std::vector<double> z;
+
+        double& at(int i, int j)
+        {
+            return z[static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i)];
+        }
+    };
     const Square& square(Cell c, int& evaluations);
     Square made(Cell c, int& evaluations) const;
+    Lattice read(Cell c, Square& out, int& evaluations) const;
+    void add_tracks(Cell c, Lattice& lattice, Square& out) const;
+    void add_places(Cell c, Lattice& lattice, Square& out) const;
     void collect_tips(Cell c, int& evaluations);
     double left_about(Vec3d place) const;
     std::optional<double> cut_down_to(Vec2d q, const std::vector<Vec3d>& near) const;
@@ -48,6 +61,8 @@ private:
     double radius_;
     int nx_;  // of the lattice of a square
     int ny_;
+    double step_x_;  // mm, of the lattice
+    double step_y_;
     int sub_x_;  // places a step of it
     int sub_y_;
     double short_by_;  // mm: reach

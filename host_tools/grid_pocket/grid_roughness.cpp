@@ -26,9 +26,6 @@ constexpr double kRankDoubt = 1.35;
 constexpr double kBetween = 1.03;
 constexpr double kBetweenSteps = 1.25;
 
-// mm: a contact of a flat end lies on its rim, except for rounding.
-constexpr double kOnTheRim = 1e-6;
-
 // Height that tools at `tips` leave above the contact of a tool at `here`, with the slope of the
 // tip's height there.
 double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3d>& tips)

@@ -26,6 +26,9 @@ private:
     std::vector<std::uint8_t> bits_;
 };
 
+// mm: a contact of a flat end lies on its rim, except for rounding.
+inline constexpr double kOnTheRim = 1e-6;
+
 // Input of the roughness besides the tracks.
 struct TipSurface {
     const std::vector<double>& heights;  // of the tip at each cell; read for cells inside

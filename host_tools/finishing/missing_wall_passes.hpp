@@ -13,10 +13,10 @@ namespace cusp::finishing {
 // facets, and WallSide looks at both sides of them.
 //
 // Walls are looked at on several threads; which looks at which does not depend on their number.
-class WallPasses {
+class MissingWallPasses {
 public:
     // places  of the check, with its passes; kept
-    WallPasses(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places);
+    MissingWallPasses(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places);
 
     // Keeps the sides of facets beside which stock is left, the lowest first: a pass at the foot of a
     // wall also cuts the stock over it.
