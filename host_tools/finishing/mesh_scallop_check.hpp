@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/finishing/missing_wall_passes.hpp"
 #include "host_tools/finishing/scallop_at_point.hpp"
+#include "host_tools/finishing/uncut_walls.hpp"
 #include "host_tools/finishing/work_in_shares.hpp"
 
 namespace cusp::finishing {
@@ -137,7 +137,7 @@ private:
     double path_off_;
     ScallopAtPoint places_;
     std::vector<Cell> uncovered_;
-    MissingWallPasses walls_;
+    UncutWalls walls_;
     double most_left_{};
     double blocked_area_{};
     bool overflowed_{};

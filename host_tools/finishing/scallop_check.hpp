@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/finishing/missing_wall_passes.hpp"
 #include "host_tools/finishing/scallop_at_point.hpp"
+#include "host_tools/finishing/uncut_walls.hpp"
 #include "host_tools/finishing/visibility_from_above.hpp"
 #include "host_tools/finishing/work_in_shares.hpp"
 #include "host_tools/part_model/part_model.hpp"
@@ -241,7 +241,7 @@ private:
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
     mutable std::size_t judged_{};  // cells
     std::vector<Cell> uncovered_;
-    MissingWallPasses walls_;
+    UncutWalls walls_;
     double most_left_{};
     double left_beside_edges_{};
     bool overflowed_{};

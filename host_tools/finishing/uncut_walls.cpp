@@ -1,5 +1,5 @@
 // All walls are looked at at once; passes are cut one after the other.
-#include "host_tools/finishing/missing_wall_passes.hpp"
+#include "host_tools/finishing/uncut_walls.hpp"
 
 #include <algorithm>
 
@@ -28,7 +28,7 @@ double bottom_of(const WallFacet& facet)
 
 // Cuts the passes of one round in order. Those along neighbouring facets, as of a curved face, become
 // one pass.
-class MissingWallPasses::Cutter {
+class UncutWalls::Cutter {
 public:
     // radius  mm, of the tool
     Cutter(double radius, double join, const std::function<void(const Points&)>& cut)
@@ -91,13 +91,13 @@ private:
     std::vector<Box> done_;
 };
 
-MissingWallPasses::MissingWallPasses(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places)
+UncutWalls::UncutWalls(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places)
     : path_fitter_{path_fitter}, places_{places}
 {
 }
 
-void MissingWallPasses::share_out(std::size_t count,
-                                  const std::function<void(Search&, std::size_t)>& work) const
+void UncutWalls::share_out(std::size_t count,
+                           const std::function<void(Search&, std::size_t)>& work) const
 {
     const std::size_t shares = std::min(count, kWallShares);
     {
@@ -113,7 +113,7 @@ void MissingWallPasses::share_out(std::size_t count,
     path_fitter_.model().forget_queries();
 }
 
-void MissingWallPasses::find(const std::vector<WallFacet>& facets)
+void UncutWalls::find(const std::vector<WallFacet>& facets)
 {
     std::vector<std::size_t> order;
     std::vector<double> bottoms;
@@ -140,7 +140,7 @@ void MissingWallPasses::find(const std::vector<WallFacet>& facets)
     }
 }
 
-void MissingWallPasses::look_again()
+void UncutWalls::look_again()
 {
     share_out(walls_.size(), [&](Search& search, std::size_t k) {
         walls_[k].runs = walls_[k].side.missing_runs(search.places, search.known);
@@ -154,7 +154,7 @@ void MissingWallPasses::look_again()
     walls_ = std::move(kept);
 }
 
-void MissingWallPasses::add_missing(const std::function<void(const Points&)>& cut)
+void UncutWalls::add_missing(const std::function<void(const Points&)>& cut)
 {
     for (int round = 0; round < kWallRounds && !walls_.empty(); ++round) {
         if (round == 0) {
@@ -176,7 +176,7 @@ void MissingWallPasses::add_missing(const std::function<void(const Points&)>& cu
     }
 }
 
-double MissingWallPasses::measure_left()
+double UncutWalls::measure_left()
 {
     look_again();
     std::vector<double> left(walls_.size());

@@ -1,4 +1,4 @@
-// The passes along walls that are vertical or nearly so, and the stock that stays beside them.
+// Walls that are vertical or nearly so, beside which stock is left, and the passes along them.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,10 @@ namespace cusp::finishing {
 // facets, and WallSide looks at both sides of them.
 //
 // Walls are looked at on several threads; which looks at which does not depend on their number.
-class MissingWallPasses {
+class UncutWalls {
 public:
     // places  of the check, with its passes; kept
-    MissingWallPasses(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places);
+    UncutWalls(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places);
 
     // Keeps the sides of facets beside which stock is left, the lowest first: a pass at the foot of a
     // wall also cuts the stock over it.
