@@ -20,6 +20,7 @@ constexpr int kMostHeights = 20000;
 
 // Squares ranked this much below the highest found are skipped.
 constexpr double kRankDoubt = 1.35;
+constexpr double kRankDoubtOfSteps = 4;  // of a flat end: a square may rank far below its steps
 
 // A ridge between lattice places may be higher than the highest place by this factor; the flat of a
 // bull nose leaves steps between them.
@@ -467,11 +468,12 @@ double grid_roughness(const CellGrid& grid,
     const double between = tool.corner_radius == 0            ? 1
                            : tool.corner_radius < tool.radius ? kBetweenSteps
                                                               : kBetween;
+    const double doubt = tool.corner_radius == 0 ? kRankDoubtOfSteps : kRankDoubt;
     double most = 0;
     double ratio = 1;
     int evaluations = 0;
     for (const Ranked& square : squares) {
-        if (square.rank * kRankDoubt < most) {
+        if (square.rank * doubt < most) {
             break;
         }
         if (evaluations > kMostHeights) {

@@ -92,10 +92,12 @@ TEST(GridProperty, SoAreRandomPocketsWithLayersOfBoundedEngagement)
 }
 
 // A flat end left more than was computed.
-TEST(GridProperty, SeedThatOnceFailed)
+TEST(GridProperty, SeedsThatOnceFailed)
 {
     Random random{110004};
     check_pocket(random_adaptive_pocket(random));
+    random.seed(2378);
+    check_pocket(random_pocket(random));
 }
 
 }  // namespace cusp::test
