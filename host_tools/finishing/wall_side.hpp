@@ -9,7 +9,7 @@
 
 #include "host_tools/finishing/gouge_free_path.hpp"
 #include "host_tools/finishing/scallop_at_point.hpp"
-#include "host_tools/finishing/vertical_facet.hpp"
+#include "host_tools/finishing/wall_facet.hpp"
 
 namespace cusp::finishing {
 

@@ -9,7 +9,7 @@ namespace cusp::part_info {
 namespace {
 
 constexpr double kFacetPlaces = 100000;
-constexpr double kWallFacet = 1e-9;  // z of a unit normal
+constexpr double kVerticalFacet = 1e-9;  // z of a unit normal
 
 // Twice the facet's area times its normal, by the order of its corners.
 Vec3d across_of(const WeldedMesh& mesh, std::size_t facet)
@@ -30,8 +30,8 @@ Vec3d facing(const WeldedMesh& mesh, std::size_t facet)
 GroundPlace place_at(Vec3d point, Vec3d direction, double area, bool of_solid)
 {
     const Vec3d normal = direction / norm(direction);
-    return {point, normal, area, !of_solid && std::abs(normal.z) < kWallFacet,
-            of_solid && normal.z < -kWallFacet};
+    return {point, normal, area, !of_solid && std::abs(normal.z) < kVerticalFacet,
+            of_solid && normal.z < -kVerticalFacet};
 }
 
 void add_facet(const WeldedMesh& mesh,
@@ -128,7 +128,7 @@ std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t max_c
         const Vec3d n1 = facing(mesh, edge.facets[1]);
         const Vec3d direction = n0 / norm(n0) + n1 / norm(n1);
         const Vec3d middle = (mesh.corners[edge.corners[0]] + mesh.corners[edge.corners[1]]) / 2.0;
-        if (norm(direction) > kWallFacet) {
+        if (norm(direction) > kVerticalFacet) {
             places.push_back(place_at(middle, direction, 0, mesh.outwards[edge.facets[0]] != 0));
         }
     }
@@ -143,7 +143,7 @@ std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t max_c
     }
     const std::size_t step = std::max<std::size_t>(1, mesh.corners.size() / max_count);
     for (std::size_t k = 0; k < mesh.corners.size(); k += step) {
-        if (norm(sums[k]) > kWallFacet) {
+        if (norm(sums[k]) > kVerticalFacet) {
             places.push_back(place_at(mesh.corners[k], sums[k], 0, of_solid[k] != 0));
         }
     }
