@@ -37,7 +37,6 @@ using offset::point_on;
 using offset::Region2d;
 using offset::RegionOffset;
 using offset::RegionPart;
-using offset::surrounds;
 
 namespace {
 
@@ -345,7 +344,8 @@ private:
         }
     }
 
-    // Cuts slivers left between passes.
+    // Cuts slivers left between passes. A move to a point of one may leave pieces with other points;
+    // it takes all within 0.01 radii of its point, so that there is an end.
     void cut_slivers()
     {
         const Region2d whole = walls_.at(settings_.wall_clearance);
@@ -354,19 +354,22 @@ private:
         }
         const EdgeTree centres{edges_of(whole)};
         const SliverSpace space{places_, walls_, centres, settings_.wall_clearance, radius_};
-        constexpr double kMargin = 0.02;
-        for (const Vec2d p :
-             swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_), settings_.tolerance)) {
-            if (swept_.contains(p)) {
-                continue;
+        const Region2d reached = grown(whole, 0.98 * radius_);  // as far as such moves
+        std::size_t runs{};
+        do {
+            runs = result_.runs.size();
+            result_.left.clear();
+            for (const Vec2d p : swept_.uncut_points(reached, settings_.tolerance)) {
+                if (swept_.contains(p)) {
+                    continue;
+                }
+                if (const auto way = move_to_sliver(p, space)) {
+                    cut({*way});
+                } else {
+                    result_.left.push_back(p);
+                }
             }
-            if (const auto way = move_to_sliver(p, space)) {
-                cut({*way});
-            }
-            if (!swept_.contains(p)) {
-                result_.left.push_back(p);
-            }
-        }
+        } while (result_.runs.size() > runs);
     }
 
     // mm: at least the width that the swept area, made of discs and chords, misses.

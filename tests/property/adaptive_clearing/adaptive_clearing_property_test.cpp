@@ -390,7 +390,7 @@ TEST(RandomAdaptiveClearing, SeedsThatOnceFailed)
     for (const unsigned number : {1001U, 50016U, 60001U, 81010U}) {
         CHECK(closed_pocket_holds(number));
     }
-    for (const unsigned number : {43U, 107U, 50016U, 50069U, 82019U}) {
+    for (const unsigned number : {43U, 107U, 50016U, 50069U, 82019U, 110476U}) {
         CHECK(open_pocket_holds(number).value());
     }
     CHECK(slot_holds(50128));
