@@ -61,16 +61,16 @@ public:
 
     std::vector<Points> curves()
     {
+        find_crossings();
         CellChains chains;
         for (std::size_t i = 0; i + 1 < nx_; ++i) {
             for (std::size_t j = 0; j + 1 < ny_; ++j) {
                 chains.join(i * ny_ + j, ny_,
-                            [&](const GridSide& side) { return found(side).has_value(); });
+                            [&](const GridSide& side) { return crossings_.count(side) > 0; });
             }
         }
         std::vector<Points> out;
-        for (const std::vector<GridSide>& chain : chains.chains()) {
-            Points tips = tips_along(chain);
+        for (Points& tips : tips_along(chains.chains())) {
             if (length_of(tips) > kShortest * radius_) {
                 out.push_back(std::move(tips));
             }
@@ -140,23 +140,73 @@ private:
         return Crossing{from, to, centre - Vec3d{0, 0, path_fitter_.tool().radius}};
     }
 
-    const std::optional<Crossing>& found(const GridSide& side)
+    // Of all sides of the grid.
+    void find_crossings()
     {
-        const auto known = crossings_.find(side);
-        if (known != crossings_.end()) {
-            return known->second;
+        std::vector<std::vector<std::pair<GridSide, Crossing>>> columns(nx_);
+        parallel::for_each(nx_, [&](std::size_t i) {
+            path_fitter_.model().forget_queries();
+            for (std::size_t k = i * ny_; k < (i + 1) * ny_; ++k) {
+                for (const bool to_next_column : {false, true}) {
+                    const GridSide side{k, to_next_column};
+                    if (to_next_column ? i + 1 == nx_ : k + 1 == (i + 1) * ny_) {
+                        continue;
+                    }
+                    if (const auto found = crossing(side)) {
+                        columns[i].emplace_back(side, *found);
+                    }
+                }
+            }
+        });
+        path_fitter_.model().forget_queries();
+        for (const auto& column : columns) {
+            crossings_.insert(column.begin(), column.end());
         }
-        const std::size_t a = side.first;
-        const std::size_t b = end_node(side, ny_);
-        const bool crosses = dropped_[a] && dropped_[b] && turned(*dropped_[a], *dropped_[b]);
-        return crossings_[side] = crosses ? crossing(places_[a], places_[b]) : std::nullopt;
     }
 
-    Points tips_along(const std::vector<GridSide>& chain)
+    std::optional<Crossing> crossing(const GridSide& side) const
+    {
+        const std::size_t end = end_node(side, ny_);
+        const std::optional<Dropped>& a = dropped_[side.first];
+        const std::optional<Dropped>& b = dropped_[end];
+        return a && b && turned(*a, *b) ? crossing(places_[side.first], places_[end])
+                                        : std::nullopt;
+    }
+
+    // A polyline for each chain.
+    std::vector<Points> tips_along(const std::vector<std::vector<GridSide>>& chains) const
+    {
+        std::vector<std::vector<Crossing>> at;
+        std::vector<std::pair<std::size_t, std::size_t>> stretches;  // of a chain; its end
+        for (const std::vector<GridSide>& chain : chains) {
+            for (std::size_t k = 1; k < chain.size(); ++k) {
+                stretches.emplace_back(at.size(), k);
+            }
+            at.push_back(crossings_along(chain));
+        }
+        std::vector<Points> between(stretches.size());
+        parallel::for_each(stretches.size(), [&](std::size_t n) {
+            path_fitter_.model().forget_queries();
+            const auto [chain, k] = stretches[n];
+            append(at[chain][k - 1], at[chain][k], 0, between[n]);
+        });
+        path_fitter_.model().forget_queries();
+        std::vector<Points> out;
+        for (const std::vector<Crossing>& crossings : at) {
+            out.push_back({crossings.front().tip});
+        }
+        for (std::size_t n = 0; n < stretches.size(); ++n) {
+            Points& tips = out[stretches[n].first];
+            tips.insert(tips.end(), between[n].begin(), between[n].end());
+        }
+        return out;
+    }
+
+    std::vector<Crossing> crossings_along(const std::vector<GridSide>& chain) const
     {
         std::vector<Crossing> at;
         for (const GridSide& side : chain) {
-            Crossing next = *crossings_[side];
+            Crossing next = crossings_.at(side);
             // `from` is on the same side of the curve everywhere, so segments between two crossings
             // cross the curve.
             if (!at.empty() && farther(at.back(), next)) {
@@ -164,11 +214,7 @@ private:
             }
             at.push_back(next);
         }
-        Points tips{at.front().tip};
-        for (std::size_t k = 1; k < at.size(); ++k) {
-            append(at[k - 1], at[k], 0, tips);
-        }
-        return tips;
+        return at;
     }
 
     static bool farther(const Crossing& a, const Crossing& b)
@@ -203,7 +249,7 @@ private:
     std::size_t ny_{};
     std::vector<Vec2d> places_;
     std::vector<std::optional<Dropped>> dropped_;
-    std::map<GridSide, std::optional<Crossing>> crossings_;
+    std::map<GridSide, Crossing> crossings_;
 };
 
 }  // namespace
