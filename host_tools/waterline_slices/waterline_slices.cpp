@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/parallel/parallel.hpp"
+
 namespace cusp::waterline_slices {
 
 using offset::Box2d;
@@ -18,8 +20,8 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kMostSliceNodes = 4e6;
-constexpr std::size_t kBlock = 16;          // nodes, each way: a power of two
-constexpr std::size_t kBlocksBetween = 16;  // ends of parts of queries
+constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
+constexpr std::size_t kGroup = 16;  // blocks that one core fills
 // Share of a side: contours cross sides no nearer to their ends, so no edge is too short.
 constexpr double kNearestEnd = 0.01;
 // How much too low distances may be: at a block's middle, in reaches of the block, and at a node,
@@ -70,6 +72,11 @@ struct WaterlineSlices::Levels {
     std::vector<double> square;  // node (i, j) at i * ny + j
 };
 
+// Nodes of the lattice, `size` each way.
+struct WaterlineSlices::Block {
+    std::size_t i, j, size;
+};
+
 WaterlineSlices::WaterlineSlices(const PartModel& model,
                                  const Tool& tool,
                                  const SliceSettings& settings)
@@ -111,27 +118,31 @@ bool WaterlineSlices::buried(Vec2d middle, double reach, const Levels& levels) c
                -tool_.corner_radius;
 }
 
+// A group at a time on each core: a level of many faces may take a million cells, 1 kB each.
 void WaterlineSlices::fill(Levels& levels) const
 {
-    struct Block {
-        std::size_t i, j, size;
-    };
-    std::vector<Block> open;
+    std::vector<Block> blocks;
     for (std::size_t i = 0; i < nx_; i += kBlock) {
         for (std::size_t j = 0; j < ny_; j += kBlock) {
-            open.push_back({i, j, kBlock});
+            blocks.push_back({i, j, kBlock});
         }
     }
-    // A level of many faces may take a million cells, 1 kB each.
-    const PartModel::SharedQueries::Part queries{model_};
-    std::size_t between = 0;
+    const PartModel::SharedQueries shared{model_};
+    parallel::for_each((blocks.size() + kGroup - 1) / kGroup, [&](std::size_t group) {
+        const PartModel::SharedQueries::Part queries{model_};
+        const std::size_t end = std::min(blocks.size(), (group + 1) * kGroup);
+        for (std::size_t k = group * kGroup; k < end; ++k) {
+            fill_block(blocks[k], levels);
+        }
+    });
+}
+
+void WaterlineSlices::fill_block(const Block& whole, Levels& levels) const
+{
+    std::vector<Block> open{whole};
     while (!open.empty()) {
         const Block block = open.back();
         open.pop_back();
-        if (block.size == kBlock && between++ == kBlocksBetween) {
-            queries.next();
-            between = 1;
-        }
         if (block.i >= nx_ || block.j >= ny_) {
             continue;
         }

@@ -50,7 +50,9 @@ public:
 
 private:
     struct Levels;
+    struct Block;
     void fill(Levels& levels) const;
+    void fill_block(const Block& whole, Levels& levels) const;
     bool buried(Vec2d middle, double reach, const Levels& levels) const;
     Vec2d node(std::size_t i, std::size_t j) const;
 

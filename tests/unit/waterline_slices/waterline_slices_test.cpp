@@ -81,6 +81,7 @@ TEST(WaterlineSlices, OfManyFacesKeepFewCells)
     const PartModel model{{many_hills()}};
     const WaterlineSlices slices{
         model, {1, ToolShape::kFlat, 4, 0}, {0.3, 0.005, 0.1, {-10, -10, 97, 97}}};
+    const PartModel::SharedQueries keeps{model};  // what the slice made, as in a loop over levels
     CHECK(!slices.at(-6, 0).contours.empty());
     std::printf("%zu cells\n", model.kept_cells());
     CHECK(model.kept_cells() > 10'000);
