@@ -110,6 +110,11 @@ double AxialDepthTracker::stock_top_at(Vec2d place) const
     return stock_.contact_height(place) + kBetween;
 }
 
+double AxialDepthTracker::most_stock_top_near(Vec2d place, double within) const
+{
+    return stock_.most_contact_height(place, within) + kBetween;
+}
+
 double AxialDepthTracker::stock_top_around(Vec2d centre, double radius) const
 {
     constexpr int kPlaces = 32;

@@ -45,6 +45,9 @@ public:
     double stock_top_over(Vec3d start, const std::vector<toolpath::ToolMove>& moves) const;
     double stock_top_around(Vec2d centre, double radius) const;
 
+    // At least stock_top_at() at each place that is no farther from this one than `within` (mm).
+    double most_stock_top_near(Vec2d place, double within) const;
+
     std::optional<double> max_depth() const { return max_depth_; }
 
     // mm: deepest cut of the tracked moves.

@@ -17,6 +17,7 @@ constexpr double kSpacingShare = 1.0 / 10;  // of the radius
 constexpr double kMostPlaces = 4e6;
 constexpr double kLeastSliver = 2e-3;      // mm
 constexpr double kHeights = 256;           // of the tool's lower side
+constexpr double kRounding = 1e-9;         // mm: of distances in plan
 constexpr double kLevel = 1e-9;            // mm: rounding of a level move's heights
 constexpr std::size_t kBands = 8;          // of columns, which threads share
 constexpr std::size_t kManySamples = 200;  // fewer are not worth sharing: 0.1 ms
@@ -70,6 +71,22 @@ StockHeightMap::Range StockHeightMap::range(double low, double high, const Axis&
 double StockHeightMap::contact_height(Vec2d at, double share) const
 {
     const double reach = share * std::sqrt(probe_profile_.reach);
+    return highest_over(at, reach, [&](double squared) { return probe_profile_.at(squared); });
+}
+
+double StockHeightMap::most_contact_height(Vec2d at, double within) const
+{
+    const double reach = std::sqrt(probe_profile_.reach);
+    return highest_over(at, reach + within + kRounding, [&](double squared) {
+        const double nearest = std::max(0.0, std::sqrt(squared) - within - kRounding);
+        return probe_profile_.at(std::min(probe_profile_.reach, nearest * nearest));
+    });
+}
+
+// The highest tip that touches stock within `reach` (mm) in plan; `lower_side` by squared distance.
+template <class LowerSide>
+double StockHeightMap::highest_over(Vec2d at, double reach, const LowerSide& lower_side) const
+{
     const Range columns = range(at.x - reach, at.x + reach, column_axis());
     const Range rows = range(at.y - reach, at.y + reach, row_axis());
     double highest = -kUnbounded;
@@ -79,8 +96,10 @@ double StockHeightMap::contact_height(Vec2d at, double share) const
         for (std::size_t j = rows.begin; j < rows.end; ++j) {
             const double dy = origin_.y + static_cast<double>(j) * pitch_ - at.y;
             const double squared = dx * dx + dy * dy;
-            const double z = static_cast<double>(heights[j]) - probe_profile_.at(squared);
-            highest = squared <= reach * reach && z > highest ? z : highest;
+            const double height = static_cast<double>(heights[j]);
+            if (height > highest && squared <= reach * reach) {
+                highest = std::max(highest, height - lower_side(squared));
+            }
         }
     }
     return highest - sliver_;

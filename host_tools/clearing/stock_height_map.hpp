@@ -29,6 +29,9 @@ public:
     // that share of its radius; -kUnbounded, no bound, where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
+    // At least contact_height() at each place that is no farther from `at` than `within` (mm).
+    double most_contact_height(Vec2d at, double within) const;
+
     // A straight move.
     struct Move {
         Vec3d from;
@@ -115,6 +118,8 @@ private:
     {
         return position.shrunk ? probe_profile_ : tool_;
     }
+    template <class LowerSide>
+    double highest_over(Vec2d at, double reach, const LowerSide& lower_side) const;
     std::vector<double> sweep(const std::vector<Move>& moves, bool shrunk);
     std::vector<Sample> samples_of(const std::vector<Move>& moves, bool shrunk) const;
     void cut_samples(const std::vector<Sample>& samples, Cuts& cuts);

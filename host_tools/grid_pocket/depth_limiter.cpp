@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_tools/grid_pocket/run_entry.hpp"
+#include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::grid_pocket {
 
@@ -37,48 +38,75 @@ DepthLimiter::DepthLimiter(ToolpathWriter& writer, const Toolpath& path, AxialDe
 {
 }
 
+// Samples of the segment from a to b that may cut too deep, with the height of a tip that does not.
+// Groups of samples whose stock is low everywhere are left out, all that remain are looked at on all
+// cores.
+std::vector<DepthLimiter::Sample> DepthLimiter::deep_samples(const ClPathFitter& floor,
+                                                             const SampleRow& row) const
+{
+    const double max_depth = *depth_.max_depth();
+    const int groups = row.count / kSparse + 1;
+    std::vector<double> most(static_cast<std::size_t>(groups));
+    parallel::for_each(most.size(), [&](std::size_t k) {
+        const int first = static_cast<int>(k) * kSparse;
+        const Vec2d begin = row.place(first);
+        const Vec2d end = row.place(first + kSparse - 1);
+        most[k] =
+            depth_.most_stock_top_near((begin + end) * 0.5, 0.5 * norm(end - begin)) - max_depth;
+    });
+    std::vector<Sample> samples;
+    int known = -1;
+    double before = 0;  // lowest height at the first sample of the group
+    double after = 0;
+    for (int k = 0; k < groups; ++k) {
+        const double level = most[static_cast<std::size_t>(k)];
+        if (level <= floor.bottom()) {
+            continue;
+        }
+        before = known == k - 1 && k > 0 ? after : floor.lowest_height(row.place(k * kSparse));
+        after = floor.lowest_height(row.place((k + 1) * kSparse));
+        known = k;
+        const double least = std::min(before, after) - kNearLimit * max_depth;
+        const int end = std::min(row.count + 1, (k + 1) * kSparse);
+        for (int i = k * kSparse; level >= least && i < end; ++i) {
+            samples.push_back({i, least, 0.0});
+        }
+    }
+    parallel::for_each(samples.size(), [&](std::size_t k) {
+        samples[k].level = depth_.stock_top_at(row.place(samples[k].number)) - max_depth;
+    });
+    samples.erase(std::remove_if(samples.begin(), samples.end(),
+                                 [&](const Sample& sample) {
+                                     return sample.level <= floor.bottom() ||
+                                            sample.level < sample.least;
+                                 }),
+                  samples.end());
+    return samples;
+}
+
 std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitter& floor,
                                                                 Vec2d a,
                                                                 Vec2d b) const
 {
     const double length = norm(b - a);
-    const int count = 1 + static_cast<int>(length / spacing_);
-    const double step = length / count;
-    const auto place = [&](int i) {
-        return a + (b - a) * (static_cast<double>(std::min(i, count)) / count);
-    };
-    const double max_depth = *depth_.max_depth();
+    const SampleRow row{a, b, 1 + static_cast<int>(length / spacing_)};
+    const double step = length / row.count;
     std::vector<Stretch> out;
-    double before = 0;  // lowest height at the last kSparse-th sample
-    double after = 0;
-    int known = -1;
-    for (int i = 0; i <= count; ++i) {
-        const double level = depth_.stock_top_at(place(i)) - max_depth;
-        if (level <= floor.bottom()) {
-            continue;
-        }
-        const int first = i / kSparse * kSparse;
-        if (known != first) {
-            before = known + kSparse == first ? after : floor.lowest_height(place(first));
-            after = floor.lowest_height(place(first + kSparse));
-            known = first;
-        }
-        if (level < std::min(before, after) - kNearLimit * max_depth) {
-            continue;
-        }
-        const double low = floor.lowest_height(place(i));
-        if (level <= low) {
+    for (const Sample& sample : deep_samples(floor, row)) {
+        const int i = sample.number;
+        const double low = floor.lowest_height(row.place(i));
+        if (sample.level <= low) {
             continue;
         }
         const double foot_level =
-            std::max(level_at_foot(floor, place(i), low, place(std::max(0, i - 1))),
-                     level_at_foot(floor, place(i), low, place(i + 1)));
+            std::max(level_at_foot(floor, row.place(i), low, row.place(std::max(0, i - 1))),
+                     level_at_foot(floor, row.place(i), low, row.place(i + 1)));
         const double begin = std::max(0.0, (i - 1) * step);
         if (out.empty() || out.back().end < begin - step) {
-            out.push_back({begin, begin, level, low});
+            out.push_back({begin, begin, sample.level, low});
         }
         out.back().end = std::min(length, (i + 1) * step);
-        out.back().min_z = std::max({out.back().min_z, level, foot_level});
+        out.back().min_z = std::max({out.back().min_z, sample.level, foot_level});
         out.back().low = std::min(out.back().low, low);
     }
     return out;

@@ -2,6 +2,7 @@
 // max_depth, passes above it are added first.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,22 @@ private:
         double low;    // lower limit of moves
     };
 
+    // Evenly spaced from a to b.
+    struct SampleRow {
+        Vec2d a;
+        Vec2d b;
+        int count;  // of steps
+        Vec2d place(int i) const
+        {
+            return a + (b - a) * (static_cast<double>(std::min(i, count)) / count);
+        }
+    };
+    struct Sample {
+        int number;
+        double least;  // z: a level below is not too deep
+        double level;  // z of a tip that does not cut too deep there
+    };
+
     toolpath::ToolpathWriter& writer_;
     const toolpath::Toolpath& path_;
     clearing::AxialDepthTracker depth_;
@@ -58,6 +75,7 @@ private:
     int added_{0};
 
     bool is_limited() const { return depth_.max_depth().has_value(); }
+    std::vector<Sample> deep_samples(const ClPathFitter& floor, const SampleRow& row) const;
     // Where a tip at the lowest height over the floor would cut too deep.
     std::vector<Stretch> deep_stretches(const ClPathFitter& floor, Vec2d a, Vec2d b) const;
     double level_at_foot(const ClPathFitter& floor, Vec2d at, double low, Vec2d higher) const;

@@ -141,6 +141,43 @@ TEST(StockHeightMap, TrialsLeaveNoTrace)
     }
 }
 
+// The height itself where all places are one.
+TEST(StockHeightMap, BoundsContactsNearAPlace)
+{
+    constexpr unsigned kSeed = 20261128;
+    constexpr double kRim = 1e-4;  // mm: where the tool is steep, of rounding in plan
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> any{0.0, 1.0};
+    const auto place = [&] {
+        return Vec3d{kSide * any(random), kSide * any(random), -3.0 * any(random)};
+    };
+    Tool tool;
+    tool.radius = 2.0;
+    int tight = 0;
+    for (const double corner : {0.0, 0.5, 2.0}) {
+        tool.corner_radius = corner;
+        StockHeightMap stock{{0.0, 0.0, kSide, kSide}, tool, kTop};
+        for (int i = 0; i < 120; ++i) {
+            const Vec3d from = place();
+            stock.cut(from, from + (place() - from) * 0.2);
+        }
+        for (int i = 0; i < 2000; ++i) {
+            const Vec2d at{kSide * any(random), kSide * any(random)};
+            const double here = stock.contact_height(at);
+            CHECK(here <= stock.most_contact_height(at, 0.0));
+            DOUBLES_EQUAL(here, stock.most_contact_height(at, 0.0), kRim);
+            const double within = 0.5 * any(random);
+            const double most = stock.most_contact_height(at, within);
+            const double angle = 6.3 * any(random);
+            const Vec2d away = Vec2d{std::cos(angle), std::sin(angle)} * (within * any(random));
+            const double there = stock.contact_height(at + away);
+            CHECK(there <= most);
+            tight += there > most - 0.01 ? 1 : 0;
+        }
+    }
+    CHECK(tight > 1000);
+}
+
 // Long enough to be shared out: the same bits as move by move.
 TEST(StockHeightMap, CutsManyMovesAsOneByOne)
 {
