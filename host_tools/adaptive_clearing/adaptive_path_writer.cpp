@@ -39,16 +39,26 @@ void AdaptivePathWriter::write(const AdaptivePath& path, double above, double z)
     }
 }
 
-// Rapid legs run above the floor. The last of them comes down on its way: beside it is nothing, and
-// below it only what a round end left.
+// Rapid legs run above the floor: beside them is nothing, and below only what a round end left.
 void AdaptivePathWriter::link(const std::vector<LinkLeg>& legs, double z)
 {
+    const double raised = z + kRaised + settings_.scallops;
+    const bool round = settings_.scallops > 0.0;
     for (std::size_t i = 0; i < legs.size(); ++i) {
         const bool goes_on = i + 1 < legs.size() && legs[i + 1].free;
-        const bool raised = goes_on || (legs[i].free && settings_.scallops > 0.0);
         const Vec2d to = legs[i].end;
-        writer_.line(legs[i].free ? MoveKind::kRapid : MoveKind::kLink,
-                     {to.x, to.y, raised ? z + kRaised + settings_.scallops : z});
+        if (!legs[i].free) {
+            writer_.line(MoveKind::kLink, {to.x, to.y, goes_on && legs[i].may_rise ? raised : z});
+            continue;
+        }
+        const Vec3d from = writer_.at();
+        if (from.z < raised && round) {
+            writer_.line(MoveKind::kRapid, {from.x, from.y, raised});
+        } else if (from.z < raised && !goes_on) {
+            writer_.line(MoveKind::kRapid, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y), raised});
+        }
+        // The last of them comes down on its way.
+        writer_.line(MoveKind::kRapid, {to.x, to.y, goes_on || round ? raised : z});
     }
 }
 

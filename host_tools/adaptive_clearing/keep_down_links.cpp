@@ -29,6 +29,7 @@ constexpr int kFew = 8;         // of them, one is looked at first
 constexpr double kLattice = 0.5;
 constexpr double kCusp = 0.005;  // less than that stays beside a path that was cut
 constexpr double kLongest = 60.0;
+constexpr double kSame = 1e-6;
 constexpr double kBeside[] = {0.1, 0.2, 0.4, 0.8};
 constexpr int kSides = 16;
 constexpr std::size_t kMostNodes = 4000;  // that a way around may be looked for at
@@ -148,6 +149,9 @@ std::vector<LinkLeg> KeepDownLinks::between(Vec2d from, Vec2d to)
     const std::optional<Vec2d> first = beside(from);
     const std::optional<Vec2d> last = beside(to);
     std::vector<Vec2d> places;
+    if (first && last && norm(*last - *first) < kSame * radius_) {
+        return {{*first, false}, {to, false}};
+    }
     if (first && last) {
         places = is_free(*first, *last) ? std::vector<Vec2d>{*first, *last} : way(*first, *last);
     }
@@ -158,7 +162,7 @@ std::vector<LinkLeg> KeepDownLinks::between(Vec2d from, Vec2d to)
         }
         return legs;
     }
-    legs.push_back({places.front(), false});
+    legs.push_back({places.front(), false, swept_.keeps(line_edge(from, places.front()), kNone)});
     for (std::size_t i = 1; i < places.size(); ++i) {
         legs.push_back({places[i], true});
     }

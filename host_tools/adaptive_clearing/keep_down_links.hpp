@@ -19,6 +19,9 @@ struct LinkLeg {
     Vec2d end;
     // Stock and walls stay 0.03 radii away from the tool: it may go at rapid.
     bool free{};
+    // No stock is met: the tool may rise on its way. What a tool above the floor met would stand below
+    // it, where it may come down at rapid.
+    bool may_rise{};
 };
 
 class KeepDownLinks {

@@ -197,7 +197,12 @@ TEST(AdaptiveLayersProperty, KeepAngleAndDepthOnARaster)
     }
 }
 
-// A run along the wall began with a rapid move into the allowance.
-TEST(AdaptiveLayersProperty, SeedThatOnceFailed) { check_seed(3057); }
+// A run along the wall began with a rapid move into the allowance; a link came down at rapid on a
+// sliver that it had met while it rose.
+TEST(AdaptiveLayersProperty, SeedsThatOnceFailed)
+{
+    check_seed(3057);
+    check_seed(120203);
+}
 
 }  // namespace cusp::test
