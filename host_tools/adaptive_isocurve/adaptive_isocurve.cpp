@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "host_tools/adaptive_isocurve/curve_passes.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_selection.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
@@ -52,10 +54,11 @@ namespace {
 // Share of the domain: where the scallop is too high on more, curves are chosen again with scallops
 // computed along the curved passes, which takes twice as long.
 constexpr double kOpenShare = 0.01;
-constexpr double kOffsetShare = 0.9;     // of the band: for the error of an approximated offset
-constexpr int kNormalSamples = 8;        // along u and v
-constexpr double kShortestPiece = 1e-3;  // mm
-constexpr std::size_t kCurvesAtOnce = 32;
+constexpr double kOffsetShare = 0.9;       // of the band: for the error of an approximated offset
+constexpr int kNormalSamples = 8;          // along u and v
+constexpr std::size_t kCurvesAtOnce = 32;  // while the next ones may be clear as a whole
+constexpr std::size_t kManyCurvesAtOnce = 512;
+constexpr double kEdgeGrid = 0.7;  // in steps
 constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 std::string place_of_faces(const Operation& operation)
@@ -214,31 +217,48 @@ private:
         if (operation_.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
-        std::optional<OffsetSurface> offset;
-        if (operation_.output == OutputForm::kNurbs) {
-            const ToleranceBand& band = work_.path_fitter().band();
-            offset.emplace(s, OffsetRequest{operation_.tool.radius + band.offset,
-                                            kOffsetShare * band.half_width});
-            offset_error_ = std::max(offset_error_, offset->error_bound());
-            offset_points_ += offset->control_points();
-        }
+        spacing_ = operation_.iso_distance
+                       ? *operation_.iso_distance
+                       : stepover(operation_.tool.radius, *operation_.scallop, 0);
+        add_edges(add_curves(surface, curves));
+        scallop_ = std::max(scallop_, highest.scallop_height);
+        open_ = highest.open;
+        return curves.size();
+    }
+
+    // Adds the passes along the curves. Returns the edges of the part that the tool can finish; none
+    // where that is the whole surface.
+    std::vector<Points> add_curves(int surface, const std::vector<DomainCurve>& curves)
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        const std::optional<OffsetSurface> offset = offset_of(s);
+        const CurveFitter fitter{work_, tracer_};
         bool trimmed = false;
+        std::optional<std::vector<Points>> edges;
+        const auto find_edges = [&] {
+            edges = tracer_.clear_region_edges(surface, kEdgeGrid * spacing_);
+        };
         bool may_be_clear = s.trims.empty() && operation_.output == OutputForm::kLines;
-        std::vector<PassesOfCurve> fitted(curves.size());
         ShareOfCount done{curves.size(), [&](double share) {
                               report_curves(surface, share);
                           }};
-        for (std::size_t begin = 0; begin < curves.size(); begin += kCurvesAtOnce) {
-            const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
+        for (std::size_t begin = 0, end = 0; begin < curves.size(); begin = end) {
+            end = begin + (may_be_clear ? kCurvesAtOnce : kManyCurvesAtOnce);
+            end = std::min(curves.size(), end);
             const part_model::PartModel::SharedQueries shared{work_.model()};
-            parallel::for_each(end - begin, [&](std::size_t k) {
-                const part_model::PartModel::SharedQueries::Part queries{work_.model()};
-                fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
-                done.count();
-            });
+            std::vector<CurvePasses> fitted;
+            const auto fit = [&] {
+                fitted =
+                    fitter.fitted(curves, begin, end, may_be_clear, offset, [&] { done.count(); });
+            };
+            // One curve may be half of a face's work: edges are found meanwhile.
+            if (trimmed && !edges) {
+                parallel::both(fit, find_edges);
+            } else {
+                fit();
+            }
             work_.model().forget_queries();
-            for (std::size_t k = begin; k < end; ++k) {
-                PassesOfCurve& passes = fitted[k];
+            for (CurvePasses& passes : fitted) {
                 trimmed = trimmed || !passes.whole;
                 may_be_clear = may_be_clear && passes.whole;
                 unreached_ += passes.blocked ? 1 : 0;
@@ -246,88 +266,33 @@ private:
                 for (SurfaceOperation::FittedPass& pass : passes.passes) {
                     remember(work_.add(std::move(pass)));
                 }
-                passes.passes.clear();
             }
         }
         whole_ = whole_ && !trimmed;
-        spacing_ = operation_.iso_distance
-                       ? *operation_.iso_distance
-                       : stepover(operation_.tool.radius, *operation_.scallop, 0);
-        if (trimmed) {
-            add_edges(surface);
+        if (trimmed && !edges) {
+            find_edges();
         }
-        scallop_ = std::max(scallop_, highest.scallop_height);
-        open_ = highest.open;
-        return curves.size();
+        return edges ? std::move(*edges) : std::vector<Points>{};
+    }
+
+    // For exact curves.
+    std::optional<OffsetSurface> offset_of(const Surface& surface)
+    {
+        if (operation_.output != OutputForm::kNurbs) {
+            return std::nullopt;
+        }
+        const ToleranceBand& band = work_.path_fitter().band();
+        std::optional<OffsetSurface> out;
+        out.emplace(surface, OffsetRequest{operation_.tool.radius + band.offset,
+                                           kOffsetShare * band.half_width});
+        offset_error_ = std::max(offset_error_, out->error_bound());
+        offset_points_ += out->control_points();
+        return out;
     }
 
     cancellation::Part part_of(int surface) const
     {
         return {"face ", surface + 1, place_of_faces(operation_)};
-    }
-
-    // The passes along one isocurve.
-    struct PassesOfCurve {
-        std::vector<SurfaceOperation::FittedPass> passes;
-        bool whole{};    // one pass, from end to end
-        bool blocked{};  // the tool would cut something else
-        int exact{};     // passes with an exact curve
-    };
-
-    PassesOfCurve passes_of(const DomainCurve& curve,
-                            bool may_be_clear,
-                            const std::optional<OffsetSurface>& offset) const
-    {
-        PassesOfCurve out;
-        if (may_be_clear && add_whole(curve, out)) {
-            return out;
-        }
-        const TracedCurve traced = tracer_.trace(curve);
-        out.whole = traced.pieces.size() == 1 && !traced.blocked &&
-                    reaches_ends(curve, traced.pieces.front().points);
-        out.blocked = traced.blocked;
-        for (const TracedPiece& piece : traced.pieces) {
-            const std::optional<Curve> exact =
-                offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
-            out.exact += exact ? 1 : 0;
-            out.passes.push_back(work_.fitted_pass(piece.points, exact, piece.cc_parameters));
-        }
-        return out;
-    }
-
-    // Quick case: the tool is clear of everything else from end to end.
-    bool add_whole(const DomainCurve& curve, PassesOfCurve& out) const
-    {
-        const TracedPiece piece = tracer_.whole(curve);
-        const bool along_pole = length_of(piece.points) < kShortestPiece;
-        if (!along_pole) {
-            std::optional<SurfaceOperation::FittedPass> pass =
-                work_.fitted_clear_pass(piece.points, piece.cc_parameters);
-            if (!pass) {
-                return false;
-            }
-            out.passes.push_back(std::move(*pass));
-        }
-        out.whole = true;
-        return true;
-    }
-
-    // The pass on the approximated offset, where the curve is an isocurve.
-    std::optional<Curve> tip_isocurve(const OffsetSurface& offset,
-                                      const DomainCurve& curve,
-                                      const TracedPiece& piece) const
-    {
-        const auto [low, high] = std::minmax_element(curve.v.begin(), curve.v.end());
-        if (*low != *high) {
-            return std::nullopt;
-        }
-        std::optional<Curve> tip = offset.isocurve(*low, piece.u_begin, piece.u_end);
-        if (tip) {
-            for (Vec3d& p : tip->points) {
-                p.z -= operation_.tool.radius;
-            }
-        }
-        return tip;
     }
 
     // Climb milling: the uncut stock lies to the right of the path, since the tool turns clockwise.
@@ -356,13 +321,12 @@ private:
     }
 
     // An edge where the tool touches two surfaces is found for both and cut once.
-    void add_edges(int surface)
+    void add_edges(const std::vector<Points>& found)
     {
         const double near = kSameEdge * spacing_;
         if (!edges_) {
             edges_.emplace(near, std::max(near, 0.25 * operation_.tool.radius));
         }
-        const std::vector<Points> found = tracer_.clear_region_edges(surface, 0.7 * spacing_);
         for (const Points& edge : found) {
             Points run;
             for (const Vec3d& tip : edge) {
@@ -396,15 +360,6 @@ private:
         edges_->near(centre, moves);
         return std::any_of(moves.begin(), moves.end(),
                            [&](std::uint32_t move) { return edges_->passes_near(move, centre); });
-    }
-
-    bool reaches_ends(const DomainCurve& curve, const Points& piece) const
-    {
-        constexpr double kSame = 1e-9;
-        return norm(piece.front() - tracer_.tip(curve.surface, curve.u.front(), curve.v.front())) <
-                   kSame &&
-               norm(piece.back() - tracer_.tip(curve.surface, curve.u.back(), curve.v.back())) <
-                   kSame;
     }
 
     const Job& job_;

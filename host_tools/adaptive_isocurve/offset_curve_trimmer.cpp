@@ -38,18 +38,31 @@ double length_along(const PartModel& model, int surface, Vec2d from, Vec2d to)
     return length_between(model, surface, from, to, kParts);
 }
 
-// Calls work(k) for each k below `count`, `at_once` of them in turn a part, parts on all cores.
+// Calls work(list, k) for each k below the length of each list: `at_once` in turn are a part, parts of
+// all lists on all cores.
 void in_parts(const PartModel& model,
-              std::size_t count,
+              const std::vector<std::size_t>& lengths,
               std::size_t at_once,
-              const std::function<void(std::size_t)>& work)
+              const std::function<void(std::size_t, std::size_t)>& work)
 {
+    struct Part {
+        std::size_t list;
+        std::size_t begin;
+        std::size_t end;
+    };
+    std::vector<Part> parts;
+    for (std::size_t list = 0; list < lengths.size(); ++list) {
+        for (std::size_t begin = 0; begin < lengths[list]; begin += at_once) {
+            parts.push_back({list, begin, std::min(lengths[list], begin + at_once)});
+        }
+    }
     {
         const PartModel::SharedQueries shared{model};
-        parallel::for_each((count + at_once - 1) / at_once, [&](std::size_t part) {
+        parallel::for_each(parts.size(), [&](std::size_t number) {
             const PartModel::SharedQueries::Part queries{model};
-            for (std::size_t k = part * at_once; k < std::min(count, (part + 1) * at_once); ++k) {
-                work(k);
+            const Part& part = parts[number];
+            for (std::size_t k = part.begin; k < part.end; ++k) {
+                work(part.list, k);
             }
         });
     }
@@ -162,14 +175,20 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
     const auto parts = [&](double length) {
         return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostChecks);
     };
-    const std::vector<double> us =
-        even(s.u_begin(), s.u_end(),
-             parts(length_along(model, surface, {s.u_begin(), v_middle}, {s.u_end(), v_middle})));
-    const std::vector<double> vs =
-        even(s.v_begin(), s.v_end(),
-             parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
+    const PartModel::SharedQueries shared{model};
+    std::vector<double> us;
+    std::vector<double> vs;
+    {
+        const PartModel::SharedQueries::Part queries{model};
+        us = even(
+            s.u_begin(), s.u_end(),
+            parts(length_along(model, surface, {s.u_begin(), v_middle}, {s.u_end(), v_middle})));
+        vs = even(
+            s.v_begin(), s.v_end(),
+            parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
+    }
     std::vector<char> free(us.size() * vs.size());  // no bits: rows are written at once
-    in_parts(model, us.size(), 1, [&](std::size_t i) {
+    in_parts(model, {us.size()}, 1, [&](std::size_t, std::size_t i) {
         for (std::size_t j = 0; j < vs.size(); ++j) {
             free[i * vs.size() + j] = is_clear_at(surface, us[i], vs[j]) ? 1 : 0;
         }
@@ -185,16 +204,18 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
             });
         }
     }
-    std::vector<Points> out;
+    std::vector<std::vector<EdgeSide>> edges;
     for (const std::vector<GridSide>& chain : chains.chains()) {
-        std::vector<EdgeSide> sides;
+        std::vector<EdgeSide>& sides = edges.emplace_back();
         for (const GridSide& side : chain) {
             const std::size_t node = side.first;
             const std::size_t other = end_node(side, vs.size());
             const bool is_free = free[node] != 0;
             sides.push_back({place(is_free ? node : other), place(is_free ? other : node)});
         }
-        Points dense = edge_along(surface, sides);
+    }
+    std::vector<Points> out;
+    for (Points& dense : along_edges(surface, edges)) {
         if (length_of(dense) > kShortestTraced) {
             out.push_back(std::move(dense));
         }
@@ -202,25 +223,41 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
     return out;
 }
 
-// Tips along the edge that the segments cross, in their order.
-Points OffsetCurveTrimmer::edge_along(int surface, const std::vector<EdgeSide>& sides) const
+// Tips along each edge that the segments cross, in their order.
+std::vector<Points> OffsetCurveTrimmer::along_edges(
+    int surface, const std::vector<std::vector<EdgeSide>>& edges) const
 {
     const PartModel& model = path_fitter_.model();
-    Points tips(sides.size());
-    in_parts(model, sides.size(), kSidesOfAPart,
-             [&](std::size_t k) { tips[k] = edge_tip(surface, sides[k]); });
-    // Between two of them. Dropped tips are left to this thread: drops share one drop cutter.
-    std::vector<std::optional<Points>> between(sides.size());
-    in_parts(model, sides.size() - 1, kSidesOfAPart, [&](std::size_t k) {
-        between[k] = edge_points(surface, sides[k], sides[k + 1], tips[k], tips[k + 1]);
-    });
-    Points dense{tips.front()};
-    for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-        const Points piece =
-            between[k] ? *between[k] : path_fitter_.sample_dropped(tips[k], tips[k + 1]);
-        dense.insert(dense.end(), piece.begin() + 1, piece.end());
+    std::vector<std::size_t> counts;
+    std::vector<std::size_t> spans;
+    std::vector<Points> tips;
+    std::vector<std::vector<std::optional<Points>>> between;  // two of them
+    for (const std::vector<EdgeSide>& sides : edges) {
+        counts.push_back(sides.size());
+        spans.push_back(sides.size() - 1);
+        tips.emplace_back(sides.size());
+        between.emplace_back(sides.size());
     }
-    return dense;
+    in_parts(model, counts, kSidesOfAPart, [&](std::size_t edge, std::size_t k) {
+        tips[edge][k] = edge_tip(surface, edges[edge][k]);
+    });
+    in_parts(model, spans, kSidesOfAPart, [&](std::size_t edge, std::size_t k) {
+        const Vec3d a = tips[edge][k];
+        const Vec3d b = tips[edge][k + 1];
+        between[edge][k] = edge_points(surface, edges[edge][k], edges[edge][k + 1], a, b);
+        if (!between[edge][k]) {
+            between[edge][k] = path_fitter_.sample_dropped(a, b);
+        }
+    });
+    std::vector<Points> out;
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        Points& dense = out.emplace_back(Points{tips[edge].front()});
+        for (std::size_t k = 0; k < spans[edge]; ++k) {
+            const Points& piece = *between[edge][k];
+            dense.insert(dense.end(), piece.begin() + 1, piece.end());
+        }
+    }
+    return out;
 }
 
 // The last clear tip towards the blocked point.

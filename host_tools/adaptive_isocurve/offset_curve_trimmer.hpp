@@ -59,7 +59,8 @@ private:
         Vec2d blocked;
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
-    finishing::Points edge_along(int surface, const std::vector<EdgeSide>& sides) const;
+    std::vector<finishing::Points> along_edges(
+        int surface, const std::vector<std::vector<EdgeSide>>& edges) const;
     // Tips along the edge from one segment, with tip `a`, to the next, with tip `b`; none where the
     // segment halfway between them starts blocked.
     std::optional<finishing::Points> edge_points(

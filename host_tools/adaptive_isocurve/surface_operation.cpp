@@ -184,9 +184,13 @@ Points SurfaceOperation::add_pass(const Points& wanted,
 SurfaceOperation::FittedPass SurfaceOperation::fitted_pass(
     const Points& wanted,
     const std::optional<Curve>& exact,
-    const CcParameterList& cc_parameters) const
+    const CcParameterList& cc_parameters,
+    const part_model::PartModel::SharedQueries::Part* queries) const
 {
     GougeFreePathFitter fitter = *path_fitter_;
+    if (queries != nullptr) {
+        fitter.set_part(*queries);
+    }
     FittedPass out;
     const Points dense = fitter.moved_clear_of_edges(wanted);
     out.moved = dense != wanted;

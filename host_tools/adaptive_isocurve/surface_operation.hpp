@@ -51,9 +51,12 @@ public:
         bool moved{};              // off an edge that the tool would gouge
         double least_clearance{};
     };
-    FittedPass fitted_pass(const finishing::Points& wanted,
-                           const std::optional<nurbs::Curve>& exact = std::nullopt,
-                           const finishing::CcParameterList& cc_parameters = {}) const;
+    // queries  of the calling thread's part of a loop, if any: see GougeFreePathFitter::set_part()
+    FittedPass fitted_pass(
+        const finishing::Points& wanted,
+        const std::optional<nurbs::Curve>& exact = std::nullopt,
+        const finishing::CcParameterList& cc_parameters = {},
+        const part_model::PartModel::SharedQueries::Part* queries = nullptr) const;
     finishing::Points add(FittedPass fitted);
     // As fitted_pass(), for output as lines and a tool proved clear all along; otherwise none.
     std::optional<FittedPass> fitted_clear_pass(

@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kDeepestHalving = 12;
 constexpr double kDropPiece = 3.2;      // in widths of a dip as deep as the band
+constexpr int kLinesOfPart = 64;        // at least
 constexpr int kDropHalvings = 7;        // of such a piece: dropped tips may jump
 constexpr double kSampleShare = 0.08;   // of the band: deviation between samples
 constexpr double kEdgeMargin = 1.05;    // of the band
@@ -339,8 +340,14 @@ Points GougeFreePathFitter::fit_lines(const Points& dense, const CcParameterList
     }
     std::size_t from = 0;
     std::size_t guess = 4;
+    int lines = 0;
     while (from + 1 < dense.size()) {
+        ++lines;
         if (!last) {  // the model caches the cells of the last contacts
+            if (queries_ != nullptr && lines >= kLinesOfPart) {
+                queries_->next();
+                lines = 0;
+            }
             model_.forget_many_cells();
         }
         const std::size_t to = chord_end(dense, from, guess);

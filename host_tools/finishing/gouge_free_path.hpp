@@ -106,6 +106,14 @@ public:
     // the curvature of the surface there, without a search.
     Points fit_lines(const Points& dense, const CcParameterList& cc_parameters = {});
 
+    // The part of a loop on several threads that uses this from now on: fit_lines() begins the next one
+    // between lines, now and then. Other threads would wait for a pass of metres before they release
+    // cells.
+    void set_part(const part_model::PartModel::SharedQueries::Part& queries)
+    {
+        queries_ = &queries;
+    }
+
     // As fit_lines(), without raising any tip; none where a line would cut or that is not proved.
     std::optional<Points> fit_clear_lines(const Points& dense,
                                           const CcParameterList& cc_parameters);
@@ -150,6 +158,7 @@ private:
     ToleranceBand band_;
     std::shared_ptr<const part_model::EdgeGougeCheck> edges_;
     double least_clearance_{};
+    const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
 };
 
 double length_of(const Points& points);

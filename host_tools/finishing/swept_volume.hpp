@@ -30,6 +30,8 @@ public:
 
     // Adds straight moves through tips of the tool.
     void add(const std::vector<Vec3d>& tips);
+    // How many have been added.
+    std::size_t moves() const { return moves_.size(); }
 
     // The numbers of all moves that pass within `reach` of the centre, and of some others, in order.
     void near(Vec3d centre, std::vector<std::uint32_t>& out) const;

@@ -2,6 +2,8 @@
 #include "host_tools/finishing/uncut_walls.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 
 #include "host_tools/parallel/parallel.hpp"
 
@@ -41,10 +43,18 @@ public:
     bool has_cut_near(const WallSide& side) const
     {
         const Box at = box_of(side.corners(), 2 * radius_);
-        return std::any_of(done_.begin(), done_.end(), [&](const Box& box) {
+        const auto overlaps = [&](const Box& box) {
             return box.low.x <= at.high.x && box.high.x >= at.low.x && box.low.y <= at.high.y &&
                    box.high.y >= at.low.y;
-        });
+        };
+        for (long band = band_at(at.low.x); band <= band_at(at.high.x); ++band) {
+            const auto found = done_.find(band);
+            if (found != done_.end() &&
+                std::any_of(found->second.begin(), found->second.end(), overlaps)) {
+                return true;
+            }
+        }
+        return false;
     }
 
     void add(Points tips)
@@ -65,7 +75,10 @@ public:
     void finish()
     {
         if (!open_.empty()) {
-            done_.push_back(box_of(open_, 2 * radius_));
+            const Box box = box_of(open_, 2 * radius_);
+            for (long band = band_at(box.low.x); band <= band_at(box.high.x); ++band) {
+                done_[band].push_back(box);
+            }
             cut_(open_);
             open_.clear();
         }
@@ -73,6 +86,9 @@ public:
 
 private:
     static constexpr double kSameTip = 1e-3;  // mm
+    static constexpr double kBand = 8;        // radii
+
+    long band_at(double x) const { return std::lround(std::floor(x / (kBand * radius_))); }
 
     static Box box_of(const std::vector<Vec3d>& points, double around)
     {
@@ -88,7 +104,7 @@ private:
     double join_;
     const std::function<void(const Points&)>& cut_;
     Points open_;
-    std::vector<Box> done_;
+    std::unordered_map<long, std::vector<Box>> done_;  // by bands of x
 };
 
 UncutWalls::UncutWalls(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places)
@@ -107,6 +123,7 @@ void UncutWalls::share_out(std::size_t count,
             const PartModel::SharedQueries::Part queries{path_fitter_.model()};
             for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
                 work(copy, k);
+                queries.next();  // others may wait to release cells
             }
         });
     }
@@ -138,10 +155,15 @@ void UncutWalls::find(const std::vector<WallFacet>& facets)
             walls_.push_back(side);
         }
     }
+    moves_seen_ = places_.swept().moves();
 }
 
 void UncutWalls::look_again()
 {
+    if (moves_seen_ == places_.swept().moves()) {
+        return;
+    }
+    moves_seen_ = places_.swept().moves();
     share_out(walls_.size(), [&](Search& search, std::size_t k) {
         walls_[k].runs = walls_[k].side.missing_runs(search.places, search.known);
     });

@@ -49,11 +49,13 @@ private:
     };
     // Calls work(search, k) for each k below count, neighbours with one search.
     void share_out(std::size_t count, const std::function<void(Search&, std::size_t)>& work) const;
+    // Nothing to do where no pass was added since.
     void look_again();
 
     const GougeFreePathFitter& path_fitter_;
     ScallopAtPoint& places_;
     std::vector<Wall> walls_;
+    std::size_t moves_seen_{};  // of the passes, when all walls were looked at last
 };
 
 }  // namespace cusp::finishing

@@ -142,8 +142,9 @@ BezierCell::Spread BezierCell::polynomial_spread() const
 // The quotient rule of the derivatives in interval arithmetic, with the middle as origin.
 BezierCell::Spread BezierCell::rational_spread() const
 {
-    Net<Vec3d> net{count_s_, count_t_, points_};
-    const Net<double> weight{count_s_, count_t_, weights_};
+    const std::size_t controls = count_s_ * count_t_;
+    Net<Vec3d> net{count_s_, count_t_, {points_, points_ + controls}};
+    const Net<double> weight{count_s_, count_t_, {weights_, weights_ + controls}};
     for (std::size_t k = 0; k < net.values.size(); ++k) {
         net.values[k] = net.values[k] - middle_.point * weights_[k];
     }
@@ -179,7 +180,7 @@ BezierCell::Spread BezierCell::rational_spread() const
 void BezierCell::find_bounds()
 {
     middle_ = at(0.5, 0.5);
-    spread_ = weights_.empty() ? polynomial_spread() : rational_spread();
+    spread_ = weights_ == nullptr ? polynomial_spread() : rational_spread();
     const Vec3d normal = upward_normal(middle_);
     if (dot(normal, normal) > 0) {
         const Vec3d along = middle_.du / norm(middle_.du);

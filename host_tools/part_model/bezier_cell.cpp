@@ -280,12 +280,18 @@ void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t str
 
 }  // namespace
 
+// In one piece of memory, and all control points in another: one query makes and releases thousands.
+struct BezierCell::Halves {
+    BezierCell lower;
+    BezierCell upper;
+    Controls controls;  // of the lower one, then of the upper one
+};
+
 BezierCell::BezierCell(const BezierPatch& patch, int surface, std::atomic<std::size_t>* made)
     : surface_{surface},
       made_{made},
       count_s_{static_cast<std::size_t>(patch.surface.size_u)},
       count_t_{static_cast<std::size_t>(patch.surface.size_v)},
-      points_{patch.surface.points},
       u_begin_{patch.u_begin},
       u_end_{patch.u_end},
       v_begin_{patch.v_begin},
@@ -293,28 +299,32 @@ BezierCell::BezierCell(const BezierPatch& patch, int surface, std::atomic<std::s
 {
     const std::vector<double>& weights = patch.surface.weights;
     const auto [smallest, largest] = std::minmax_element(weights.begin(), weights.end());
+    auto controls = std::make_unique<Controls>(Controls{patch.surface.points, {}});
     if (*smallest != *largest) {
-        weights_ = weights;
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            points_[k] = points_[k] * weights_[k];
+        controls->weights = weights;
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            controls->points[k] = controls->points[k] * weights[k];
         }
+        weights_ = controls->weights.data();
     }
+    points_ = controls->points.data();
+    controls_ = std::move(controls);
     find_bounds();
 }
 
 Vec3d BezierCell::control(std::size_t i, std::size_t j) const
 {
     const std::size_t k = i * count_t_ + j;
-    return weights_.empty() ? points_[k] : points_[k] / weights_[k];
+    return weights_ == nullptr ? points_[k] : points_[k] / weights_[k];
 }
 
 SurfacePoint BezierCell::at(double s, double t) const
 {
-    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
-        return polynomial_at<4, 4>(points_.data(), s, t);
+    if (weights_ == nullptr && count_s_ == 4 && count_t_ == 4) {
+        return polynomial_at<4, 4>(points_, s, t);
     }
-    if (weights_.empty() && count_s_ == 2 && count_t_ == 2) {
-        return polynomial_at<2, 2>(points_.data(), s, t);
+    if (weights_ == nullptr && count_s_ == 2 && count_t_ == 2) {
+        return polynomial_at<2, 2>(points_, s, t);
     }
     return at_any_degree(s, t);
 }
@@ -333,19 +343,18 @@ SurfacePoint BezierCell::by_domain(SurfacePoint p) const
 
 SurfacePoint BezierCell::tangents_at(double s, double t) const
 {
-    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
-        return tangents<4, 4>(points_.data(), s, t);
+    if (weights_ == nullptr && count_s_ == 4 && count_t_ == 4) {
+        return tangents<4, 4>(points_, s, t);
     }
     return at(s, t);
 }
 
 bool BezierCell::cut_at(double s, Curve4& out) const
 {
-    if (!weights_.empty() || count_s_ != 4 || count_t_ != 4) {
+    if (weights_ != nullptr || count_s_ != 4 || count_t_ != 4) {
         return false;
     }
-    reduce_to_curves<4, 4>(points_.data(), s, out.value.data(), out.along_s.data(),
-                           out.along_ss.data());
+    reduce_to_curves<4, 4>(points_, s, out.value.data(), out.along_s.data(), out.along_ss.data());
     return true;
 }
 
@@ -368,11 +377,11 @@ SurfacePoint BezierCell::bends_on_cut(const Curve4& cut, double t)
 // Any degree, and rational cells.
 SurfacePoint BezierCell::at_any_degree(double s, double t) const
 {
-    const double* const weights = weights_.empty() ? nullptr : weights_.data();
+    const double* const weights = weights_;
     return with_fixed_count(count_s_, [&](auto count_s) {
         return with_fixed_count(count_t_, [&](auto count_t) {
-            return rational_at<decltype(count_s), decltype(count_t)>(count_s, count_t,
-                                                                     points_.data(), weights, s, t);
+            return rational_at<decltype(count_s), decltype(count_t)>(count_s, count_t, points_,
+                                                                     weights, s, t);
         });
     });
 }
@@ -399,54 +408,63 @@ bool BezierCell::is_halved_across_u() const
 
 std::array<const BezierCell*, 2> BezierCell::halves() const
 {
-    if (const Halves* known = halves_) {
-        return {(*known)[0].get(), (*known)[1].get()};
+    if (Halves* const known = halves_) {
+        return {&known->lower, &known->upper};
     }
-    std::array<std::unique_ptr<BezierCell>, 2> half;
-    const Trim trim = trim_;
+    auto made = std::make_unique<Halves>();
+    const std::size_t controls = count_s_ * count_t_;
+    made->controls.points.resize(2 * controls);
+    made->controls.weights.resize(weights_ == nullptr ? 0 : 2 * controls);
     const bool across_u = is_halved_across_u();
     for (std::size_t k = 0; k < 2; ++k) {
-        half[k].reset(new BezierCell);
-        half[k]->surface_ = surface_;
-        half[k]->made_ = made_;
-        half[k]->count_s_ = count_s_;
-        half[k]->count_t_ = count_t_;
-        half[k]->points_.resize(points_.size());
-        half[k]->weights_.resize(weights_.size());
-        const double u_middle = 0.5 * (u_begin_ + u_end_);
-        const double v_middle = 0.5 * (v_begin_ + v_end_);
-        half[k]->u_begin_ = across_u && k == 1 ? u_middle : u_begin_;
-        half[k]->u_end_ = across_u && k == 0 ? u_middle : u_end_;
-        half[k]->v_begin_ = !across_u && k == 1 ? v_middle : v_begin_;
-        half[k]->v_end_ = !across_u && k == 0 ? v_middle : v_end_;
-        half[k]->first_u_ = first_u_ && !(across_u && k == 1);
-        half[k]->last_u_ = last_u_ && !(across_u && k == 0);
-        half[k]->first_v_ = first_v_ && (across_u || k == 0);
-        half[k]->last_v_ = last_v_ && (across_u || k == 1);
-        half[k]->trim_ = trim == Trim::kCut ? Trim::kUnknown : trim;
+        BezierCell& half = k == 0 ? made->lower : made->upper;
+        begin_half(half, across_u, k == 1);
+        half.points_ = &made->controls.points[k * controls];
+        half.weights_ = weights_ == nullptr ? nullptr : &made->controls.weights[k * controls];
     }
     const std::size_t lines = across_u ? count_t_ : count_s_;
     const std::size_t count = across_u ? count_s_ : count_t_;
     const std::size_t stride = across_u ? count_t_ : 1;
     for (std::size_t line = 0; line < lines; ++line) {
         const std::size_t first = across_u ? line : line * count_t_;
-        halve(&points_[first], &half[0]->points_[first], &half[1]->points_[first], count, stride);
-        if (!weights_.empty()) {
-            halve(&weights_[first], &half[0]->weights_[first], &half[1]->weights_[first], count,
-                  stride);
+        Vec3d* const points = &made->controls.points[first];
+        halve(&points_[first], points, points + controls, count, stride);
+        if (weights_ != nullptr) {
+            double* const weights = &made->controls.weights[first];
+            halve(&weights_[first], weights, weights + controls, count, stride);
         }
     }
-    half[0]->find_bounds();
-    half[1]->find_bounds();
-    auto made = std::make_unique<const Halves>(Halves{std::move(half[0]), std::move(half[1])});
-    const Halves* known = nullptr;
+    made->lower.find_bounds();
+    made->upper.find_bounds();
+    Halves* known = nullptr;
     if (halves_.compare_exchange_strong(known, made.get())) {
         known = made.release();
         if (made_ != nullptr) {
             *made_ += 2;
         }
     }
-    return {(*known)[0].get(), (*known)[1].get()};
+    return {&known->lower, &known->upper};
+}
+
+// All but its control points and what follows from them.
+void BezierCell::begin_half(BezierCell& half, bool across_u, bool upper) const
+{
+    half.surface_ = surface_;
+    half.made_ = made_;
+    half.count_s_ = count_s_;
+    half.count_t_ = count_t_;
+    const double u_middle = 0.5 * (u_begin_ + u_end_);
+    const double v_middle = 0.5 * (v_begin_ + v_end_);
+    half.u_begin_ = across_u && upper ? u_middle : u_begin_;
+    half.u_end_ = across_u && !upper ? u_middle : u_end_;
+    half.v_begin_ = !across_u && upper ? v_middle : v_begin_;
+    half.v_end_ = !across_u && !upper ? v_middle : v_end_;
+    half.first_u_ = first_u_ && !(across_u && upper);
+    half.last_u_ = last_u_ && !(across_u && !upper);
+    half.first_v_ = first_v_ && (across_u || !upper);
+    half.last_v_ = last_v_ && (across_u || upper);
+    const Trim trim = trim_;
+    half.trim_ = trim == Trim::kCut ? Trim::kUnknown : trim;
 }
 
 void BezierCell::forget() const

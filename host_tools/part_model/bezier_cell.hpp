@@ -149,16 +149,22 @@ private:
     Spread polynomial_spread() const;
     Spread rational_spread() const;
     bool is_halved_across_u() const;
+    void begin_half(BezierCell& half, bool across_u, bool upper) const;
     Vec3d control(std::size_t i, std::size_t j) const;
 
-    using Halves = std::array<std::unique_ptr<const BezierCell>, 2>;
+    struct Halves;
 
     int surface_{};
     std::atomic<std::size_t>* made_{};
     std::size_t count_s_{};
     std::size_t count_t_{};
-    std::vector<Vec3d> points_;    // times the weight
-    std::vector<double> weights_;  // empty: all 1
+    const Vec3d* points_{};    // times the weight
+    const double* weights_{};  // null: all 1
+    struct Controls {
+        std::vector<Vec3d> points;
+        std::vector<double> weights;  // empty: all 1
+    };
+    std::unique_ptr<const Controls> controls_;  // of a whole patch; those of halves lie beside them
     double u_begin_{};
     double u_end_{};
     double v_begin_{};
@@ -175,7 +181,7 @@ private:
     std::array<double, 3> box_low_{};
     std::array<double, 3> box_high_{};
     // Owned.
-    mutable std::atomic<const Halves*> halves_{nullptr};
+    mutable std::atomic<Halves*> halves_{nullptr};
     mutable std::atomic<const Surroundings*> surroundings_{nullptr};
     mutable std::atomic<const NearPatches*> near_patches_{nullptr};
     mutable std::atomic<Trim> trim_{Trim::kUnknown};

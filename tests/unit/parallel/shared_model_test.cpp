@@ -116,6 +116,38 @@ TEST(SharedModel, OfTrianglesAnswersEveryThreadAlike)
     }
 }
 
+// Passes of more than 128 lines: each is several parts of the loop.
+TEST(SharedModel, FitsLongPassesAlikeOnEveryThread)
+{
+    std::mt19937 random{kSeed};
+    const PartModel model{{hills(random, 0)}};
+    const GougeFreePathFitter whole{
+        model, {1, ToolShape::kBall, 1.5, 1.5}, make_tolerance_band(0.002, true)};
+    std::vector<std::vector<Points>> found;
+    for (const int threads : {1, 3}) {
+        parallel::set_threads(threads);
+        model.forget_cells();
+        std::vector<Points>& passes = found.emplace_back(6);
+        const PartModel::SharedQueries shared{model};
+        parallel::for_each(passes.size(), [&](std::size_t k) {
+            const PartModel::SharedQueries::Part queries{model};
+            GougeFreePathFitter fitter = whole;
+            fitter.set_part(queries);
+            Points dense;
+            for (int row = 0; row < 8; ++row) {
+                const double y = 0.5 + 1.8 * static_cast<double>(k) + 0.3 * row;
+                const Points there = fitter.sample_dropped({0.5, y, 0}, {kSide - 0.5, y, 0});
+                dense.insert(dense.end(), there.begin(), there.end());
+            }
+            passes[k] = fitter.fit_lines(dense);
+        });
+    }
+    for (std::size_t k = 0; k < found.front().size(); ++k) {
+        CHECK(found.front()[k].size() > 128);
+        CHECK(found.front()[k] == found.back()[k]);
+    }
+}
+
 // Passes too far apart: what is missing is found by copies of the check.
 TEST(SharedModel, IsCheckedForScallopsAlikeByAnyNumberOfThreads)
 {
