@@ -1,4 +1,4 @@
-// Cells of the domain are halved until they are plane; their trims divide them into columns.
+// Cells of patches are halved until they are proved to be plane; trims divide them into columns.
 #include "host_tools/finishing/vertical_faces.hpp"
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "host_tools/finishing/column_outlines.hpp"
-#include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/finishing/wall_cell.hpp"
 #include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::finishing {
 
-using nurbs::knots_between;
+using nurbs::BezierPatch;
 using nurbs::Surface;
 using part_model::PartModel;
 using part_model::TrimRegion;
@@ -20,6 +20,11 @@ using part_model::TrimRegion;
 namespace {
 
 constexpr int kDeepestCell = 24;           // halvings
+constexpr int kProofHalvings = 4;          // of a cell that is plane by its samples
+constexpr double kMostOffProved = 1.5;     // of what is allowed by samples
+constexpr double kOffAtLast = 0.25;        // of the scallop: proved after the last of those
+constexpr double kBandProved = 0.5;        // of the greatest z of a vertical normal: its lines off
+constexpr int kPoleHalvings = 4;           // where most of a cell has no normal
 constexpr double kPlane = 1e-7;            // mm: control points off a plane
 constexpr double kOffShare = 0.04;         // of the scallop: a facet off its face
 constexpr double kOffBandShare = 0.15;     // the same, of half the band
@@ -28,7 +33,7 @@ constexpr double kBandShare = 0.25;        // of the greatest z of an vertical n
 constexpr double kLeastFacetRise = 0.125;  // of the scallop: height of a part
 constexpr double kLongestFacet = 32;       // in stepovers: shared out to threads
 constexpr std::size_t kMostCorners = 64;   // of a facet
-constexpr int kSideHalvings = 8;           // of a side of an outline that bends
+constexpr int kMostSideParts = 256;        // of a side of an outline that bends
 constexpr double kNoNormal = 1e-12;        // mm2
 
 struct Cell {
@@ -62,6 +67,13 @@ struct Frame {
         const Vec3d upward{-normal.x * normal.z, -normal.y * normal.z, level};
         return middle + along * (at.x - dot(middle, along)) + upward * ((at.y - middle.z) / level);
     }
+};
+
+// z of the normal over a cell is about at_low + dot(slope, share of the cell), by so much.
+struct LevelLines {
+    double at_low;
+    Vec2d slope;
+    double off;
 };
 
 // The face at the corners of a cell, at the middles of its sides and at its middle; row by row.
@@ -122,19 +134,17 @@ public:
 
     std::vector<WallFacet> facets()
     {
-        const Cell whole{{surface_.u_begin(), surface_.v_begin()},
-                         {surface_.u_end(), surface_.v_end()}};
-        if (const std::optional<Vec3d> normal = plane_normal()) {
-            if (places_.is_upright(*normal)) {
-                add(whole, frame_of(*normal, surface_.points.front()), {});
-            }
+        const std::optional<Vec3d> normal = plane_normal();
+        if (normal && !places_.is_upright(*normal)) {
             return out_;
         }
-        const std::vector<double> us = knots_between(surface_.knots_u, whole.low.x, whole.high.x);
-        const std::vector<double> vs = knots_between(surface_.knots_v, whole.low.y, whole.high.y);
-        for (std::size_t i = 1; i < us.size(); ++i) {
-            for (std::size_t j = 1; j < vs.size(); ++j) {
-                look_at({{us[i - 1], vs[j - 1]}, {us[i], vs[j]}}, kDeepestCell);
+        for (const BezierPatch& patch : bezier_patches(surface_)) {
+            const Cell cell{{patch.u_begin, patch.v_begin}, {patch.u_end, patch.v_end}};
+            if (normal) {
+                add(cell, {patch, cell.low, cell.high}, frame_of(*normal, surface_.points.front()),
+                    {});
+            } else {
+                look_at(patch, cell, kDeepestCell, kProofHalvings);
             }
         }
         return out_;
@@ -239,7 +249,7 @@ private:
         return out;
     }
 
-    // mm: how far the face, raised by the scallop, is off the facet.
+    // mm: how far the face, raised by the scallop, is off the facet, by the samples.
     double off_of(const Samples& at, const Frame& frame) const
     {
         double off = 0;
@@ -256,61 +266,12 @@ private:
             turn = std::max(turn, std::hypot(turned.x, turned.y));
             rise = std::max(rise, std::min(std::abs(turned.z), 2 * most_z_));
         }
-        // The side of the ball is steep where it leaves no more than the scallop: a point that is
-        // higher or lower is that much nearer or farther, times the slope.
-        turn += rise * std::min(1.0, std::sqrt(2 * scallop_ / radius_));
+        turn += rise * slope_of_ball();
         // Between two places of a facet the straight way between raised points is lower.
         const double sag = 0.125 * scallop_ * at.turn * at.turn;
         return 2 * (off + scallop_ * turn) + sag;
     }
 
-    void look_at(const Cell& cell, int depth)
-    {
-        if (model_.outside_trims(number_, cell.low, cell.high)) {
-            return;
-        }
-        const std::optional<Samples> at = samples_of(cell);
-        if (!at) {
-            return;
-        }
-        const bool one_way = at->low > 0 || at->high < 0;
-        const double least = std::min(std::abs(at->low), std::abs(at->high));
-        if (one_way && least > at->turn + kUprightNormal) {
-            return;
-        }
-        const auto halve = [&](bool along_u) {
-            if (depth > 0) {
-                for (const Cell& half : cell.halves(along_u)) {
-                    look_at(half, depth - 1);
-                }
-            }
-        };
-        if (at->turn > kMostTurn) {
-            halve(at->turns_along_u);
-            return;
-        }
-        if (one_way && least > most_z_ + 0.5 * (at->high - at->low)) {
-            return;
-        }
-        Frame frame = fitted(*at);
-        frame.off = off_of(*at, frame);
-        const LevelLines lines = level_lines(*at);
-        if (depth > 0 && frame.off > most_off_) {
-            halve(at->turns_along_u);
-        } else if (depth > 0 && lines.off > kBandShare * most_z_ &&
-                   std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
-            halve(at->lines_bend_along_u);
-        } else {
-            add(cell, frame, lines);
-        }
-    }
-
-    // z of the normal over a cell is about at_low + dot(slope, share of the cell), by so much.
-    struct LevelLines {
-        double at_low;
-        Vec2d slope;
-        double off;
-    };
     static LevelLines level_lines(const Samples& at)
     {
         LevelLines out{0, {0, 0}, 0};
@@ -325,40 +286,132 @@ private:
         for (std::size_t k = 0; k < 9; ++k) {
             const double z = out.at_low + 0.5 * (out.slope.x * static_cast<double>(k / 3) +
                                                  out.slope.y * static_cast<double>(k % 3));
-            out.off = std::max(out.off, std::abs(at.normals[k].z - z));
+            out.off = std::max(out.off, 2 * std::abs(at.normals[k].z - z));
         }
         return out;
+    }
+
+    // The facet and lines with what is proved: how far the face, raised by the scallop, is off the facet
+    // (mm), and z of its normal off the lines. The facet is put into the middle of the cell.
+    struct Proved {
+        Frame frame;
+        LevelLines lines;
+    };
+    // side  1 where the cell's normals lead to the frame's side, else -1
+    std::optional<Proved> proved(const WallCell& cell,
+                                 double side,
+                                 Frame frame,
+                                 LevelLines lines) const
+    {
+        const auto [low, high] = cell.along(frame.middle, frame.normal);
+        frame.middle = frame.middle + frame.normal * (0.5 * (low + high));
+        const auto turn = cell.turn({frame.middle, frame.normal, frame.along, frame.bend},
+                                    {lines.at_low, lines.slope}, side);
+        if (!turn) {
+            return std::nullopt;
+        }
+        lines.off = turn->lines;
+        // Only what is vertical is looked at.
+        const double rise =
+            std::min(turn->rise, std::abs(frame.normal.z) + most_z_ + lines.off) * slope_of_ball();
+        // Between two places of a facet the straight way between raised points is lower.
+        const double sag = 0.5 * scallop_ * turn->most * turn->most;
+        frame.off = 0.5 * (high - low) + scallop_ * (turn->along + rise) + sag;
+        return Proved{frame, lines};
+    }
+
+    // The side of the ball is steep where it leaves no more than the scallop: a point that is higher or
+    // lower is that much nearer or farther, times the slope.
+    double slope_of_ball() const { return std::min(1.0, std::sqrt(2 * scallop_ / radius_)); }
+
+    // By samples a cell is halved until it is plane; then until that is proved.
+    //
+    // spare  halvings for the proof
+    void look_at(const BezierPatch& patch, const Cell& cell, int depth, int spare)
+    {
+        if (model_.outside_trims(number_, cell.low, cell.high)) {
+            return;
+        }
+        const auto halve = [&](bool along_u, int then_spare) {
+            for (const Cell& half : cell.halves(along_u)) {
+                look_at(patch, half, depth - 1, then_spare);
+            }
+        };
+        const std::optional<Samples> at = samples_of(cell);
+        if (!at) {
+            // Two poles may end one patch.
+            if (depth > kDeepestCell - kPoleHalvings) {
+                halve(depth % 2 == 0, spare);
+            }
+            return;
+        }
+        const bool may_prove = depth > 0 && spare > 0;
+        const bool one_way = at->low > 0 || at->high < 0;
+        const double least = std::min(std::abs(at->low), std::abs(at->high));
+        if (one_way && least > at->turn + kUprightNormal) {
+            if (may_prove && !WallCell{patch, cell.low, cell.high}.leans_more_than(most_z_)) {
+                halve(at->turns_along_u, spare - 1);
+            }
+            return;
+        }
+        if (at->turn > kMostTurn) {
+            if (depth > 0) {
+                halve(at->turns_along_u, spare);
+            }
+            return;
+        }
+        Frame frame = fitted(*at);
+        frame.off = off_of(*at, frame);
+        LevelLines lines = level_lines(*at);
+        const bool leans = one_way && least > most_z_ + 0.5 * (at->high - at->low);
+        if (depth > 0 && !leans && frame.off > most_off_) {
+            halve(at->turns_along_u, spare);
+            return;
+        }
+        if (depth > 0 && !leans && lines.off > 2 * kBandShare * most_z_ &&
+            std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
+            halve(at->lines_bend_along_u, spare);
+            return;
+        }
+        const WallCell bounds{patch, cell.low, cell.high};
+        if (leans && bounds.leans_more_than(most_z_)) {
+            return;
+        }
+        const double side = dot(at->normals[4], frame.normal) < 0 ? -1 : 1;
+        const std::optional<Proved> found = proved(bounds, side, frame, lines);
+        if (found && found->frame.off <= kMostOffProved * most_off_ &&
+            found->lines.off <= kBandProved * most_z_) {
+            add(cell, bounds, found->frame, found->lines);
+        } else if (may_prove) {
+            const bool by_lines = found && found->frame.off <= kMostOffProved * most_off_;
+            halve(by_lines ? at->lines_bend_along_u : at->turns_along_u, spare - 1);
+        } else if (found && found->frame.off <= kOffAtLast * scallop_) {
+            add(cell, bounds, found->frame, found->lines);
+        } else if (!leans) {
+            add(cell, bounds, frame, lines);
+        }
     }
 
     // The part of a loop in the cell that is vertical.
     Outline upright_part(const Outline& loop, const Cell& cell, const LevelLines& lines) const
     {
-        const double most = most_z_ + 2 * lines.off;
+        const double most = most_z_ + lines.off;
         const Vec2d slope{lines.slope.x / (cell.high.x - cell.low.x),
                           lines.slope.y / (cell.high.y - cell.low.y)};
         const double at_zero = lines.at_low - dot(slope, cell.low);
         return clipped(clipped(loop, slope, -most - at_zero), slope * -1.0, at_zero - most);
     }
 
-    // The sides of a loop in the frame; those that bend in space are divided.
-    void append_side(
-        Vec2d from, Vec2d to, int depth, const Frame& frame, double most_off, Outline& out) const
+    // A side of a loop in the frame, without its end; one that bends in space is divided.
+    void append_side(Vec2d from, Vec2d to, int parts, const Frame& frame, Outline& out) const
     {
-        const auto at = [&](Vec2d uv) {
-            return frame.flat(model_.tangents(number_, uv.x, uv.y).point);
-        };
-        const Vec2d middle = (from + to) * 0.5;
-        const Vec2d a = at(from);
-        const Vec2d off = at(middle) - (a + at(to)) * 0.5;
-        if (depth > 0 && std::sqrt(dot(off, off)) > most_off) {
-            append_side(from, middle, depth - 1, frame, most_off, out);
-            append_side(middle, to, depth - 1, frame, most_off, out);
-        } else {
-            out.push_back(a);
+        for (int k = 0; k < parts; ++k) {
+            const Vec2d uv = from + (to - from) * (static_cast<double>(k) / parts);
+            out.push_back(frame.flat(model_.tangents(number_, uv.x, uv.y).point));
         }
     }
 
-    void add(const Cell& cell, const Frame& frame, const LevelLines& lines)
+    void add(const Cell& cell, const WallCell& bounds, const Frame& frame, const LevelLines& lines)
     {
         std::vector<Outline> inside{
             {cell.low, {cell.high.x, cell.low.y}, cell.high, {cell.low.x, cell.high.y}}};
@@ -379,13 +432,21 @@ private:
         }
         // Corners off by as much leave a corner of the wall so high.
         const double corner_off = 0.25 * most_off_;
+        const WallCell::Bends bends =
+            bounds.bends({frame.middle, frame.normal, frame.along, frame.bend});
+        const auto parts_of = [&](Vec2d side) {
+            const double bow = bends.bow(
+                {side.x / (cell.high.x - cell.low.x), side.y / (cell.high.y - cell.low.y)});
+            return std::clamp(static_cast<int>(std::ceil(std::sqrt(bow / (0.5 * corner_off)))), 1,
+                              kMostSideParts);
+        };
         std::vector<Outline> outlines;
         for (const Outline& whole : inside) {
             const Outline loop = upright_part(whole, cell, lines);
             Outline flat;
             for (std::size_t k = 0; k < loop.size(); ++k) {
-                append_side(loop[k], loop[(k + 1) % loop.size()], kSideHalvings, frame,
-                            0.5 * corner_off, flat);
+                const Vec2d to = loop[(k + 1) % loop.size()];
+                append_side(loop[k], to, parts_of(to - loop[k]), frame, flat);
             }
             outlines.push_back(simplified(flat, 0.5 * corner_off));
         }
