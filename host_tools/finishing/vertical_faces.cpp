@@ -87,27 +87,7 @@ struct Samples {
     bool lines_bend_along_u{};  // the same, lines of equal z
 };
 
-// Corners of the loop inside a half plane (Sutherland & Hodgman). Sides along its border may lie
-// twice, and then count as none.
-Outline clipped(const Outline& loop, Vec2d inward, double least)
-{
-    Outline out;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vec2d a = loop[k];
-        const Vec2d b = loop[(k + 1) % loop.size()];
-        const double from = dot(a, inward) - least;
-        const double to = dot(b, inward) - least;
-        if (from >= 0) {
-            out.push_back(a);
-        }
-        if ((from < 0) != (to < 0)) {
-            out.push_back(a + (b - a) * (from / (from - to)));
-        }
-    }
-    return out;
-}
-
-Outline clipped(const Outline& loop, const Cell& cell)
+Outline within(const Outline& loop, const Cell& cell)
 {
     return clipped(clipped(clipped(clipped(loop, {1, 0}, cell.low.x), {-1, 0}, -cell.high.x),
                            {0, 1}, cell.low.y),
@@ -426,7 +406,7 @@ private:
             if (part == TrimRegion::Part::kCut) {
                 inside.clear();
                 for (const std::vector<Vec2d>& loop : region_->loops()) {
-                    inside.push_back(clipped(loop, cell));
+                    inside.push_back(within(loop, cell));
                 }
             }
         }

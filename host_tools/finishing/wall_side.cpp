@@ -20,6 +20,7 @@ constexpr double kReachApart = 1.0 / 16;     // the same: those of which reach i
 constexpr double kLeastApart = 1.0 / 64;     // the same
 constexpr double kBorderApart = 1.0 / 1024;  // the same, where reach begins or ends
 constexpr int kFirstParts = 8;               // at least; the ends of a triangle have no height
+constexpr double kClearOfWall = 0.9;         // radii
 constexpr double kBeside = 1e-4;             // mm: vertices of files are rounded
 constexpr double kLeastHeight = 1e-4;        // mm, of what is reached
 constexpr double kReachSlack = 1e-6;         // mm
@@ -89,6 +90,16 @@ std::optional<double> WallSide::drop_centre(Vec3d over, double radius) const
     const Tool ball{1, ToolShape::kBall, radius, radius};
     const auto tip = fitter_.model().drop_height(ball, over.x, over.y);
     return tip ? std::optional{*tip + radius} : std::nullopt;
+}
+
+Vec3d WallSide::centre_at_top(double along) const
+{
+    return centre_beside(along, whole_column_at(along).top);
+}
+
+bool WallSide::rests(Vec3d centre) const
+{
+    return drop_centre(centre, kClearOfWall * fitter_.offset_tool().radius).has_value();
 }
 
 std::optional<double> WallSide::rest_beside(double along, double z) const

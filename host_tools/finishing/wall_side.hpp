@@ -64,6 +64,15 @@ public:
     double left_in(const Run& run, const ScallopAtPoint& places) const;
 
     const std::vector<Vec3d>& corners() const { return corners_; }
+    double begin() const { return begin_; }  // mm along the wall
+    double end() const { return end_; }
+    Vec3d out() const { return out_; }  // unit
+
+    // The centre of a ball that touches the upper end of the wall at a place along it.
+    Vec3d centre_at_top(double along) const;
+    // Whether something lies below a ball there that is smaller by a tenth: one that touches the wall
+    // takes a hundred times as long.
+    bool rests(Vec3d centre) const;
 
 private:
     // What is reached of a column.

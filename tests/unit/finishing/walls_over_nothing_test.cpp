@@ -1,0 +1,74 @@
+// Sides of walls beside which a ball rests on nothing, told in mm.
+#include "host_tools/finishing/walls_over_nothing.hpp"
+
+#include "firmware/base/math.hpp"
+#include "host_tools/finishing/vertical_faces.hpp"
+#include "tests/property/adaptive_isocurve/round_walls.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+using namespace cusp::finishing;
+using namespace cusp::nurbs;
+using namespace cusp::part_model;
+using namespace cusp::test;
+using namespace cusp::toolpath;
+
+namespace {
+
+constexpr double kBallRadius = 1;
+constexpr double kSide = 20;  // mm, of a plate
+
+double free_walls(const std::vector<Surface>& faces)
+{
+    constexpr double kScallop = 0.05;
+    const Tool ball{1, ToolShape::kBall, kBallRadius, kBallRadius};
+    const PartModel model{faces};
+    const GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(0.01, true)};
+    const ScallopAtPoint places{faces, path_fitter, kScallop, 0};
+    return walls_over_nothing(vertical_faces(faces, path_fitter, places, kScallop), path_fitter);
+}
+
+Surface level_plate(double z)
+{
+    return plane_face({{0, 0, z}, {kSide, 0, z}, {kSide, kSide, z}, {0, kSide, z}}, {0, 0, 1});
+}
+
+// A wall over y = `at`.
+Surface wall_at(double at, double low, double high)
+{
+    return plane_face({{0, at, low}, {kSide, at, low}, {kSide, at, high}, {0, at, high}},
+                      Vec3d{0, -1, 0});
+}
+
+}  // namespace
+
+TEST_GROUP(WallsOverNothing){};
+
+TEST(WallsOverNothing, CountsTheOuterSideOfAWallOnABorder)
+{
+    DOUBLES_EQUAL(kSide, free_walls({level_plate(0), wall_at(0, 0, 5)}), 1e-9);
+    // Two over each other are one.
+    DOUBLES_EQUAL(kSide, free_walls({level_plate(0), wall_at(0, 0, 2), wall_at(0, 2, 5)}), 1e-9);
+    // The side of a plate, as of a block without a bottom.
+    DOUBLES_EQUAL(kSide, free_walls({level_plate(0), wall_at(0, -5, 0)}), 1e-9);
+}
+
+TEST(WallsOverNothing, CountsNoneWithinThePart)
+{
+    DOUBLES_EQUAL(0, free_walls({level_plate(0), wall_at(8, 0, 5)}), 0);
+    DOUBLES_EQUAL(0, free_walls({level_plate(0)}), 0);
+}
+
+// Half of the post is over the plate; a ball beside the rest may still rest on its border.
+TEST(WallsOverNothing, CountsThePartOfARoundWallThatIsBeyondAPlate)
+{
+    const RoundWall post{
+        {0.5 * kSide, 0}, {0, 0.5 * kPi, kPi, 1.5 * kPi, 2 * kPi}, 0, 6, {4, 4, 4}};
+    // The outside without ends where the ball's centre is nearer than its radius to the plate; behind
+    // the wall is the plate's border, in the middle.
+    const double inner_free = free_walls({level_plate(0), post.surface()});
+    CHECK(inner_free > 6);
+    CHECK(inner_free < 2 * kPi * 4);
+}
