@@ -229,6 +229,22 @@ private:
         return out;
     }
 
+    // Whether the face leaves the facet along u more than along v. A wall that bulges along its height
+    // is off by that, however its normals turn along it.
+    bool is_off_along_u(const Samples& at, const Frame& frame) const
+    {
+        const auto off_between = [&](std::size_t a, std::size_t b) {
+            double off = 0;
+            for (const std::size_t k : {a, b}) {
+                const double turn = norm(at.normals[k] - at.normals[4]);
+                off = std::max(off, std::abs(dot(at.points[k] - at.points[4], frame.normal)) +
+                                        scallop_ * turn * turn);
+            }
+            return off;
+        };
+        return off_between(1, 7) >= off_between(3, 5);
+    }
+
     // mm: how far the face, raised by the scallop, is off the facet, by the samples.
     double off_of(const Samples& at, const Frame& frame) const
     {
@@ -344,8 +360,9 @@ private:
         frame.off = off_of(*at, frame);
         LevelLines lines = level_lines(*at);
         const bool leans = one_way && least > most_z_ + 0.5 * (at->high - at->low);
+        const bool along_u = is_off_along_u(*at, frame);
         if (depth > 0 && !leans && frame.off > most_off_) {
-            halve(at->turns_along_u, spare);
+            halve(along_u, spare);
             return;
         }
         if (depth > 0 && !leans && lines.off > 2 * kBandShare * most_z_ &&
@@ -364,7 +381,7 @@ private:
             add(cell, bounds, found->frame, found->lines);
         } else if (may_prove) {
             const bool by_lines = found && found->frame.off <= kMostOffProved * most_off_;
-            halve(by_lines ? at->lines_bend_along_u : at->turns_along_u, spare - 1);
+            halve(by_lines ? at->lines_bend_along_u : along_u, spare - 1);
         } else if (found && found->frame.off <= kOffAtLast * scallop_) {
             add(cell, bounds, found->frame, found->lines);
         } else if (!leans) {

@@ -34,7 +34,6 @@ struct Way {
     bool as_faces;
     Walls walls{Walls::kDrafted};
     ToleranceSide side{ToleranceSide::kOutside};
-    bool spaced{};  // planes at a distance, in place of a scallop
 };
 
 // Its mesh is the polyhedron, for the judge, however it is given.
@@ -66,10 +65,6 @@ Job random_job(Random& random, const Way& way)
         job.stock_top = std::max({job.stock_top, t[0].z, t[1].z, t[2].z});
     }
     job.stock_top += uniform(random, 0.0, 2.0);
-    if (way.spaced) {
-        operation.step_over = std::sqrt(8 * radius * *operation.scallop);
-        operation.scallop.reset();
-    }
     job.operations = {operation};
     return job;
 }
@@ -203,10 +198,10 @@ TEST(MeshBoundProperty, HoldsBesideFacesOnTheBorder)
     hold_seeds({"adaptive_isocurve", true, Walls::kStanding}, {6, 7, 9, 10});
 }
 
-// Two that kept 0.11 and 0.5 mm.
+// Two that kept 0.11 and 0.5 mm; in the third the ball reaches a wall that overhangs by 0.1 micrometres.
 TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
 {
-    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4});
+    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4, 2010});
 }
 
 // Cylinders and arched sheets, which hardly lean.
@@ -243,12 +238,6 @@ TEST(MeshBoundProperty, HoldsByBothSidesBesideRoundFaces)
 TEST(MeshBoundProperty, HoldsByBothSidesForPlanesBesideStandingWallsOfFaces)
 {
     hold_all({"parallel_planes", true, Walls::kStanding, ToleranceSide::kBoth}, 2);
-}
-
-// No passes are added there: what is claimed has to grow.
-TEST(MeshBoundProperty, HoldsForSpacedPlanesBesideStandingWallsOfFaces)
-{
-    hold_all({"parallel_planes", true, Walls::kStanding, ToleranceSide::kOutside, true}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsBesideLowFaces)
