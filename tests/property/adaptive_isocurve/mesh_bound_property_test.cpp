@@ -198,7 +198,7 @@ TEST(MeshBoundProperty, HoldsBesideFacesOnTheBorder)
     hold_seeds({"adaptive_isocurve", true, Walls::kStanding}, {6, 7, 9, 10});
 }
 
-// Two that kept 0.11 and 0.5 mm; in the third the ball reaches a wall that overhangs by 0.1 micrometres.
+// Two that kept 0.11 and 0.5 mm; in the third the ball reaches a wall that overhangs by 1.5e-4 mm.
 TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
 {
     hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4, 2010});
