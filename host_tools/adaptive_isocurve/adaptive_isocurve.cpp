@@ -109,9 +109,7 @@ public:
             const ProvedScallop proved =
                 proved_scallop(work_.surfaces(), work_.path_fitter(), work_.path_off(), cut_,
                                {scallop_, spacing_, operation_.tool.radius, work_.outward()});
-            scallop_ = proved.bound;
-            beside_edges_ = proved.beside_edges;
-            over_nothing_ = proved.over_nothing;
+            take(proved);
         }
         const bool checked = scallop_check_.has_value();
         if (checked) {
@@ -149,6 +147,13 @@ public:
     }
 
 private:
+    void take(const ProvedScallop& proved)
+    {
+        scallop_ = proved.bound;
+        beside_edges_ = proved.beside_edges;
+        over_nothing_ = proved.over_nothing;
+    }
+
     void report(double share) const
     {
         job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);

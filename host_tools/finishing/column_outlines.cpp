@@ -130,7 +130,6 @@ Outline simplified(const Outline& loop, double most_off)
     return out;
 }
 
-// Over 60 lines: one sweep, whose state all its steps share.
 Outline clipped(const Outline& loop, Vec2d inward, double least)
 {
     Outline out;
@@ -149,6 +148,7 @@ Outline clipped(const Outline& loop, Vec2d inward, double least)
     return out;
 }
 
+// Over 60 lines: one sweep, whose state all its steps share.
 std::vector<Outline> column_outlines(const std::vector<Outline>& loops,
                                      double longest,
                                      std::size_t most_corners)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host_tools/finishing/column_outlines.hpp"
+#include "host_tools/finishing/face_samples.hpp"
 #include "host_tools/finishing/wall_cell.hpp"
 #include "host_tools/parallel/parallel.hpp"
 
@@ -19,22 +20,22 @@ using part_model::TrimRegion;
 
 namespace {
 
-constexpr int kDeepestCell = 24;           // halvings
-constexpr int kProofHalvings = 4;          // of a cell that is plane by its samples
-constexpr double kMostOffProved = 1.5;     // of what is allowed by samples
-constexpr double kOffAtLast = 0.25;        // of the scallop: proved after the last of those
-constexpr double kBandProved = 0.5;        // of the greatest z of a vertical normal: its lines off
-constexpr int kPoleHalvings = 4;           // where most of a cell has no normal
-constexpr double kPlane = 1e-7;            // mm: control points off a plane
-constexpr double kOffShare = 0.04;         // of the scallop: a facet off its face
-constexpr double kOffBandShare = 0.15;     // the same, of half the band
-constexpr double kMostTurn = 0.1;          // of the normal over a cell
-constexpr double kBandShare = 0.25;        // of the greatest z of an vertical normal: its lines off
-constexpr double kLeastFacetRise = 0.125;  // of the scallop: height of a part
-constexpr double kLongestFacet = 32;       // in stepovers: shared out to threads
-constexpr std::size_t kMostCorners = 64;   // of a facet
-constexpr int kMostSideParts = 256;        // of a side of an outline that bends
-constexpr double kNoNormal = 1e-12;        // mm2
+constexpr int kDeepestCell = 24;          // halvings
+constexpr int kProofHalvings = 4;         // of a cell that is plane by its samples
+constexpr double kMostOffProved = 1.5;    // of what is allowed by samples
+constexpr double kOffAtLast = 0.25;       // of the scallop: proved after the last of those
+constexpr double kBandProved = 0.5;       // of the greatest z of a vertical normal: its lines off
+constexpr int kPoleHalvings = 4;          // where most of a cell has no normal
+constexpr double kPlane = 1e-7;           // mm: control points off a plane
+constexpr double kOffShare = 0.04;        // of the scallop: a facet off its face
+constexpr double kOffBandShare = 0.15;    // the same, of half the band
+constexpr double kMostTurn = 0.1;         // of the normal over a cell
+constexpr double kBandShare = 0.25;       // of the greatest z of an vertical normal: its lines off
+constexpr double kLeastFacetRise = 0.02;  // of the scallop: height of a part
+constexpr double kLongestFacet = 32;      // in stepovers: shared out to threads
+constexpr std::size_t kMostCorners = 64;  // of a facet
+constexpr int kMostSideParts = 256;       // of a side of an outline that bends
+constexpr double kNoNormal = 1e-12;       // mm2
 
 struct Cell {
     Vec2d low;  // (u, v)
@@ -74,17 +75,6 @@ struct LevelLines {
     double at_low;
     Vec2d slope;
     double off;
-};
-
-// The face at the corners of a cell, at the middles of its sides and at its middle; row by row.
-struct Samples {
-    std::array<Vec3d, 9> points;
-    std::array<Vec3d, 9> normals;  // to one side of the face
-    double turn{};                 // how much they differ
-    double low{};                  // of their z
-    double high{};
-    bool turns_along_u{};       // more than along v
-    bool lines_bend_along_u{};  // the same, lines of equal z
 };
 
 Outline within(const Outline& loop, const Cell& cell)
@@ -164,51 +154,8 @@ private:
                    : std::nullopt;
     }
 
-    // None where the face has no normal in most places.
-    std::optional<Samples> samples_of(const Cell& cell) const
-    {
-        Samples out;
-        int missing = 0;
-        Vec3d sum{};
-        for (std::size_t k = 0; k < 9; ++k) {
-            const Vec2d share{0.5 * static_cast<double>(k / 3), 0.5 * static_cast<double>(k % 3)};
-            const nurbs::SurfacePoint p =
-                model_.tangents(number_, cell.low.x + (cell.high.x - cell.low.x) * share.x,
-                                cell.low.y + (cell.high.y - cell.low.y) * share.y);
-            out.points[k] = p.point;
-            const Vec3d area = cross(p.du, p.dv);
-            const double size = norm(area);
-            missing += size > kNoNormal ? 0 : 1;
-            out.normals[k] = size > kNoNormal ? area / size : Vec3d{};
-            sum = sum + out.normals[k];
-        }
-        if (missing > 3 || !(norm(sum) > 0)) {
-            return std::nullopt;
-        }
-        // At a pole that of the cell counts.
-        sum = sum / norm(sum);
-        out.low = 1;
-        out.high = -1;
-        for (Vec3d& n : out.normals) {
-            n = norm(n) > 0 ? n : sum;
-            out.turn = std::max(out.turn, norm(n - sum));
-            out.low = std::min(out.low, n.z);
-            out.high = std::max(out.high, n.z);
-        }
-        const auto turn_between = [&](std::size_t a, std::size_t b) {
-            return std::max(norm(out.normals[a] - out.normals[4]),
-                            norm(out.normals[b] - out.normals[4]));
-        };
-        out.turns_along_u = turn_between(1, 7) >= turn_between(3, 5);
-        const auto bend_between = [&](std::size_t a, std::size_t b) {
-            return std::abs(out.normals[a].z - 2 * out.normals[4].z + out.normals[b].z);
-        };
-        out.lines_bend_along_u = bend_between(1, 7) >= bend_between(3, 5);
-        return out;
-    }
-
     // The plane through the middle of the samples, as the facet of the cell has it.
-    static Frame fitted(const Samples& at)
+    static Frame fitted(const FaceSamples& at)
     {
         Vec3d middle{};
         Vec3d normal{};
@@ -231,7 +178,7 @@ private:
 
     // Whether the face leaves the facet along u more than along v. A wall that bulges along its height
     // is off by that, however its normals turn along it.
-    bool is_off_along_u(const Samples& at, const Frame& frame) const
+    bool is_off_along_u(const FaceSamples& at, const Frame& frame) const
     {
         const auto off_between = [&](std::size_t a, std::size_t b) {
             double off = 0;
@@ -246,7 +193,7 @@ private:
     }
 
     // mm: how far the face, raised by the scallop, is off the facet, by the samples.
-    double off_of(const Samples& at, const Frame& frame) const
+    double off_of(const FaceSamples& at, const Frame& frame) const
     {
         double off = 0;
         double turn = 0;
@@ -268,7 +215,7 @@ private:
         return 2 * (off + scallop_ * turn) + sag;
     }
 
-    static LevelLines level_lines(const Samples& at)
+    static LevelLines level_lines(const FaceSamples& at)
     {
         LevelLines out{0, {0, 0}, 0};
         double mean = 0;
@@ -320,6 +267,13 @@ private:
     // lower is that much nearer or farther, times the slope.
     double slope_of_ball() const { return std::min(1.0, std::sqrt(2 * scallop_ / radius_)); }
 
+    void halve(const BezierPatch& patch, const Cell& cell, bool along_u, int depth, int spare)
+    {
+        for (const Cell& half : cell.halves(along_u)) {
+            look_at(patch, half, depth - 1, spare);
+        }
+    }
+
     // By samples a cell is halved until it is plane; then until that is proved.
     //
     // spare  halvings for the proof
@@ -328,60 +282,61 @@ private:
         if (model_.outside_trims(number_, cell.low, cell.high)) {
             return;
         }
-        const auto halve = [&](bool along_u, int then_spare) {
-            for (const Cell& half : cell.halves(along_u)) {
-                look_at(patch, half, depth - 1, then_spare);
-            }
-        };
-        const std::optional<Samples> at = samples_of(cell);
+        const std::optional<FaceSamples> at = sample_face(model_, number_, cell.low, cell.high);
         if (!at) {
             // Two poles may end one patch.
             if (depth > kDeepestCell - kPoleHalvings) {
-                halve(depth % 2 == 0, spare);
+                halve(patch, cell, depth % 2 == 0, depth, spare);
             }
             return;
         }
-        const bool may_prove = depth > 0 && spare > 0;
         const bool one_way = at->low > 0 || at->high < 0;
         const double least = std::min(std::abs(at->low), std::abs(at->high));
         if (one_way && least > at->turn + kUprightNormal) {
-            if (may_prove && !WallCell{patch, cell.low, cell.high}.leans_more_than(most_z_)) {
-                halve(at->turns_along_u, spare - 1);
+            if (depth > 0 && spare > 0 &&
+                !WallCell{patch, cell.low, cell.high}.leans_more_than(most_z_)) {
+                halve(patch, cell, at->turns_along_u, depth, spare - 1);
             }
-            return;
+        } else if (at->turn <= kMostTurn) {
+            const bool leans = one_way && least > most_z_ + 0.5 * (at->high - at->low);
+            look_at_plane(patch, cell, *at, leans, depth, spare);
+        } else if (depth > 0) {
+            halve(patch, cell, at->turns_along_u, depth, spare);
         }
-        if (at->turn > kMostTurn) {
-            if (depth > 0) {
-                halve(at->turns_along_u, spare);
-            }
-            return;
-        }
-        Frame frame = fitted(*at);
-        frame.off = off_of(*at, frame);
-        LevelLines lines = level_lines(*at);
-        const bool leans = one_way && least > most_z_ + 0.5 * (at->high - at->low);
-        const bool along_u = is_off_along_u(*at, frame);
+    }
+
+    // leans  by the samples, so much that nothing of it is vertical
+    void look_at_plane(const BezierPatch& patch,
+                       const Cell& cell,
+                       const FaceSamples& at,
+                       bool leans,
+                       int depth,
+                       int spare)
+    {
+        Frame frame = fitted(at);
+        frame.off = off_of(at, frame);
+        const LevelLines lines = level_lines(at);
+        const bool along_u = is_off_along_u(at, frame);
         if (depth > 0 && !leans && frame.off > most_off_) {
-            halve(along_u, spare);
+            halve(patch, cell, along_u, depth, spare);
             return;
         }
         if (depth > 0 && !leans && lines.off > 2 * kBandShare * most_z_ &&
-            std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
-            halve(at->lines_bend_along_u, spare);
+            std::max(std::abs(at.low), std::abs(at.high)) > most_z_) {
+            halve(patch, cell, at.lines_bend_along_u, depth, spare);
             return;
         }
         const WallCell bounds{patch, cell.low, cell.high};
         if (leans && bounds.leans_more_than(most_z_)) {
             return;
         }
-        const double side = dot(at->normals[4], frame.normal) < 0 ? -1 : 1;
+        const double side = dot(at.normals[4], frame.normal) < 0 ? -1 : 1;
         const std::optional<Proved> found = proved(bounds, side, frame, lines);
-        if (found && found->frame.off <= kMostOffProved * most_off_ &&
-            found->lines.off <= kBandProved * most_z_) {
+        const bool is_near = found && found->frame.off <= kMostOffProved * most_off_;
+        if (is_near && found->lines.off <= kBandProved * most_z_) {
             add(cell, bounds, found->frame, found->lines);
-        } else if (may_prove) {
-            const bool by_lines = found && found->frame.off <= kMostOffProved * most_off_;
-            halve(by_lines ? at->lines_bend_along_u : along_u, spare - 1);
+        } else if (depth > 0 && spare > 0) {
+            halve(patch, cell, is_near ? at.lines_bend_along_u : along_u, depth, spare - 1);
         } else if (found && found->frame.off <= kOffAtLast * scallop_) {
             add(cell, bounds, found->frame, found->lines);
         } else if (!leans) {

@@ -263,6 +263,16 @@ WallCell::WallCell(const nurbs::BezierPatch& patch, Vec2d low, Vec2d high)
         nets[2].push_back(p.z);
         nets[3].push_back(at.weight);
     }
+    normal_ = normal_of(nets);
+    drop_common_factors(normal_);
+}
+
+// The numerator of the normal.
+//
+// nets  of points times their weights, and of these
+WallCell::Vector WallCell::normal_of(std::array<std::vector<double>, 4>& nets) const
+{
+    Vector out;
     Vector along_s;
     Vector along_t;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -282,9 +292,9 @@ WallCell::WallCell(const nurbs::BezierPatch& patch, Vec2d low, Vec2d high)
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t a = (k + 1) % 3;
         const std::size_t b = (k + 2) % 3;
-        normal_[k] = difference(along_s[a], along_t[b], along_s[b], along_t[a]);
+        out[k] = difference(along_s[a], along_t[b], along_s[b], along_t[a]);
     }
-    drop_common_factors(normal_);
+    return out;
 }
 
 bool WallCell::leans_more_than(double z) const

@@ -81,6 +81,7 @@ public:
 
 private:
     using Vector = std::array<ScaledBernstein, 3>;
+    Vector normal_of(std::array<std::vector<double>, 4>& nets) const;
     ScaledBernstein normal_along(Vec3d way) const;
 
     std::size_t p_;

@@ -1,4 +1,4 @@
-// How much of the walls stands free: a ball beside it would have nothing of the part below.
+// How much of the walls is free: a ball beside it would have nothing of the part below.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,10 @@
-// Sides of walls beside which a ball rests on nothing, told in mm.
+// Sides of walls beside which a ball rests on nothing, in mm.
 #include "host_tools/finishing/walls_over_nothing.hpp"
 
-#include "firmware/base/math.hpp"
+#include <cmath>
+
 #include "host_tools/finishing/vertical_faces.hpp"
-#include "tests/property/adaptive_isocurve/round_walls.hpp"
+#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -61,14 +62,16 @@ TEST(WallsOverNothing, CountsNoneWithinThePart)
     DOUBLES_EQUAL(0, free_walls({level_plate(0)}), 0);
 }
 
-// Half of the post is over the plate; a ball beside the rest may still rest on its border.
-TEST(WallsOverNothing, CountsThePartOfARoundWallThatIsBeyondAPlate)
+// Over the plate and beyond: beside the latter the ball may still rest on the border.
+TEST(WallsOverNothing, CountsThePartOfAWallThatIsBeyondAPlate)
 {
-    const RoundWall post{
-        {0.5 * kSide, 0}, {0, 0.5 * kPi, kPi, 1.5 * kPi, 2 * kPi}, 0, 6, {4, 4, 4}};
-    // The outside without ends where the ball's centre is nearer than its radius to the plate; behind
-    // the wall is the plate's border, in the middle.
-    const double inner_free = free_walls({level_plate(0), post.surface()});
-    CHECK(inner_free > 6);
-    CHECK(inner_free < 2 * kPi * 4);
+    const Vec3d along = Vec3d{1, 1, 0} / std::sqrt(2.0);
+    const Vec3d from{4, -10, 0};
+    const Vec3d to = from + along * 20;
+    const Surface wall = plane_face({from, to, to + Vec3d{0, 0, 3}, from + Vec3d{0, 0, 3}},
+                                    Vec3d{along.y, -along.x, 0});
+    const double beyond = 10 * std::sqrt(2.0);
+    const double both = free_walls({level_plate(0), wall});
+    CHECK(both < 2 * beyond);
+    CHECK(both > 2 * beyond - 6 * kBallRadius);
 }
