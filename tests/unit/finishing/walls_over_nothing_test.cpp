@@ -23,12 +23,12 @@ constexpr double kSide = 20;  // mm, of a plate
 
 double free_walls(const std::vector<Surface>& faces)
 {
-    constexpr double kScallop = 0.05;
+    constexpr double kAllowed = 0.05;
     const Tool ball{1, ToolShape::kBall, kBallRadius, kBallRadius};
     const PartModel model{faces};
     const GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(0.01, true)};
-    const ScallopAtPoint places{faces, path_fitter, kScallop, 0};
-    return walls_over_nothing(vertical_faces(faces, path_fitter, places, kScallop), path_fitter);
+    const ScallopAtPoint places{faces, path_fitter, kAllowed, 0};
+    return walls_over_nothing(vertical_faces(faces, path_fitter, places, kAllowed), path_fitter);
 }
 
 Surface level_plate(double z)
