@@ -105,14 +105,14 @@ public:
             uncovered = scallop_check_->uncovered();
             scallop_ = std::max(*operation_.scallop, scallop_check_->most_left());
             unseen = scallop_check_->overflowed();
+            over_nothing_ = scallop_check_->over_nothing();
             scallop_ = unseen ? operation_.tool.radius : scallop_;
         }
         if (!scallop_check_) {
             const ProvedScallop proved =
                 proved_scallop(work_.surfaces(), work_.path_fitter(), work_.path_off(), cut_,
                                {scallop_, spacing_, operation_.tool.radius, work_.outward()});
-            scallop_ = proved.bound;
-            beside_edges_ = proved.beside_edges;
+            take(proved);
         }
         const bool checked = scallop_check_.has_value();
         if (checked) {
@@ -121,6 +121,7 @@ public:
         report(kMissingDone);
         PlannedOperation planned = work_.finish(spacing_, scallop_);
         report_uncovered_points(planned.stats, uncovered, unseen);
+        report_walls_over_nothing(planned.stats, over_nothing_);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
         if (checked) {
             planned.stats.counts.emplace_back("cells_share", cells_share_);
@@ -149,6 +150,13 @@ public:
     }
 
 private:
+    void take(const ProvedScallop& proved)
+    {
+        scallop_ = proved.bound;
+        beside_edges_ = proved.beside_edges;
+        over_nothing_ = proved.over_nothing;
+    }
+
     void report(double share) const
     {
         job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
@@ -379,6 +387,7 @@ private:
     std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface: the scallop is too high
     double cells_share_{};   // of the surfaces' domains: examined by the scallop check
     double beside_edges_{};  // mm: left there
+    double over_nothing_{};  // mm
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};

@@ -33,6 +33,8 @@ namespace cusp::adaptive_isocurve {
 // is 0 unless tolerance_side = "both".
 // Source: Elber & Cohen 1993; docs/papers.md lists departures from it.
 //
+// Walls beside which a ball would rest on nothing are not claimed: the count walls_over_nothing_mm.
+//
 // With roughing = true the operations of `plan_waterline_roughing` come first, one for each tool.
 //
 // Errors: InputError as `SurfaceOperation` and `plan_waterline_roughing`; neither iso_distance nor

@@ -321,6 +321,7 @@ private:
         PlannedOperation planned =
             work_.finish(row_, unseen ? radius : std::max(scallop_, scallop_check_.most_left()));
         report_uncovered_points(planned.stats, scallop_check_.uncovered(), unseen);
+        report_walls_over_nothing(planned.stats, scallop_check_.over_nothing());
         constexpr double kShown = 1e-2;  // mm2
         if (scallop_check_.blocked_area() > kShown) {
             planned.stats.warnings.push_back(fmt::format(

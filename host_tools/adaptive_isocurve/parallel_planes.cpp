@@ -137,6 +137,7 @@ private:
         job_.report_progress(kPlanesCompleted);
         PlannedOperation planned = work_.finish(step, unseen_ ? operation_.tool.radius : bound_);
         report_uncovered_points(planned.stats, uncovered_, unseen_);
+        report_walls_over_nothing(planned.stats, over_nothing_);
         report_left_beside_edges(planned.stats, beside_edges_, bound_);
         return planned;
     }
@@ -150,6 +151,7 @@ private:
                                {0, step, operation_.tool.radius, work_.outward()});
             bound_ = proved.bound;
             beside_edges_ = proved.beside_edges;
+            over_nothing_ = proved.over_nothing;
         } else {
             bound_ = proved_mesh_scallop(operation_.mesh, work_.path_fitter(), work_.path_off(),
                                          cut_, {0, step, operation_.tool.radius, work_.outward()});
@@ -196,6 +198,7 @@ private:
         bound_ = std::max(*operation_.scallop, cells.most_left());
         uncovered_ = cells.uncovered();
         unseen_ = cells.overflowed();
+        over_nothing_ = cells.over_nothing();
     }
 
     void report(double from, double to, double share) const
@@ -303,6 +306,7 @@ private:
     std::vector<Points> cut_;
     double bound_{};         // mm: of the scallop
     double beside_edges_{};  // mm
+    double over_nothing_{};  // mm
     std::size_t uncovered_{};
     bool unseen_{};
 };

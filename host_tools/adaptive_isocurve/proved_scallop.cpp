@@ -76,13 +76,13 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
             left = cells.left_beside_walls();
             if (left == 0) {
                 return {std::min(guess.radius, std::max(bound, kBetweenPlaces * blocked)),
-                        beside_edges};
+                        beside_edges, cells.over_nothing()};
             }
         }
         parts = unproved.parts;
         bound = kProvedMore * std::max(bound, left);
     }
-    return {guess.radius, beside_edges};
+    return {guess.radius, beside_edges, 0};
 }
 
 double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,

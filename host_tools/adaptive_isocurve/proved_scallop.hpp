@@ -19,6 +19,7 @@ struct ScallopGuess {
 struct ProvedScallop {
     double bound;         // mm
     double beside_edges;  // mm: ScallopCheck::left_beside_edges()
+    double over_nothing;  // mm: ScallopCheck::over_nothing(); 0 where the bound is the radius
 };
 
 // Nearly the least bound for which `ScallopCheck` leaves no cell uncovered where the tool can touch

@@ -324,6 +324,13 @@ void report_left_beside_edges(OperationStats& stats, double beside_edges, double
     }
 }
 
+void report_walls_over_nothing(OperationStats& stats, double length)
+{
+    if (length > 0) {
+        stats.counts.emplace_back("walls_over_nothing_mm", length);
+    }
+}
+
 void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool unseen)
 {
     if (uncovered > 0) {

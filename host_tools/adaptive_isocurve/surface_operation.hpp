@@ -98,4 +98,7 @@ void report_left_beside_edges(toolpath::OperationStats& stats,
 // unseen     whether the check ended early
 void report_uncovered_points(toolpath::OperationStats& stats, std::size_t uncovered, bool unseen);
 
+// mm of walls beside which a ball has nothing of the part below.
+void report_walls_over_nothing(toolpath::OperationStats& stats, double length);
+
 }  // namespace cusp::adaptive_isocurve

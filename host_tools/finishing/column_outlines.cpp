@@ -130,6 +130,24 @@ Outline simplified(const Outline& loop, double most_off)
     return out;
 }
 
+Outline clipped(const Outline& loop, Vec2d inward, double least)
+{
+    Outline out;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec2d a = loop[k];
+        const Vec2d b = loop[(k + 1) % loop.size()];
+        const double from = dot(a, inward) - least;
+        const double to = dot(b, inward) - least;
+        if (from >= 0) {
+            out.push_back(a);
+        }
+        if ((from < 0) != (to < 0)) {
+            out.push_back(a + (b - a) * (from / (from - to)));
+        }
+    }
+    return out;
+}
+
 // Over 60 lines: one sweep, whose state all its steps share.
 std::vector<Outline> column_outlines(const std::vector<Outline>& loops,
                                      double longest,

@@ -14,6 +14,10 @@ using Outline = std::vector<Vec2d>;
 // The outline with fewer corners, none of its corners farther from it than `most_off` (mm).
 Outline simplified(const Outline& loop, double most_off);
 
+// The outline's part where dot(corner, inward) is at least that (Sutherland & Hodgman). Sides along the
+// border may lie twice, and then count as none.
+Outline clipped(const Outline& loop, Vec2d inward, double least);
+
 // The pieces of the region that an odd number of loops surrounds. Each outline is that of a piece
 // between a lower and an upper polyline over the same x.
 //

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/finishing/walls_over_nothing.hpp"
 #include "host_tools/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
@@ -292,7 +293,9 @@ void MeshScallopCheck::check()
         }
     }
     checking_ = false;
-    walls_.find(vertical_facets());
+    const std::vector<WallFacet> facets = vertical_facets();
+    over_nothing_ = walls_over_nothing(facets, path_fitter_);
+    walls_.find(facets);
 }
 
 // A tip that would cut the stock over a point down to the scallop; none where the point is covered,

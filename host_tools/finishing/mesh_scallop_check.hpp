@@ -69,6 +69,9 @@ public:
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
+    // mm of walls that neither passes nor claims are made for: see walls_over_nothing().
+    double over_nothing() const { return over_nothing_; }
+
     MeshScallopCheck(const MeshScallopCheck&) = delete;
     MeshScallopCheck& operator=(const MeshScallopCheck&) = delete;
 
@@ -139,6 +142,7 @@ private:
     std::vector<Cell> uncovered_;
     UncutWalls walls_;
     double most_left_{};
+    double over_nothing_{};
     double blocked_area_{};
     bool overflowed_{};
     mutable std::size_t judged_{};  // cells

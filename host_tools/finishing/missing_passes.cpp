@@ -4,6 +4,7 @@
 
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/finishing/vertical_faces.hpp"
+#include "host_tools/finishing/walls_over_nothing.hpp"
 
 namespace cusp::finishing {
 
@@ -210,7 +211,10 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
             check_cell(cell, corners_of(cell), kMoreHalvings);
         }
     }
-    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
+    const std::vector<WallFacet> facets =
+        vertical_faces(surfaces_, path_fitter_, places_, scallop_);
+    over_nothing_ = walls_over_nothing(facets, path_fitter_);
+    walls_.find(facets);
     walls_.add_missing(cut);
     measure_left(beside_edges);
     measure_beside_edges(beside_edges);
@@ -220,7 +224,10 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
 double ScallopCheck::left_beside_walls()
 {
     take_waiting();
-    walls_.find(vertical_faces(surfaces_, path_fitter_, places_, scallop_));
+    const std::vector<WallFacet> facets =
+        vertical_faces(surfaces_, path_fitter_, places_, scallop_);
+    over_nothing_ = walls_over_nothing(facets, path_fitter_);
+    walls_.find(facets);
     return walls_.measure_left();
 }
 

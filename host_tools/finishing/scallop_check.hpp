@@ -89,6 +89,10 @@ public:
     // mm: the most stock left beside walls, where that is more than the scallop; else 0.
     double left_beside_walls();
 
+    // mm of walls that neither passes nor claims are made for: see walls_over_nothing(). Known after
+    // add_missing_passes() or left_beside_walls().
+    double over_nothing() const { return over_nothing_; }
+
     // Cells still uncovered after add_missing_passes(), and walls.
     std::size_t uncovered() const { return uncovered_.size() + walls_.size(); }
 
@@ -244,6 +248,7 @@ private:
     UncutWalls walls_;
     double most_left_{};
     double left_beside_edges_{};
+    double over_nothing_{};
     bool overflowed_{};
     mutable bool nearly_uncovered_{};  // some tip would remove nearly the scallop
     mutable double near_share_{1};     // share of the scallop that counts as nearly

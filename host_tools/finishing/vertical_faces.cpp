@@ -1,4 +1,4 @@
-// Cells of the domain are halved until they are plane; their trims divide them into columns.
+// Cells of patches are halved until they are proved to be plane; trims divide them into columns.
 #include "host_tools/finishing/vertical_faces.hpp"
 
 #include <algorithm>
@@ -7,29 +7,35 @@
 #include <optional>
 
 #include "host_tools/finishing/column_outlines.hpp"
-#include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/finishing/face_samples.hpp"
+#include "host_tools/finishing/wall_cell.hpp"
 #include "host_tools/parallel/parallel.hpp"
 
 namespace cusp::finishing {
 
-using nurbs::knots_between;
+using nurbs::BezierPatch;
 using nurbs::Surface;
 using part_model::PartModel;
 using part_model::TrimRegion;
 
 namespace {
 
-constexpr int kDeepestCell = 24;           // halvings
-constexpr double kPlane = 1e-7;            // mm: control points off a plane
-constexpr double kOffShare = 0.04;         // of the scallop: a facet off its face
-constexpr double kOffBandShare = 0.15;     // the same, of half the band
-constexpr double kMostTurn = 0.1;          // of the normal over a cell
-constexpr double kBandShare = 0.25;        // of the greatest z of an vertical normal: its lines off
-constexpr double kLeastFacetRise = 0.125;  // of the scallop: height of a part
-constexpr double kLongestFacet = 32;       // in stepovers: shared out to threads
-constexpr std::size_t kMostCorners = 64;   // of a facet
-constexpr int kSideHalvings = 8;           // of a side of an outline that bends
-constexpr double kNoNormal = 1e-12;        // mm2
+constexpr int kDeepestCell = 24;          // halvings
+constexpr int kProofHalvings = 4;         // of a cell that is plane by its samples
+constexpr double kMostOffProved = 1.5;    // of what is allowed by samples
+constexpr double kOffAtLast = 0.25;       // of the scallop: proved after the last of those
+constexpr double kBandProved = 0.5;       // of the greatest z of a vertical normal: its lines off
+constexpr int kPoleHalvings = 4;          // where most of a cell has no normal
+constexpr double kPlane = 1e-7;           // mm: control points off a plane
+constexpr double kOffShare = 0.04;        // of the scallop: a facet off its face
+constexpr double kOffBandShare = 0.15;    // the same, of half the band
+constexpr double kMostTurn = 0.1;         // of the normal over a cell
+constexpr double kBandShare = 0.25;       // of the greatest z of an vertical normal: its lines off
+constexpr double kLeastFacetRise = 0.02;  // of the scallop: height of a part
+constexpr double kLongestFacet = 32;      // in stepovers: shared out to threads
+constexpr std::size_t kMostCorners = 64;  // of a facet
+constexpr int kMostSideParts = 256;       // of a side of an outline that bends
+constexpr double kNoNormal = 1e-12;       // mm2
 
 struct Cell {
     Vec2d low;  // (u, v)
@@ -64,38 +70,14 @@ struct Frame {
     }
 };
 
-// The face at the corners of a cell, at the middles of its sides and at its middle; row by row.
-struct Samples {
-    std::array<Vec3d, 9> points;
-    std::array<Vec3d, 9> normals;  // to one side of the face
-    double turn{};                 // how much they differ
-    double low{};                  // of their z
-    double high{};
-    bool turns_along_u{};       // more than along v
-    bool lines_bend_along_u{};  // the same, lines of equal z
+// z of the normal over a cell is about at_low + dot(slope, share of the cell), by so much.
+struct LevelLines {
+    double at_low;
+    Vec2d slope;
+    double off;
 };
 
-// Corners of the loop inside a half plane (Sutherland & Hodgman). Sides along its border may lie
-// twice, and then count as none.
-Outline clipped(const Outline& loop, Vec2d inward, double least)
-{
-    Outline out;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vec2d a = loop[k];
-        const Vec2d b = loop[(k + 1) % loop.size()];
-        const double from = dot(a, inward) - least;
-        const double to = dot(b, inward) - least;
-        if (from >= 0) {
-            out.push_back(a);
-        }
-        if ((from < 0) != (to < 0)) {
-            out.push_back(a + (b - a) * (from / (from - to)));
-        }
-    }
-    return out;
-}
-
-Outline clipped(const Outline& loop, const Cell& cell)
+Outline within(const Outline& loop, const Cell& cell)
 {
     return clipped(clipped(clipped(clipped(loop, {1, 0}, cell.low.x), {-1, 0}, -cell.high.x),
                            {0, 1}, cell.low.y),
@@ -122,19 +104,17 @@ public:
 
     std::vector<WallFacet> facets()
     {
-        const Cell whole{{surface_.u_begin(), surface_.v_begin()},
-                         {surface_.u_end(), surface_.v_end()}};
-        if (const std::optional<Vec3d> normal = plane_normal()) {
-            if (places_.is_upright(*normal)) {
-                add(whole, frame_of(*normal, surface_.points.front()), {});
-            }
+        const std::optional<Vec3d> normal = plane_normal();
+        if (normal && !places_.is_upright(*normal)) {
             return out_;
         }
-        const std::vector<double> us = knots_between(surface_.knots_u, whole.low.x, whole.high.x);
-        const std::vector<double> vs = knots_between(surface_.knots_v, whole.low.y, whole.high.y);
-        for (std::size_t i = 1; i < us.size(); ++i) {
-            for (std::size_t j = 1; j < vs.size(); ++j) {
-                look_at({{us[i - 1], vs[j - 1]}, {us[i], vs[j]}}, kDeepestCell);
+        for (const BezierPatch& patch : bezier_patches(surface_)) {
+            const Cell cell{{patch.u_begin, patch.v_begin}, {patch.u_end, patch.v_end}};
+            if (normal) {
+                add(cell, {patch, cell.low, cell.high}, frame_of(*normal, surface_.points.front()),
+                    {});
+            } else {
+                look_at(patch, cell, kDeepestCell, kProofHalvings);
             }
         }
         return out_;
@@ -174,51 +154,8 @@ private:
                    : std::nullopt;
     }
 
-    // None where the face has no normal in most places.
-    std::optional<Samples> samples_of(const Cell& cell) const
-    {
-        Samples out;
-        int missing = 0;
-        Vec3d sum{};
-        for (std::size_t k = 0; k < 9; ++k) {
-            const Vec2d share{0.5 * static_cast<double>(k / 3), 0.5 * static_cast<double>(k % 3)};
-            const nurbs::SurfacePoint p =
-                model_.tangents(number_, cell.low.x + (cell.high.x - cell.low.x) * share.x,
-                                cell.low.y + (cell.high.y - cell.low.y) * share.y);
-            out.points[k] = p.point;
-            const Vec3d area = cross(p.du, p.dv);
-            const double size = norm(area);
-            missing += size > kNoNormal ? 0 : 1;
-            out.normals[k] = size > kNoNormal ? area / size : Vec3d{};
-            sum = sum + out.normals[k];
-        }
-        if (missing > 3 || !(norm(sum) > 0)) {
-            return std::nullopt;
-        }
-        // At a pole that of the cell counts.
-        sum = sum / norm(sum);
-        out.low = 1;
-        out.high = -1;
-        for (Vec3d& n : out.normals) {
-            n = norm(n) > 0 ? n : sum;
-            out.turn = std::max(out.turn, norm(n - sum));
-            out.low = std::min(out.low, n.z);
-            out.high = std::max(out.high, n.z);
-        }
-        const auto turn_between = [&](std::size_t a, std::size_t b) {
-            return std::max(norm(out.normals[a] - out.normals[4]),
-                            norm(out.normals[b] - out.normals[4]));
-        };
-        out.turns_along_u = turn_between(1, 7) >= turn_between(3, 5);
-        const auto bend_between = [&](std::size_t a, std::size_t b) {
-            return std::abs(out.normals[a].z - 2 * out.normals[4].z + out.normals[b].z);
-        };
-        out.lines_bend_along_u = bend_between(1, 7) >= bend_between(3, 5);
-        return out;
-    }
-
     // The plane through the middle of the samples, as the facet of the cell has it.
-    static Frame fitted(const Samples& at)
+    static Frame fitted(const FaceSamples& at)
     {
         Vec3d middle{};
         Vec3d normal{};
@@ -239,8 +176,24 @@ private:
         return out;
     }
 
-    // mm: how far the face, raised by the scallop, is off the facet.
-    double off_of(const Samples& at, const Frame& frame) const
+    // Whether the face leaves the facet along u more than along v. A wall that bulges along its height
+    // is off by that, however its normals turn along it.
+    bool is_off_along_u(const FaceSamples& at, const Frame& frame) const
+    {
+        const auto off_between = [&](std::size_t a, std::size_t b) {
+            double off = 0;
+            for (const std::size_t k : {a, b}) {
+                const double turn = norm(at.normals[k] - at.normals[4]);
+                off = std::max(off, std::abs(dot(at.points[k] - at.points[4], frame.normal)) +
+                                        scallop_ * turn * turn);
+            }
+            return off;
+        };
+        return off_between(1, 7) >= off_between(3, 5);
+    }
+
+    // mm: how far the face, raised by the scallop, is off the facet, by the samples.
+    double off_of(const FaceSamples& at, const Frame& frame) const
     {
         double off = 0;
         double turn = 0;
@@ -256,62 +209,13 @@ private:
             turn = std::max(turn, std::hypot(turned.x, turned.y));
             rise = std::max(rise, std::min(std::abs(turned.z), 2 * most_z_));
         }
-        // The side of the ball is steep where it leaves no more than the scallop: a point that is
-        // higher or lower is that much nearer or farther, times the slope.
-        turn += rise * std::min(1.0, std::sqrt(2 * scallop_ / radius_));
+        turn += rise * slope_of_ball();
         // Between two places of a facet the straight way between raised points is lower.
         const double sag = 0.125 * scallop_ * at.turn * at.turn;
         return 2 * (off + scallop_ * turn) + sag;
     }
 
-    void look_at(const Cell& cell, int depth)
-    {
-        if (model_.outside_trims(number_, cell.low, cell.high)) {
-            return;
-        }
-        const std::optional<Samples> at = samples_of(cell);
-        if (!at) {
-            return;
-        }
-        const bool one_way = at->low > 0 || at->high < 0;
-        const double least = std::min(std::abs(at->low), std::abs(at->high));
-        if (one_way && least > at->turn + kUprightNormal) {
-            return;
-        }
-        const auto halve = [&](bool along_u) {
-            if (depth > 0) {
-                for (const Cell& half : cell.halves(along_u)) {
-                    look_at(half, depth - 1);
-                }
-            }
-        };
-        if (at->turn > kMostTurn) {
-            halve(at->turns_along_u);
-            return;
-        }
-        if (one_way && least > most_z_ + 0.5 * (at->high - at->low)) {
-            return;
-        }
-        Frame frame = fitted(*at);
-        frame.off = off_of(*at, frame);
-        const LevelLines lines = level_lines(*at);
-        if (depth > 0 && frame.off > most_off_) {
-            halve(at->turns_along_u);
-        } else if (depth > 0 && lines.off > kBandShare * most_z_ &&
-                   std::max(std::abs(at->low), std::abs(at->high)) > most_z_) {
-            halve(at->lines_bend_along_u);
-        } else {
-            add(cell, frame, lines);
-        }
-    }
-
-    // z of the normal over a cell is about at_low + dot(slope, share of the cell), by so much.
-    struct LevelLines {
-        double at_low;
-        Vec2d slope;
-        double off;
-    };
-    static LevelLines level_lines(const Samples& at)
+    static LevelLines level_lines(const FaceSamples& at)
     {
         LevelLines out{0, {0, 0}, 0};
         double mean = 0;
@@ -325,40 +229,141 @@ private:
         for (std::size_t k = 0; k < 9; ++k) {
             const double z = out.at_low + 0.5 * (out.slope.x * static_cast<double>(k / 3) +
                                                  out.slope.y * static_cast<double>(k % 3));
-            out.off = std::max(out.off, std::abs(at.normals[k].z - z));
+            out.off = std::max(out.off, 2 * std::abs(at.normals[k].z - z));
         }
         return out;
+    }
+
+    // The facet and lines with what is proved: how far the face, raised by the scallop, is off the facet
+    // (mm), and z of its normal off the lines. The facet is put into the middle of the cell.
+    struct Proved {
+        Frame frame;
+        LevelLines lines;
+    };
+    // side  1 where the cell's normals lead to the frame's side, else -1
+    std::optional<Proved> proved(const WallCell& cell,
+                                 double side,
+                                 Frame frame,
+                                 LevelLines lines) const
+    {
+        const auto [low, high] = cell.along(frame.middle, frame.normal);
+        frame.middle = frame.middle + frame.normal * (0.5 * (low + high));
+        const auto turn = cell.turn({frame.middle, frame.normal, frame.along, frame.bend},
+                                    {lines.at_low, lines.slope}, side);
+        if (!turn) {
+            return std::nullopt;
+        }
+        lines.off = turn->lines;
+        // Only what is vertical is looked at.
+        const double rise =
+            std::min(turn->rise, std::abs(frame.normal.z) + most_z_ + lines.off) * slope_of_ball();
+        // Between two places of a facet the straight way between raised points is lower.
+        const double sag = 0.5 * scallop_ * turn->most * turn->most;
+        frame.off = 0.5 * (high - low) + scallop_ * (turn->along + rise) + sag;
+        return Proved{frame, lines};
+    }
+
+    // The side of the ball is steep where it leaves no more than the scallop: a point that is higher or
+    // lower is that much nearer or farther, times the slope.
+    double slope_of_ball() const { return std::min(1.0, std::sqrt(2 * scallop_ / radius_)); }
+
+    void halve(const BezierPatch& patch, const Cell& cell, bool along_u, int depth, int spare)
+    {
+        for (const Cell& half : cell.halves(along_u)) {
+            look_at(patch, half, depth - 1, spare);
+        }
+    }
+
+    // By samples a cell is halved until it is plane; then until that is proved.
+    //
+    // spare  halvings for the proof
+    void look_at(const BezierPatch& patch, const Cell& cell, int depth, int spare)
+    {
+        if (model_.outside_trims(number_, cell.low, cell.high)) {
+            return;
+        }
+        const std::optional<FaceSamples> at = sample_face(model_, number_, cell.low, cell.high);
+        if (!at) {
+            // Two poles may end one patch.
+            if (depth > kDeepestCell - kPoleHalvings) {
+                halve(patch, cell, depth % 2 == 0, depth, spare);
+            }
+            return;
+        }
+        const bool one_way = at->low > 0 || at->high < 0;
+        const double least = std::min(std::abs(at->low), std::abs(at->high));
+        if (one_way && least > at->turn + kUprightNormal) {
+            if (depth > 0 && spare > 0 &&
+                !WallCell{patch, cell.low, cell.high}.leans_more_than(most_z_)) {
+                halve(patch, cell, at->turns_along_u, depth, spare - 1);
+            }
+        } else if (at->turn <= kMostTurn) {
+            const bool leans = one_way && least > most_z_ + 0.5 * (at->high - at->low);
+            look_at_plane(patch, cell, *at, leans, depth, spare);
+        } else if (depth > 0) {
+            halve(patch, cell, at->turns_along_u, depth, spare);
+        }
+    }
+
+    // leans  by the samples, so much that nothing of it is vertical
+    void look_at_plane(const BezierPatch& patch,
+                       const Cell& cell,
+                       const FaceSamples& at,
+                       bool leans,
+                       int depth,
+                       int spare)
+    {
+        Frame frame = fitted(at);
+        frame.off = off_of(at, frame);
+        const LevelLines lines = level_lines(at);
+        const bool along_u = is_off_along_u(at, frame);
+        if (depth > 0 && !leans && frame.off > most_off_) {
+            halve(patch, cell, along_u, depth, spare);
+            return;
+        }
+        if (depth > 0 && !leans && lines.off > 2 * kBandShare * most_z_ &&
+            std::max(std::abs(at.low), std::abs(at.high)) > most_z_) {
+            halve(patch, cell, at.lines_bend_along_u, depth, spare);
+            return;
+        }
+        const WallCell bounds{patch, cell.low, cell.high};
+        if (leans && bounds.leans_more_than(most_z_)) {
+            return;
+        }
+        const double side = dot(at.normals[4], frame.normal) < 0 ? -1 : 1;
+        const std::optional<Proved> found = proved(bounds, side, frame, lines);
+        const bool is_near = found && found->frame.off <= kMostOffProved * most_off_;
+        if (is_near && found->lines.off <= kBandProved * most_z_) {
+            add(cell, bounds, found->frame, found->lines);
+        } else if (depth > 0 && spare > 0) {
+            halve(patch, cell, is_near ? at.lines_bend_along_u : along_u, depth, spare - 1);
+        } else if (found && found->frame.off <= kOffAtLast * scallop_) {
+            add(cell, bounds, found->frame, found->lines);
+        } else if (!leans) {
+            add(cell, bounds, frame, lines);
+        }
     }
 
     // The part of a loop in the cell that is vertical.
     Outline upright_part(const Outline& loop, const Cell& cell, const LevelLines& lines) const
     {
-        const double most = most_z_ + 2 * lines.off;
+        const double most = most_z_ + lines.off;
         const Vec2d slope{lines.slope.x / (cell.high.x - cell.low.x),
                           lines.slope.y / (cell.high.y - cell.low.y)};
         const double at_zero = lines.at_low - dot(slope, cell.low);
         return clipped(clipped(loop, slope, -most - at_zero), slope * -1.0, at_zero - most);
     }
 
-    // The sides of a loop in the frame; those that bend in space are divided.
-    void append_side(
-        Vec2d from, Vec2d to, int depth, const Frame& frame, double most_off, Outline& out) const
+    // A side of a loop in the frame, without its end; one that bends in space is divided.
+    void append_side(Vec2d from, Vec2d to, int parts, const Frame& frame, Outline& out) const
     {
-        const auto at = [&](Vec2d uv) {
-            return frame.flat(model_.tangents(number_, uv.x, uv.y).point);
-        };
-        const Vec2d middle = (from + to) * 0.5;
-        const Vec2d a = at(from);
-        const Vec2d off = at(middle) - (a + at(to)) * 0.5;
-        if (depth > 0 && std::sqrt(dot(off, off)) > most_off) {
-            append_side(from, middle, depth - 1, frame, most_off, out);
-            append_side(middle, to, depth - 1, frame, most_off, out);
-        } else {
-            out.push_back(a);
+        for (int k = 0; k < parts; ++k) {
+            const Vec2d uv = from + (to - from) * (static_cast<double>(k) / parts);
+            out.push_back(frame.flat(model_.tangents(number_, uv.x, uv.y).point));
         }
     }
 
-    void add(const Cell& cell, const Frame& frame, const LevelLines& lines)
+    void add(const Cell& cell, const WallCell& bounds, const Frame& frame, const LevelLines& lines)
     {
         std::vector<Outline> inside{
             {cell.low, {cell.high.x, cell.low.y}, cell.high, {cell.low.x, cell.high.y}}};
@@ -373,19 +378,27 @@ private:
             if (part == TrimRegion::Part::kCut) {
                 inside.clear();
                 for (const std::vector<Vec2d>& loop : region_->loops()) {
-                    inside.push_back(clipped(loop, cell));
+                    inside.push_back(within(loop, cell));
                 }
             }
         }
         // Corners off by as much leave a corner of the wall so high.
         const double corner_off = 0.25 * most_off_;
+        const WallCell::Bends bends =
+            bounds.bends({frame.middle, frame.normal, frame.along, frame.bend});
+        const auto parts_of = [&](Vec2d side) {
+            const double bow = bends.bow(
+                {side.x / (cell.high.x - cell.low.x), side.y / (cell.high.y - cell.low.y)});
+            return std::clamp(static_cast<int>(std::ceil(std::sqrt(bow / (0.5 * corner_off)))), 1,
+                              kMostSideParts);
+        };
         std::vector<Outline> outlines;
         for (const Outline& whole : inside) {
             const Outline loop = upright_part(whole, cell, lines);
             Outline flat;
             for (std::size_t k = 0; k < loop.size(); ++k) {
-                append_side(loop[k], loop[(k + 1) % loop.size()], kSideHalvings, frame,
-                            0.5 * corner_off, flat);
+                const Vec2d to = loop[(k + 1) % loop.size()];
+                append_side(loop[k], to, parts_of(to - loop[k]), frame, flat);
             }
             outlines.push_back(simplified(flat, 0.5 * corner_off));
         }

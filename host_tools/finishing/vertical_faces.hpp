@@ -14,8 +14,9 @@ namespace cusp::finishing {
 // whole, and its facets are exact. Facets less high than an eighth of the scallop are left out: what
 // is left there differs little from that beside them.
 //
-// How far a curved face is off its facet, and how far its normal is off that of the facet, are looked
-// at in nine places, and twice that is taken.
+// How far a curved face is off its facet, and how far its normal is off that of the facet, is bounded
+// by `WallCell`. A cell that is plane by nine samples is halved four times more for that proof; then, as
+// at singular points, twice what the samples say is taken.
 //
 // scallop  mm: allowed height of uncut stock
 std::vector<WallFacet> vertical_faces(const std::vector<nurbs::Surface>& surfaces,

@@ -20,6 +20,8 @@ constexpr double kReachApart = 1.0 / 16;     // the same: those of which reach i
 constexpr double kLeastApart = 1.0 / 64;     // the same
 constexpr double kBorderApart = 1.0 / 1024;  // the same, where reach begins or ends
 constexpr int kFirstParts = 8;               // at least; the ends of a triangle have no height
+constexpr double kClearOfWall = 0.9;         // radii
+constexpr double kOverhang = 2e-4;           // mm
 constexpr double kBeside = 1e-4;             // mm: vertices of files are rounded
 constexpr double kLeastHeight = 1e-4;        // mm, of what is reached
 constexpr double kReachSlack = 1e-6;         // mm
@@ -56,6 +58,11 @@ WallSide::WallSide(const WallFacet& facet, bool turned, const GougeFreePathFitte
         high = std::max(high, corner.z);
     }
     leans_ = out_.z * (high - low) > kBeside;
+    if (-out_.z * (high - low) > kBeside) {
+        overhang_ = std::min(-out_.z * (high - low), kOverhang);
+        off_ += overhang_;
+        beside_ += overhang_;
+    }
 }
 
 Vec3d WallSide::point_at(double along, double z) const
@@ -89,6 +96,16 @@ std::optional<double> WallSide::drop_centre(Vec3d over, double radius) const
     const Tool ball{1, ToolShape::kBall, radius, radius};
     const auto tip = fitter_.model().drop_height(ball, over.x, over.y);
     return tip ? std::optional{*tip + radius} : std::nullopt;
+}
+
+Vec3d WallSide::centre_at_top(double along) const
+{
+    return centre_beside(along, whole_column_at(along).top);
+}
+
+bool WallSide::rests(Vec3d centre) const
+{
+    return drop_centre(centre, kClearOfWall * fitter_.offset_tool().radius).has_value();
 }
 
 std::optional<double> WallSide::rest_beside(double along, double z) const
@@ -126,6 +143,9 @@ WallSide::Column WallSide::whole_column_at(double place) const
         } else {
             include(a.z + (b.z - a.z) * (along - from) / (to - from));
         }
+    }
+    if (overhang_ > 0) {
+        out.low = std::max(out.low, out.top + overhang_ / out_.z);
     }
     return out;
 }
@@ -453,10 +473,7 @@ std::vector<WallSide> wall_sides_of(const WallFacet& facet, const GougeFreePathF
         return out;
     }
     out.emplace_back(facet, false, fitter);
-    // The other side of a wall that leans lies under it.
-    if (facet.normal.z * (high - low) <= kBeside) {
-        out.emplace_back(facet, true, fitter);
-    }
+    out.emplace_back(facet, true, fitter);
     return out;
 }
 

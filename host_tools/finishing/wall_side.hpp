@@ -18,6 +18,9 @@ namespace cusp::finishing {
 // its side, from an axis the radius off the wall. A ball with nothing below it is not asked for: it
 // would go down beside the part without end.
 //
+// The lower side of a wall that leans lies under its upper end. Of a column so much is looked at as that
+// overhangs by 2e-4 mm at most; the rest no ball reaches.
+//
 // Between two columns one move proves the wall, if it removes all four ends of what is reached.
 // Reach is bounded between columns: a ball smaller by their distance rests
 // no higher in the middle than the ball itself does anywhere between. Where that proves nothing, reach
@@ -64,6 +67,15 @@ public:
     double left_in(const Run& run, const ScallopAtPoint& places) const;
 
     const std::vector<Vec3d>& corners() const { return corners_; }
+    double begin() const { return begin_; }  // mm along the wall
+    double end() const { return end_; }
+    Vec3d out() const { return out_; }  // unit
+
+    // The centre of a ball that touches the upper end of the wall at a place along it.
+    Vec3d centre_at_top(double along) const;
+    // Whether something lies below a ball there that is smaller by a tenth: one that touches the wall
+    // takes a hundred times as long.
+    bool rests(Vec3d centre) const;
 
 private:
     // What is reached of a column.
@@ -114,6 +126,7 @@ private:
     const GougeFreePathFitter& fitter_;
     double begin_;  // mm along the wall
     double end_;
+    double overhang_{};  // mm: of a column's top over the lowest place of it that is looked at
     bool leans_;
 };
 

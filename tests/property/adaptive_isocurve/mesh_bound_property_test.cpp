@@ -33,6 +33,7 @@ struct Way {
     const char* strategy;
     bool as_faces;
     Walls walls{Walls::kDrafted};
+    ToleranceSide side{ToleranceSide::kOutside};
 };
 
 // Its mesh is the polyhedron, for the judge, however it is given.
@@ -54,6 +55,7 @@ Job random_job(Random& random, const Way& way)
     operation.scallop = radius * std::pow(10.0, uniform(random, -1.9, -1.0));
     operation.floor_tolerance = operation.plan_tolerance =
         *operation.scallop * uniform(random, 0.1, 0.4);
+    operation.tolerance_side = way.side;
     operation.direction = whole(random, 0, 1) == 0 ? 'u' : 'v';
     constexpr OutputForm kForms[] = {OutputForm::kLines, OutputForm::kLines, OutputForm::kArcs,
                                      OutputForm::kNurbs};
@@ -88,13 +90,15 @@ bool holds(const Way& way, unsigned seed, int& reached)
     const Operation& operation = job.operations.front();
     const PlannedOperation planned = planned_by(way, job);
     const CutMoves moves{planned.path, 0.01 * operation.floor_tolerance};
-    const BallFinishJudge judge{operation.mesh, moves, operation.tool.radius,
-                                operation.floor_tolerance};
+    // Passes may keep so far off.
+    const double clear_of =
+        (way.side == ToleranceSide::kBoth ? 0.5 : 1) * operation.floor_tolerance;
+    const BallFinishJudge judge{operation.mesh, moves, operation.tool.radius, clear_of};
     const double bound = planned.stats.scallop_bound_mm;
     Worst worst = way.walls != Walls::kDrafted
                       ? judge.most_left_beside_walls(random, bound + kExact)
                       : judge.most_left(random, bound + kExact);
-    if (way.walls == Walls::kStanding || way.walls == Walls::kRound) {
+    if (way.walls == Walls::kStanding || way.walls == Walls::kRound || way.walls == Walls::kLow) {
         const Worst elsewhere = judge.most_left(random, bound + kExact);
         if (elsewhere.left > worst.left) {
             worst = {elsewhere.left, elsewhere.place, elsewhere.normal, worst.reached};
@@ -111,10 +115,10 @@ bool holds(const Way& way, unsigned seed, int& reached)
             "(%.4f %.4f %.4f), normal (%.4f %.4f %.5f); gouge %.5f, claimed %.5f; %d passes, "
             "%.2f s\n",
             seed, good ? "" : " FAILS", operation.mesh.size(), operation.tool.radius,
-            *operation.scallop, bound, worst.left > 0 ? bound + kExact + worst.left : 0.0,
-            worst.place.x, worst.place.y, worst.place.z, worst.normal.x, worst.normal.y,
-            worst.normal.z, gouge, planned.stats.gouge_bound_mm, planned.stats.passes,
-            planned.stats.planning_s);
+            operation.scallop.value_or(0.0), bound,
+            worst.left > 0 ? bound + kExact + worst.left : 0.0, worst.place.x, worst.place.y,
+            worst.place.z, worst.normal.x, worst.normal.y, worst.normal.z, gouge,
+            planned.stats.gouge_bound_mm, planned.stats.passes, planned.stats.planning_s);
         for (const std::string& warning : planned.stats.warnings) {
             std::printf("  %s\n", warning.c_str());
         }
@@ -134,7 +138,7 @@ void hold_seeds(const Way& way, const std::vector<unsigned>& seeds)
     LONGS_EQUAL(0, broken);
     if (way.walls != Walls::kDrafted) {
         std::printf("%d places beside walls\n", reached);
-        CHECK(reached > 100 * static_cast<int>(seeds.size()));
+        CHECK(reached > (way.walls == Walls::kLow ? 1 : 100) * static_cast<int>(seeds.size()));
     }
 }
 
@@ -194,10 +198,10 @@ TEST(MeshBoundProperty, HoldsBesideFacesOnTheBorder)
     hold_seeds({"adaptive_isocurve", true, Walls::kStanding}, {6, 7, 9, 10});
 }
 
-// Two that kept 0.11 and 0.5 mm.
+// Two that kept 0.11 and 0.5 mm; in the third the ball reaches a wall that overhangs by 1.5e-4 mm.
 TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
 {
-    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4});
+    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4, 2010});
 }
 
 // Cylinders and arched sheets, which hardly lean.
@@ -219,6 +223,26 @@ TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWallsOfFaces)
 TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWalls)
 {
     hold_all({"parallel_planes", false, Walls::kStanding}, 2);
+}
+
+TEST(MeshBoundProperty, HoldsByBothSidesBesideStandingWallsOfFaces)
+{
+    hold_all({"adaptive_isocurve", true, Walls::kStanding, ToleranceSide::kBoth}, 2);
+}
+
+TEST(MeshBoundProperty, HoldsByBothSidesBesideRoundFaces)
+{
+    hold_all({"adaptive_isocurve", true, Walls::kRound, ToleranceSide::kBoth}, 2);
+}
+
+TEST(MeshBoundProperty, HoldsByBothSidesForPlanesBesideStandingWallsOfFaces)
+{
+    hold_all({"parallel_planes", true, Walls::kStanding, ToleranceSide::kBoth}, 2);
+}
+
+TEST(MeshBoundProperty, HoldsBesideLowFaces)
+{
+    hold_all({"adaptive_isocurve", true, Walls::kLow}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 2); }

@@ -28,8 +28,8 @@ inline double random_upright_draft(Random& random)
 }
 
 // How its walls lean; kStanding: vertical ones with openings, and bodies on a plate's border; kRound:
-// the same with curved faces, which round_walls.hpp makes.
-enum class Walls { kDrafted, kUpright, kStanding, kRound };
+// the same with curved faces, which round_walls.hpp makes; kLow: steps that are lower than a scallop.
+enum class Walls { kDrafted, kUpright, kStanding, kRound, kLow };
 
 inline void add_wall(Random& random, Profile& profile, double rise, Walls walls)
 {
@@ -263,14 +263,40 @@ inline Triangles standing_walls(Random& random)
     return out;
 }
 
+// Slabs 0.0016 to 0.03 mm high, on strips of ground or over them: the ground beside a slab may begin
+// anywhere.
+inline Triangles low_steps(Random& random)
+{
+    const double length = uniform(random, 4.0, 9.0);
+    Triangles out;
+    double width = 0;
+    for (int k = whole(random, 1, 3); k > 0; --k) {
+        const double from = width + (width > 0 ? uniform(random, 0.1, 2.0) : 0.0);
+        width = from + uniform(random, 1.0, 4.0);
+        add_quad(out, {0, from, 0}, {length, from, 0}, {length, width, 0}, {0, width, 0});
+    }
+    for (int k = whole(random, 2, 6); k > 0; --k) {
+        const Vec2d from{uniform(random, -1.0, length - 0.5), uniform(random, -1.0, width - 0.5)};
+        const double turn =
+            whole(random, 0, 1) == 0 ? 0.5 * kPi * whole(random, 0, 1) : uniform(random, 0.0, kPi);
+        const Vec2d way = Vec2d{std::cos(turn), std::sin(turn)} * uniform(random, 0.3, 4.0);
+        const Vec2d across = Vec2d{-std::sin(turn), std::cos(turn)} * uniform(random, 0.2, 4.0);
+        const double low = whole(random, 0, 2) == 0 ? 0.0 : uniform(random, 0.0, 4.0);
+        const double high = low + std::pow(10.0, uniform(random, -2.8, -1.5));
+        add_prism(out, {from, from + way, from + way + across, from + across}, low, high);
+    }
+    return out;
+}
+
 inline Triangles random_polyhedron(Random& random, Walls walls = Walls::kDrafted)
 {
     const int kind = whole(random, 0, walls == Walls::kDrafted ? 2 : 1);
     Triangles out = walls == Walls::kStanding ? standing_walls(random)
+                    : walls == Walls::kLow    ? low_steps(random)
                     : kind == 0               ? ribs(random, walls)
                     : kind == 1               ? polygon_steps(random, walls)
                                               : crags(random);
-    if (whole(random, 0, 1) == 0) {
+    if (walls != Walls::kLow && whole(random, 0, 1) == 0) {
         out = with_slivers(random, out);
     }
     // Walls along the rows are those that rows miss.

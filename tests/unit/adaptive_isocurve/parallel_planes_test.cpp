@@ -97,6 +97,32 @@ Job steep_job(bool as_mesh)
     return job;
 }
 
+// A wall from y = -0.5 to 0 without ground at its foot. Ground begins so far off that a ball of radius 2
+// beside the wall rests on its border. The faces are turned to each other: cells look at that side only.
+std::vector<Surface> wall_beside_ground()
+{
+    return {plane({0, 1.9, 0}, {0, 10, 0}, {8, 1.9, 0}, {8, 10, 0}),
+            plane({8, 0, -1}, {8, 0, 4}, {0, 0, -1}, {0, 0, 4}),
+            plane({0, -0.5, -1}, {0, -0.5, 4}, {8, -0.5, -1}, {8, -0.5, 4})};
+}
+
+// mm: what stays beside the wall at half its length, of tips below its top.
+double left_beside_wall(const Toolpath& path)
+{
+    double least = kInfinite;
+    Vec3d at = end_of(path.moves.front());
+    for (const ToolMove& move : path.moves) {
+        for (const Vec3d& to : points_of(move, at, 1e-4)) {
+            if (move.kind != MoveKind::kRapid && std::max(at.z, to.z) < 1 &&
+                std::min(at.x, to.x) <= 4 && std::max(at.x, to.x) >= 4) {
+                least = std::min({least, at.y, to.y});
+            }
+            at = to;
+        }
+    }
+    return least - path.tool.radius;
+}
+
 // mm, square to the slope.
 double most_over_steep(const PlannedOperation& planned)
 {
@@ -140,6 +166,30 @@ TEST(ParallelPlanes, KeepAProvedBoundWhereTheDistanceIsGiven)
         CHECK(planned.stats.scallop_bound_mm >= left - 1e-6);
         CHECK(planned.stats.scallop_bound_mm < 2 * left);
     }
+}
+
+// Over the ground itself hardly a tenth of that is left.
+TEST(ParallelPlanes, ClaimWhatStaysBesideAWallWhereTheDistanceIsGiven)
+{
+    Job job = job_for(wall_beside_ground(), "parallel_planes");
+    Operation& operation = job.operations.front();
+    operation.step_over = 0.8;
+    operation.scallop.reset();
+    const PlannedOperation planned = planes_over(job);
+    const double left = left_beside_wall(planned.path);
+    CHECK(left > 0.2);
+    CHECK(planned.stats.scallop_bound_mm >= left);
+    CHECK(planned.stats.scallop_bound_mm < 1.2 * left);
+}
+
+// With a scallop there is a pass along the wall.
+TEST(ParallelPlanes, CutBesideAWallWhereTheScallopIsGiven)
+{
+    Job job = job_for(wall_beside_ground(), "parallel_planes");
+    job.operations.front().scallop = 0.05;
+    const PlannedOperation planned = planes_over(job);
+    CHECK(left_beside_wall(planned.path) <= 0.05);
+    DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
 }
 
 TEST(ParallelPlanes, ReachTheRimsOfASlope)
