@@ -29,7 +29,7 @@ constexpr int kFew = 8;         // of them, one is looked at first
 constexpr double kLattice = 0.5;
 constexpr double kCusp = 0.005;  // less than that stays beside a path that was cut
 constexpr double kLongest = 60.0;
-constexpr double kSame = 1e-6;
+constexpr double kSamePlace = 1e-6;
 constexpr double kBeside[] = {0.1, 0.2, 0.4, 0.8};
 constexpr int kSides = 16;
 constexpr std::size_t kMostNodes = 4000;  // that a way around may be looked for at
@@ -149,7 +149,7 @@ std::vector<LinkLeg> KeepDownLinks::between(Vec2d from, Vec2d to)
     const std::optional<Vec2d> first = beside(from);
     const std::optional<Vec2d> last = beside(to);
     std::vector<Vec2d> places;
-    if (first && last && norm(*last - *first) < kSame * radius_) {
+    if (first && last && norm(*last - *first) < kSamePlace * radius_) {
         return {{*first, false}, {to, false}};
     }
     if (first && last) {
