@@ -11,8 +11,8 @@ namespace cusp::finishing {
 
 // Cells of the domain are halved until each is plane within a small share of the scallop and of the
 // band; of each remains what is vertical, as ScallopAtPoint::is_upright() has it. A plane face stays
-// whole, and its facets are exact. Facets less high than an eighth of the scallop are left out: what
-// is left there differs little from that beside them.
+// whole, and its facets are exact. Facets less high than a fiftieth of the scallop are left out:
+// what stays there could exceed the scallop by that much.
 //
 // How far a curved face is off its facet, and how far its normal is off that of the facet, is bounded
 // by `WallCell`. A cell that is plane by nine samples is halved four times more for that proof; then, as
