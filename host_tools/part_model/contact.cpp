@@ -98,10 +98,10 @@ Vec3d PartModel::facing_up(int surface, double u, double v, const SurfacePoint& 
     if (best) {
         return dot(upward_normal(*best), normal) < 0 ? -normal : normal;
     }
-    // Else one side of the surface throughout, so that tips along an upright line are on one side.
+    // Else one side of the surface throughout, so that tips along a vertical line are on one side.
     const double leftward = normal.y * p.du.x - normal.x * p.du.y;
-    const bool du_is_upright = std::abs(leftward) <= kLevel * norm(p.du);
-    return (du_is_upright ? dot(normal, cross(p.du, p.dv)) : leftward) < 0 ? -normal : normal;
+    const bool du_is_vertical = std::abs(leftward) <= kLevel * norm(p.du);
+    return (du_is_vertical ? dot(normal, cross(p.du, p.dv)) : leftward) < 0 ? -normal : normal;
 }
 
 std::optional<CcPoint> PartModel::cc_point_under(
