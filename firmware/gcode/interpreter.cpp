@@ -364,7 +364,7 @@ Status Interpreter::run_jog(LineContext& line) noexcept
     if (const Status status = find_target(line); !status) {
         return status;
     }
-    plan_line(line, path::MoveKind::kFeed, plan_);
+    plan_line(line, path::MoveKind::kFixedFeed, plan_);
     position_ = line.end;
     return kDone;
 }

@@ -44,7 +44,7 @@ public:
     Status execute(std::string_view text, std::uint32_t number) noexcept;
 
     // Reads the words after `$J=`: G20 G21 G53 G90 G91, axis words, F and N. Yields one Move of
-    // kind kFeed and leaves the modal state alone.
+    // kind kFixedFeed and leaves the modal state alone.
     //
     // Errors: kInvalidJogCommand for another command; otherwise as execute().
     Status execute_jog(std::string_view text, std::uint32_t number) noexcept;

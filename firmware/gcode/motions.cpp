@@ -135,7 +135,7 @@ Status plan_probe(LineContext& line, MotionPlan& plan) noexcept
     if (line.command.axes() == 0) {
         return Error::kGcodeNoAxisWords;
     }
-    path::Move move = move_pattern(line.command.modal, line, path::MoveKind::kFeed);
+    path::Move move = move_pattern(line.command.modal, line, path::MoveKind::kFixedFeed);
     move.start = line.start.rounded();
     move.end = line.end.rounded();
     if (move.start == move.end) {
@@ -286,7 +286,7 @@ void plan_line(const LineContext& line, path::MoveKind kind, MotionPlan& plan) n
     if (move.start == move.end) {
         return;
     }
-    if (kind == path::MoveKind::kFeed) {
+    if (kind != path::MoveKind::kRapid) {
         set_speed(line.command.modal, move);
     }
     plan.motion = Moves{move, {}, true, false};

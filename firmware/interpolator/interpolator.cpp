@@ -6,7 +6,7 @@
 namespace cusp::interpolator {
 namespace {
 
-constexpr OverrideFactors kHeld{0, 0};
+constexpr OverrideFactors kHeld{{0, 0, 0}};
 
 float squared_part(unsigned percent) noexcept
 {
@@ -228,12 +228,12 @@ void Interpolator::drop_passed_blocks() noexcept
 
 void Interpolator::set_feed_override(unsigned percent) noexcept
 {
-    factors_.feed = squared_part(percent);
+    factors_.set(path::MoveKind::kFeed, squared_part(percent));
 }
 
 void Interpolator::set_rapid_override(unsigned percent) noexcept
 {
-    factors_.rapid = squared_part(percent);
+    factors_.set(path::MoveKind::kRapid, squared_part(percent));
 }
 
 float Interpolator::speed() const noexcept

@@ -13,7 +13,7 @@ float braking_before_end(const Interval& interval,
                          const OverrideFactors& factors) noexcept
 {
     const planner::Envelope& envelope = interval.envelope;
-    const float scaled_off = (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
+    const float scaled_off = (1.0F - factors.of(interval.origin_kind)) * envelope.feed_origin;
     return std::min(envelope.end_speed, envelope.feed_end - scaled_off) +
            2.0F * envelope.slope * distance;
 }
@@ -21,7 +21,7 @@ float braking_before_end(const Interval& interval,
 float cap_of(const Interval& interval, const OverrideFactors& factors) noexcept
 {
     const planner::SpeedLimit& limit = interval.envelope.limit;
-    return std::min(limit.cap, factors.of(interval.rapid) * limit.feed);
+    return std::min(limit.cap, factors.of(interval.kind) * limit.feed);
 }
 
 void MinSpeedWindow::restart(std::uint32_t interval, std::uint64_t end_position) noexcept

@@ -8,12 +8,18 @@
 
 namespace cusp::interpolator {
 
-// Overrides as factors of squared speeds. kFeed and kRapid.
+// Overrides as factors of squared speeds, by the kind of move. All 0 holds.
 struct OverrideFactors {
-    float feed{1};
-    float rapid{1};
+    std::array<float, path::kMoveKinds> factors{1, 1, 1};
 
-    float of(bool is_rapid) const noexcept { return is_rapid ? rapid : feed; }
+    float of(path::MoveKind kind) const noexcept
+    {
+        return factors[static_cast<std::size_t>(kind)];
+    }
+    void set(path::MoveKind kind, float factor) noexcept
+    {
+        factors[static_cast<std::size_t>(kind)] = factor;
+    }
 };
 
 // Squared speed from which braking reaches what both envelopes allow at the end of the interval and

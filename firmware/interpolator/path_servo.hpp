@@ -20,7 +20,7 @@ public:
     void reset(std::uint32_t filter) noexcept;
 
     struct Conditions {
-        const OverrideFactors& factors;  // of squared speeds, by the overrides; {0, 0} holds
+        const OverrideFactors& factors;  // of squared speeds, by the overrides; all 0 holds
         // Whether the present stop may be left: the filters are empty, but for the overlap that
         // the stop allows.
         bool may_pass;

@@ -175,7 +175,7 @@ std::int64_t Homing::alignment(const Motion& motion, const Settings& settings) c
 void Homing::go(Motion& motion, std::int64_t distance, float mm_per_minute) const noexcept
 {
     path::Move move;
-    move.kind = path::MoveKind::kFeed;
+    move.kind = path::MoveKind::kFixedFeed;
     move.start = motion.tail();
     move.end = move.start;
     move.end[axis_] += distance;

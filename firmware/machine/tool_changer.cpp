@@ -145,7 +145,7 @@ auto ToolChanger::start_phase(Motion& motion, const Settings& settings) noexcept
             return probe(motion, settings);
         case Phase::kBackOff:
             push(motion, {at.x, at.y, contact_z_ + nanometres_of(kBackOffMillimetres)},
-                 path::MoveKind::kFeed, settings.value(Setting::kToolSeek));
+                 path::MoveKind::kFixedFeed, settings.value(Setting::kToolSeek));
             moving_ = true;
             return Progress::kStepped;
         case Phase::kLiftAgain:
@@ -204,7 +204,7 @@ auto ToolChanger::probe(Motion& motion, const Settings& settings) noexcept -> Pr
         return fail(Alarm::kProbeContact);
     }
     motion.watch({kProbe, false, false});
-    push(motion, to, path::MoveKind::kFeed,
+    push(motion, to, path::MoveKind::kFixedFeed,
          settings.value(seeks ? Setting::kToolSeek : Setting::kToolFeed));
     moving_ = true;
     return Progress::kStepped;

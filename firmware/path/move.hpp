@@ -1,23 +1,28 @@
 // Move: one parsed move, exact. What gcode hands to the planner.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/path/path.hpp"
 
 namespace cusp::path {
 
+// What a move goes by, and with it the override that scales it.
 enum class MoveKind : std::uint8_t {
-    kRapid,  // as fast as the limits allow; rapid override
-    kFeed,   // at most the feed; feed override
+    kRapid,      // as fast as the limits allow; rapid override
+    kFeed,       // at most the feed; feed override
+    kFixedFeed,  // at most the feed, which no override scales: jogs, probes, homing, tool setting
 };
+
+inline constexpr std::size_t kMoveKinds = 3;
 
 struct Move {
     MoveKind kind{MoveKind::kFeed};
     Path path{Line{}};
     Position start;  // machine coordinates
     Position end;
-    float feed{0};  // mm/s along the path, > 0 for kFeed
+    float feed{0};  // mm/s along the path, > 0 but for kRapid
     // How far the tool may leave the path, mm; 0 is the exact path (G61).
     float tolerance{0};
     // Part of the tolerance that is used already: the distance of the path from the programmed one

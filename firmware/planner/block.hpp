@@ -55,7 +55,7 @@ struct Block {
     std::uint32_t reciprocal{0};  // of the length: see fraction()
     std::uint8_t reciprocal_shift{0};
     BlockShape shape{BlockShape::kLine};
-    bool rapid{false};
+    path::MoveKind kind{path::MoveKind::kFeed};
     bool stops{false};  // the path stops at its end
     AxisFilter filter{};
     std::uint32_t line{0};

@@ -77,7 +77,7 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
     at_ = to;
     block = Block{};
     block.displacement = path_offset(from, to);
-    block.rapid = move.kind == path::MoveKind::kRapid;
+    block.kind = move.kind;
     block.filter = filter_;
     block.line = move.line;
     if (arc != nullptr) {

@@ -153,8 +153,9 @@ bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
     curve.start = corner + to_position(t0 * -reach);
     curve.end = corner + to_position(t1 * reach);
     if (before.kind != after.kind) {
-        curve.kind = path::MoveKind::kFeed;
-        curve.feed = before.kind == path::MoveKind::kFeed ? before.feed : after.feed;
+        const path::Move& fed = before.kind == path::MoveKind::kRapid ? after : before;
+        curve.kind = fed.kind;
+        curve.feed = fed.feed;
     } else {
         curve.feed = std::min(before.feed, after.feed);
     }
@@ -167,7 +168,8 @@ bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
         piece.points[i] = to_float(points[i]);
         piece.weights[i] = 1.0F;
     }
-    const float feed = curve.kind == path::MoveKind::kFeed ? curve.feed : norm(limits_.velocity);
+    const bool rapid = curve.kind == path::MoveKind::kRapid;
+    const float feed = rapid ? norm(limits_.velocity) : curve.feed;
     if (!faster_than_stop(piece, static_cast<float>(reach), feed, static_cast<float>(deviation))) {
         return false;
     }

@@ -60,7 +60,7 @@ Allowance feed_alone(float squared_feed) noexcept
 
 void IntervalBuilder::refresh_time(Interval& interval) noexcept
 {
-    const float speed = greatest_speed(interval.allowance, interval.rapid);
+    const float speed = greatest_speed(interval.allowance, interval.kind);
     const float time =
         std::min(millimetres(interval.length) / std::max(speed, 1e-6F), kLongestTime);
     const auto units = static_cast<std::uint32_t>(time * kTimeUnitsPerSecond);
@@ -77,20 +77,20 @@ void IntervalBuilder::restrict(Interval& interval, const Allowance& allowance) n
 
 void IntervalBuilder::append_piece(std::uint32_t length,
                                    const Allowance& allowance,
-                                   bool rapid) noexcept
+                                   path::MoveKind kind) noexcept
 {
     Interval interval{};
     interval.length = length;
     interval.allowance = allowance;
-    interval.rapid = rapid;
+    interval.kind = kind;
     refresh_time(interval);
     queue_.append_interval(interval);
 }
 
-void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept
+void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, path::MoveKind kind) noexcept
 {
     const Allowance limits = limits_alone(allowance);
-    const float limits_reach = greatest_speed(allowance, rapid) * reach_.limit;
+    const float limits_reach = greatest_speed(allowance, kind) * reach_.limit;
     const float feed_reach = std::sqrt(kGreatestFeedFactor * allowance.feed) * reach_.feed;
     spread_back(limits_reach, limits);
     spread_feed_back(feed_reach, allowance.feed);
@@ -98,7 +98,7 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
 
     // Cut where a limit carried over from earlier stretches ends.
     std::uint32_t left = length;
-    const float shortest = shortest_piece(greatest_speed(allowance, rapid));
+    const float shortest = shortest_piece(greatest_speed(allowance, kind));
     while (left > 0) {
         std::uint32_t piece = left;
         Allowance all = allowance;
@@ -115,7 +115,7 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
         if (millimetres(left - piece) < shortest) {
             piece = left;
         }
-        append_piece(piece, all, rapid);
+        append_piece(piece, all, kind);
         left -= piece;
         travel(millimetres(piece));
     }
@@ -164,7 +164,7 @@ void IntervalBuilder::spread_back(float distance,
         const float length = millimetres(interval.length);
         if (binds_on(interval.allowance)) {
             const float shortest =
-                shortest_piece(greatest_speed(interval.allowance, interval.rapid));
+                shortest_piece(greatest_speed(interval.allowance, interval.kind));
             const float reached = std::max(left, shortest);
             if (length - reached > shortest && queue_.free_intervals() > kMostPerAppend) {
                 restrict_end(at - 1, reached, allowance);

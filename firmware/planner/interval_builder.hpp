@@ -29,7 +29,7 @@ public:
     static constexpr std::uint32_t kMostPerAppend = 12;
 
     // Adds a stretch at the end of the path.
-    void append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
+    void append(std::uint32_t length, const Allowance& allowance, path::MoveKind kind) noexcept;
 
     // Spreads the limit of a junction, `distance` mm before the end of the path so far.
     void add_junction(const JunctionShare& junction, float distance) noexcept;
@@ -61,7 +61,7 @@ private:
     void keep_carries(Keep keep) noexcept;
     void merge_closest_carries() noexcept;
     void travel(float distance) noexcept;
-    void append_piece(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
+    void append_piece(std::uint32_t length, const Allowance& allowance, path::MoveKind kind) noexcept;
     void publish_to(std::uint32_t end) noexcept;
     void refresh_time(Interval& interval) noexcept;
     void restrict(Interval& interval, const Allowance& allowance) noexcept;

@@ -91,7 +91,7 @@ Vec3f unit(Vec3f a) noexcept
 
 bool LineSmoother::accepts(const path::Move& move) noexcept
 {
-    if (move.kind != path::MoveKind::kFeed || move.tolerance <= 0 ||
+    if (move.kind == path::MoveKind::kRapid || move.tolerance <= 0 ||
         !std::holds_alternative<path::Line>(move.path) || move.start == move.end ||
         !is_short(move.end - move.start)) {
         return false;
@@ -108,7 +108,7 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     }
     const Vec3<std::int32_t>& last = vertices_[count - 1].at;
     const Position end = origin_ + Position{last.x, last.y, last.z};
-    if (move.feed != feed_ || move.tolerance != tolerance_ || end != move.start) {
+    if (move.kind != kind_ || move.feed != feed_ || move.tolerance != tolerance_ || end != move.start) {
         return false;
     }
     const Vec3f before = unit(between(count - 2, count - 1));

@@ -30,7 +30,7 @@ struct Ahead {
     float speed;
     float feed;
     float feed_origin;
-    bool origin_is_rapid;
+    path::MoveKind feed_kind;
 };
 
 // Takes the limits at the interval's end to those at its start. False where nothing changed.
@@ -42,7 +42,7 @@ bool update(Interval& interval, Ahead& ahead, float half_filter) noexcept
     const bool stops = interval.stop_at_end;
     const float end = stops ? 0.0F : std::min(cap, ahead.speed);
     if (stops || own_feed <= ahead.feed) {
-        ahead = {0.0F, own_feed, own_feed, interval.rapid};
+        ahead = {0.0F, own_feed, own_feed, interval.kind};
     }
     if (end == envelope.end_speed && ahead.feed == envelope.feed_end && envelope.slope > 0) {
         return false;
@@ -53,7 +53,7 @@ bool update(Interval& interval, Ahead& ahead, float half_filter) noexcept
     const float slope = braking(envelope.limit, end, length, half_filter);
     envelope.slope = slope;
     envelope.feed_origin = ahead.feed_origin;
-    interval.origin_is_rapid = ahead.origin_is_rapid;
+    interval.origin_kind = ahead.feed_kind;
     std::atomic_signal_fence(std::memory_order_seq_cst);
     envelope.end_speed = end;
     envelope.feed_end = ahead.feed;
@@ -62,7 +62,7 @@ bool update(Interval& interval, Ahead& ahead, float half_filter) noexcept
     ahead.speed = std::min(cap, end + gained);
     ahead.feed += gained;
     if (own_feed <= ahead.feed) {
-        ahead = {ahead.speed, own_feed, own_feed, interval.rapid};
+        ahead = {ahead.speed, own_feed, own_feed, interval.kind};
     }
     return true;
 }
@@ -71,7 +71,7 @@ bool update(Interval& interval, Ahead& ahead, float half_filter) noexcept
 
 void look_ahead(PathQueue& queue) noexcept
 {
-    Ahead ahead{0.0F, kUnlimited, kUnlimited, false};
+    Ahead ahead{0.0F, kUnlimited, kUnlimited, path::MoveKind::kFeed};
     const std::uint32_t begin = queue.interval_begin();
     const float half_filter = queue.half_filter();
     for (std::uint32_t i = queue.published(); i != begin; --i) {

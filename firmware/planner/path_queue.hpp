@@ -37,8 +37,8 @@ struct Interval {
     };
     bool stop_at_end;      // the path filter drains there before the path continues,
     std::uint8_t overlap;  // but for so many ticks
-    bool rapid;
-    bool origin_is_rapid;
+    path::MoveKind kind;
+    path::MoveKind origin_kind;  // of the move that feed_origin is from
 };
 
 inline constexpr std::uint32_t kBlockCount = 256;

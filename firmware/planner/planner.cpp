@@ -315,7 +315,7 @@ void Planner::join(const EndGeometry& after,
                    const Stretch& first,
                    const Allowance& of_first) noexcept
 {
-    const float fastest = std::min(end_speed_, greatest_speed(of_first, block.rapid));
+    const float fastest = std::min(end_speed_, greatest_speed(of_first, block.kind));
     const float window = window_of(end_filter_);
     const Junction junction = make_junction(
         *end_, after, larger(bounds_behind(fastest * window), to_vec(first.derivatives)));

@@ -26,11 +26,12 @@ float jerk_share(const path::Move& move) noexcept
 Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
-    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
+    const float feed = std::min(move_.feed, kGreatestSpeed);
     const auto within = [&](const MachineLimits& limits) {
         Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
                                       kGreatestSpeed, jerk_share(move_));
-        of_part.feed = feed * feed;
+        // What an override of rapids scales is the speed that the axes allow.
+        of_part.feed = block.kind == path::MoveKind::kRapid ? of_part.cap : feed * feed;
         return of_part;
     };
     if (block.shape != BlockShape::kCurve) {
@@ -59,7 +60,7 @@ void Planner::add_stretch() noexcept
     while (++next_stretch_ != stretches_) {
         read_stretch();
         const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
-        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
+        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.kind);
         if (!is_short && !are_alike(of_first, ahead.allowance)) {
             break;
         }
@@ -74,10 +75,10 @@ void Planner::add_stretch() noexcept
     const PathDerivatives bounds = to_vec(whole.derivatives);
     apply_junction_limits(bounds);
     spread_bend(bounds.second);
-    builder_.append(whole.end - begin, allowed, block.rapid);
+    builder_.append(whole.end - begin, allowed, block.kind);
     spread_bend(bounds.second);
     age_bounds(bounds, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
-    end_speed_ = greatest_speed(allowed, block.rapid);
+    end_speed_ = greatest_speed(allowed, block.kind);
 }
 
 }  // namespace cusp::planner

@@ -8,6 +8,7 @@
 #include "firmware/base/lane_vec.hpp"
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/vec.hpp"
+#include "firmware/path/move.hpp"
 
 namespace cusp::planner {
 
@@ -153,9 +154,10 @@ SpeedLimit speed_limit(const Allowance& allowance, float half_filter) noexcept;
 inline constexpr float kGreatestFeedFactor = 4.0F;
 
 // The fastest that caps and feed allow at any override, mm/s.
-inline float greatest_speed(const Allowance& allowance, bool rapid) noexcept
+inline float greatest_speed(const Allowance& allowance, path::MoveKind kind) noexcept
 {
-    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
+    const bool scaled_up = kind == path::MoveKind::kFeed;
+    const float feed = scaled_up ? kGreatestFeedFactor * allowance.feed : allowance.feed;
     return std::sqrt(std::min(allowance.cap, feed));
 }
 

@@ -87,7 +87,7 @@ PathEnd end_of(const Curve::Place& place) noexcept
 
 bool may_join(const path::Move& move) noexcept
 {
-    return move.kind == path::MoveKind::kFeed && move.departure <= 0;
+    return move.kind != path::MoveKind::kRapid && move.departure <= 0;
 }
 
 // Speed, squared, at which a jump of curvature takes all of the jerk.

@@ -49,7 +49,7 @@ private:
             return "a move does not start where the one before ended";
         }
         at_ = move.end;
-        if (move.kind == path::MoveKind::kFeed && !(move.feed >= 0 && move.feed < 1e12F)) {
+        if (move.kind != path::MoveKind::kRapid && !(move.feed >= 0 && move.feed < 1e12F)) {
             return "a feed is no speed";
         }
         const double length = path::length(move);

@@ -49,7 +49,10 @@ private:
             return;
         }
         path::Move move;
-        move.kind = number() % 6 == 0 ? path::MoveKind::kRapid : path::MoveKind::kFeed;
+        const std::uint64_t scaling = number() % 6;
+        move.kind = scaling == 0   ? path::MoveKind::kRapid
+                    : scaling == 1 ? path::MoveKind::kFixedFeed
+                                : path::MoveKind::kFeed;
         move.start = at_;
         move.tolerance = tolerance_;
         move.feed = feed_;

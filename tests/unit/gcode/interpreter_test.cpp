@@ -201,7 +201,7 @@ TEST(Interpreter, JogsWithoutTouchingTheModalState)
     at(26.4, 0, 0);
     CHECK(!runner.interpreter.modal().inches);
     CHECK(!runner.interpreter.modal().incremental);
-    CHECK(runner.last_move().kind == path::MoveKind::kFeed);
+    CHECK(runner.last_move().kind == path::MoveKind::kFixedFeed);
     LONGS_EQUAL(22, runner.jog("X1"));
     LONGS_EQUAL(16, runner.jog("G1 X1 F100"));
     LONGS_EQUAL(16, runner.jog("M3 X1 F100"));
