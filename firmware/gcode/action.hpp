@@ -26,11 +26,6 @@ struct Spindle {
     float speed;  // rpm
 };
 
-struct Coolant {
-    bool flood;
-    bool mist;
-};
-
 // Offsets or stored positions have changed: `Interpreter::parameters()` holds the new ones.
 struct ParametersChanged {
     bool keep;          // through a power cycle: all but G92, G92.1, G43, G43.1 and G49

@@ -257,13 +257,16 @@ Status apply_m(Command& command, Code code) noexcept
             break;
         case 7:
             modal.mist = true;
+            command.coolant = Coolant::kMist;
             break;
         case 8:
             modal.flood = true;
+            command.coolant = Coolant::kFlood;
             break;
         case 9:
             modal.mist = false;
             modal.flood = false;
+            command.coolant = Coolant::kOff;
             break;
         case 2:
         case 30:

@@ -70,6 +70,7 @@ struct Command {
     NonModal non_modal{NonModal::kNone};
     ToolLength tool_length{ToolLength::kUnchanged};
     ProgramFlow flow{ProgramFlow::kRunning};
+    Coolant coolant{Coolant::kOff};  // where the line names it
     bool ends_curve{false};   // G5.3
     std::uint32_t groups{0};  // one bit a Group
     LetterSet words{0};       // value words present

@@ -146,7 +146,7 @@ void plan_switches(const LineContext& line, const ModalState& before, MotionPlan
         plan.add(MotionPlan::Step::kSpindle);
     }
     if (command.names(Group::kCoolant)) {
-        plan.coolant = {modal.flood, modal.mist};
+        plan.coolant = command.coolant;
         plan.add(MotionPlan::Step::kCoolant);
     }
 }
@@ -322,6 +322,12 @@ void Interpreter::end_program() noexcept
     modal_.flood = false;
     modal_.mist = false;
     drill_ = {};
+}
+
+void Interpreter::set_coolant(bool flood, bool mist) noexcept
+{
+    modal_.flood = flood;
+    modal_.mist = mist;
 }
 
 Status Interpreter::execute_jog(std::string_view text, std::uint32_t number) noexcept

@@ -71,6 +71,10 @@ public:
     // The path tolerance of $11, mm, in force at power-up, after M2 and M30 and with G64 alone.
     void set_default_tolerance(float mm) noexcept { default_tolerance_ = mm; }
 
+    // The operator or an alarm has switched them.
+    void set_coolant(bool flood, bool mist) noexcept;
+    void set_spindle_off() noexcept { modal_.spindle = SpindleMode::kOff; }
+
     // Holds until the next call.
     void set_tool_change_rule(ToolChangeRule rule) noexcept { tool_change_rule_ = rule; }
 

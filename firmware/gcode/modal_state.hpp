@@ -32,6 +32,9 @@ enum class Motion : std::uint8_t {
 
 enum class SpindleMode : std::uint8_t { kOff, kClockwise, kCounterClockwise };  // M5 M3 M4
 
+// The word of a line; M7 and M8 leave the other on.
+enum class Coolant : std::uint8_t { kOff, kMist, kFlood };  // M9 M7 M8
+
 struct ModalState {
     Motion motion{Motion::kRapid};
     path::Plane plane{path::Plane::kXY};

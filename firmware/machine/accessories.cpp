@@ -25,12 +25,29 @@ std::uint16_t spindle_pwm(float speed, const Settings& settings) noexcept
 
 }  // namespace
 
-std::uint32_t Accessories::restoring_ticks() const noexcept
+bool Accessories::spindle_starts_after(const Accessories& before) const noexcept
+{
+    const bool turned = before.spindle_on() && before.spindle == spindle &&
+                        (before.speed > 0 || speed <= 0);
+    return spindle_on() && !turned;
+}
+
+std::uint32_t spindle_ticks(const Settings& settings) noexcept
+{
+    constexpr auto kTicksPerSecond = static_cast<float>(kServoTicksPerSecond);
+    return static_cast<std::uint32_t>(settings.value(Setting::kSpindleDelay) * kTicksPerSecond +
+                                      0.5F);
+}
+
+std::uint32_t restoring_ticks(const Accessories& accessories, const Settings& settings) noexcept
 {
     constexpr std::uint32_t kSpindleUp = 4000;
     constexpr std::uint32_t kCoolantOn = 1000;
-    const bool coolant = flood || mist;
-    return spindle != gcode::SpindleMode::kOff ? kSpindleUp : coolant ? kCoolantOn : 0U;
+    const bool coolant = accessories.flood_on() || accessories.mist_on();
+    if (!accessories.spindle_on()) {
+        return coolant ? kCoolantOn : 0U;
+    }
+    return settings.on(Setting::kSpindleDelay) ? spindle_ticks(settings) : kSpindleUp;
 }
 
 float spindle_speed(const Accessories& accessories,

@@ -26,10 +26,17 @@ struct Accessories {
     bool flood_on() const noexcept { return flood && !coolant_paused && !changing_tool; }
     bool mist_on() const noexcept { return mist && !coolant_paused && !changing_tool; }
 
-    // Servo ticks until what the program wants on is up to speed, once it is switched on again: as
-    // long as Grbl waits behind its door.
-    std::uint32_t restoring_ticks() const noexcept;
+    // Whether the spindle, off or slower before, has to come up to speed now: it was switched on, given
+    // a speed or turned about.
+    bool spindle_starts_after(const Accessories& before) const noexcept;
 };
+
+// Servo ticks until the spindle is up once it was switched on: $394.
+std::uint32_t spindle_ticks(const Settings& settings) noexcept;
+
+// Servo ticks until all that is on is up, once a door or the operator has stopped it: as long as Grbl
+// waits, 4 s for the spindle and 1 s for coolant. $394 tells better where it is not 0.
+std::uint32_t restoring_ticks(const Accessories& accessories, const Settings& settings) noexcept;
 
 // Speed of the spindle, rpm: the programmed speed with the override, inside $31 to $30. 0 when
 // it is off.

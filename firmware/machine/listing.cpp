@@ -187,7 +187,6 @@ bool write_listing_line(Listing listing,
 }
 
 void write_modal_state(const gcode::ModalState& modal,
-                       const Accessories& accessories,
                        const Settings& settings,
                        ReplyQueue& out) noexcept
 {
@@ -197,7 +196,7 @@ void write_modal_state(const gcode::ModalState& modal,
         .text(gcode::kCoordinateSystemNames[modal.coordinate_system]);
     (void)out.text(word_of(modal.plane)).text(modal.inches ? " G20" : " G21");
     (void)out.text(modal.incremental ? " G91" : " G90").text(modal.inverse_time ? " G93" : " G94");
-    switch (accessories.spindle) {
+    switch (modal.spindle) {
         case gcode::SpindleMode::kOff:
             (void)out.text(" M5");
             break;
@@ -208,13 +207,13 @@ void write_modal_state(const gcode::ModalState& modal,
             (void)out.text(" M4");
             break;
     }
-    if (accessories.mist) {
+    if (modal.mist) {
         (void)out.text(" M7");
     }
-    if (accessories.flood) {
+    if (modal.flood) {
         (void)out.text(" M8");
     }
-    if (!accessories.mist && !accessories.flood) {
+    if (!modal.mist && !modal.flood) {
         (void)out.text(" M9");
     }
     (void)out.text(" T").number(modal.tool).text(" F");

@@ -38,7 +38,6 @@ void write_probe(const ProbeResult& probe, bool inches, protocol::ReplyQueue& ou
 
 // `$G`: [GC:G0 G54 ...].
 void write_modal_state(const gcode::ModalState& modal,
-                       const Accessories& accessories,
                        const Settings& settings,
                        protocol::ReplyQueue& out) noexcept;
 

@@ -106,7 +106,7 @@ bool Machine::poll() noexcept
 // closed: a person must be able to drive off one.
 void Machine::guard_limits() noexcept
 {
-    const bool moves = state_ != State::kAlarm && state_ != State::kHome &&
+    const bool moves = state_ != State::kAlarm && task_ != Task::kHome &&
                        state_ != State::kSleep && state_ != State::kCheck;
     if (!moves || !stored_.settings.on(Setting::kHardLimits)) {
         motion_.guard_limits(false);
@@ -121,6 +121,9 @@ bool Machine::follow_motion() noexcept
     if (!motion_.settled()) {
         still_since_ = motion_.ticks();
         has_moved_ = true;
+    }
+    if (coming_up_ && static_cast<std::int32_t>(motion_.ticks() - up_at_) >= 0) {
+        coming_up_ = false;
     }
     if (jog_cancelled_) {
         if (!motion_.at_rest()) {
@@ -153,9 +156,9 @@ bool Machine::follow_motion() noexcept
             }
             return false;
         case State::kDoor:
-            follow_door();
-            return false;
         case State::kHold:
+            follow_hold();
+            return false;
         case State::kAlarm:
         case State::kCheck:
         case State::kHome:
@@ -165,24 +168,25 @@ bool Machine::follow_motion() noexcept
     return false;
 }
 
-void Machine::follow_door() noexcept
+// A door stops spindle and coolant once the tool rests. A start goes on once they are up.
+void Machine::follow_hold() noexcept
 {
     if (!motion_.at_rest()) {
         return;
     }
-    if (door_restoring_ && input_on(kDoor)) {
-        door_restoring_ = false;
-    }
-    if (!door_restoring_) {
+    starting_ = starting_ && !(state_ == State::kDoor && input_on(kDoor));
+    if (state_ == State::kDoor && !starting_) {
         accessories_.spindle_paused = true;
         accessories_.coolant_paused = true;
+    }
+    if (!starting_ || coming_up_) {
         return;
     }
-    if (static_cast<std::int32_t>(motion_.ticks() - door_restored_at_) >= 0) {
-        door_restoring_ = false;
-        motion_.resume();
-        state_ = motion_.finished() ? State::kIdle : State::kRun;
-    }
+    starting_ = false;
+    motion_.resume();
+    state_ = task_ == Task::kHome ? State::kHome
+             : motion_.finished() ? State::kIdle
+                                  : State::kRun;
 }
 
 // Discards all moves and lines in progress; the machine stays at its position.
@@ -197,12 +201,12 @@ void Machine::drop_all() noexcept
     action_waits_ = false;
     jog_cancelled_ = false;
     hold_pending_ = false;
-    door_restoring_ = false;
+    starting_ = false;
     startup_next_ = kStartupLineCount;
     answer_after_startup_ = false;
     reset_after_answer_ = false;
     lost_answers_ = 0;
-    accessories_ = Accessories{};
+    switch_off();
 }
 
 void Machine::raise(Alarm alarm) noexcept
@@ -241,7 +245,7 @@ void Machine::frame_missed() noexcept { frame_missed_ = true; }
 void Machine::reset() noexcept
 {
     const bool moving = !motion_.at_rest();
-    const bool homing = state_ == State::kHome;
+    const bool homing = task_ == Task::kHome;
     const bool lock =
         state_ == State::kAlarm || state_ == State::kSleep || (state_ == State::kCheck && locked_);
     drop_all();
@@ -306,11 +310,7 @@ OutputLevels Machine::outputs() const noexcept
     const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;
     const bool stopped = state_ == State::kSleep || alarm_ == Alarm::kEmergencyStop;
     const bool drives = !stopped && (idle_lock == kAlwaysOn || (has_moved_ && !still));
-    Accessories accessories = accessories_;
-    if (state_ == State::kSleep) {
-        accessories = Accessories{};
-    }
-    return output_levels(accessories, overrides_.spindle, drives, stored_.settings);
+    return output_levels(accessories_, overrides_.spindle, drives, stored_.settings);
 }
 
 void Machine::report_status() noexcept
@@ -323,7 +323,7 @@ void Machine::report_status() noexcept
     if (state_ == State::kDoor) {
         const std::uint8_t stopped = input_on(kDoor) ? 1 : 0;
         status.substate = !motion_.at_rest() ? std::uint8_t{2}
-                          : door_restoring_  ? std::uint8_t{3}
+                          : starting_        ? std::uint8_t{3}
                                              : stopped;
     }
     status.position = motion_.position();

@@ -91,6 +91,7 @@ private:
         kNone,
         kActions,  // steps of G-code
         kDwell,
+        kSpindleUp,
         kProbe,
         kHome,
         kToolChange,
@@ -112,11 +113,15 @@ private:
     void open_door() noexcept;
     void cancel_jog() noexcept;
     void toggle_spindle_stop() noexcept;
+    void toggle_coolant(protocol::RealtimeCommand command) noexcept;
+    void switch_coolant(bool flood, bool mist) noexcept;
+    void switch_off() noexcept;
+    void wait_until_up(std::uint32_t ticks) noexcept;
 
     // machine.cpp
     void guard_limits() noexcept;
     bool follow_motion() noexcept;
-    void follow_door() noexcept;
+    void follow_hold() noexcept;
     // Stops everything; the line that waits is answered with an error.
     void raise(Alarm alarm) noexcept;
     // As above, but the caller answers.
@@ -183,6 +188,7 @@ private:
     bool perform(const gcode::ProgramEnd& end) noexcept;
     bool wait_settled() noexcept;
     bool step_dwell() noexcept;
+    bool step_spindle_up() noexcept;
     bool step_probe() noexcept;
     bool step_home() noexcept;
     bool step_listing() noexcept;
@@ -219,8 +225,9 @@ private:
     bool locked_{false};        // check mode was entered from an alarm
     bool hold_pending_{false};  // M0: the hold begins once the line is answered
     bool jog_cancelled_{false};
-    bool door_restoring_{false};
-    std::uint32_t door_restored_at_{0};
+    bool starting_{false};   // a cycle start waits for what comes up
+    bool coming_up_{false};  // spindle or coolant, until up_at_
+    std::uint32_t up_at_{0};
 
     // Realtime commands that wait for the next slice.
     bool reset_wanted_{false};

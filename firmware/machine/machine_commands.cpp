@@ -85,7 +85,7 @@ void Machine::perform(const SystemCommand& command) noexcept
             start_listing(Listing::kBuild);
             return;
         case SystemCommandKind::kParserState:
-            write_modal_state(interpreter_.modal(), accessories_, stored_.settings, replies_);
+            write_modal_state(interpreter_.modal(), stored_.settings, replies_);
             break;
         case SystemCommandKind::kSetSetting:
             set_setting(command.number, command.value);
@@ -110,6 +110,7 @@ void Machine::perform(const SystemCommand& command) noexcept
             return;
         case SystemCommandKind::kSleep:
             state_ = State::kSleep;
+            switch_off();
             break;
         case SystemCommandKind::kRestoreSettings:
             restore(true, false, false);

@@ -58,12 +58,7 @@ void Machine::act(RealtimeCommand command) noexcept
             return;
         case RealtimeCommand::kFloodToggle:
         case RealtimeCommand::kMistToggle:
-            if (state_ == State::kIdle || state_ == State::kRun || state_ == State::kHold) {
-                bool& output = command == RealtimeCommand::kFloodToggle ? accessories_.flood
-                                                                        : accessories_.mist;
-                output = !output;
-                reporter_.overrides_changed();
-            }
+            toggle_coolant(command);
             return;
         case RealtimeCommand::kFeedOverrideReset:
         case RealtimeCommand::kFeedOverrideCoarsePlus:
@@ -195,29 +190,33 @@ void Machine::feed_hold() noexcept
     }
 }
 
+// Where nothing can move, in an alarm, a check or asleep, it means nothing. Behind a door it only
+// calls off the start: what moved there is held already.
 void Machine::hold_program() noexcept
 {
-    if (state_ == State::kIdle || state_ == State::kRun) {
+    const bool moves =
+        state_ == State::kIdle || state_ == State::kRun || state_ == State::kHome;
+    if (moves || starting_) {
         motion_.hold();
         state_ = State::kHold;
+        starting_ = false;
     }
 }
 
+// What a hold or the door has stopped is switched on again; motion goes on once it is up.
 void Machine::cycle_start() noexcept
 {
-    if (state_ == State::kDoor && motion_.at_rest() && !input_on(kDoor) && !door_restoring_) {
-        // The spindle comes up to speed before the tool moves.
-        accessories_.spindle_paused = false;
-        accessories_.coolant_paused = false;
-        door_restoring_ = true;
-        door_restored_at_ = motion_.ticks() + accessories_.restoring_ticks();
+    const bool closed = state_ == State::kDoor && !input_on(kDoor);
+    if ((state_ != State::kHold && !closed) || !motion_.at_rest() || starting_) {
         return;
     }
-    if (state_ == State::kHold && motion_.at_rest()) {
+    if (accessories_.spindle_paused || accessories_.coolant_paused) {
         accessories_.spindle_paused = false;
-        motion_.resume();
-        state_ = motion_.finished() ? State::kIdle : State::kRun;
+        accessories_.coolant_paused = false;
+        reporter_.overrides_changed();
+        wait_until_up(restoring_ticks(accessories_, stored_.settings));
     }
+    starting_ = true;
 }
 
 void Machine::open_door() noexcept
@@ -226,7 +225,7 @@ void Machine::open_door() noexcept
         return;
     }
     message("Check Door");
-    if (state_ == State::kHome) {
+    if (task_ == Task::kHome) {
         raise(Alarm::kHomingDoor);
         return;
     }
@@ -235,7 +234,7 @@ void Machine::open_door() noexcept
     }
     motion_.hold();
     state_ = State::kDoor;
-    door_restoring_ = false;
+    starting_ = false;
 }
 
 void Machine::cancel_jog() noexcept
@@ -253,14 +252,57 @@ void Machine::cancel_jog() noexcept
     }
 }
 
+// In a complete hold alone. Stopped again before it was up, it calls off the start.
 void Machine::toggle_spindle_stop() noexcept
 {
-    if (state_ != State::kHold || !motion_.at_rest() ||
+    if (state_ != State::kHold || !motion_.at_rest() || accessories_.changing_tool ||
         accessories_.spindle == gcode::SpindleMode::kOff) {
         return;
     }
     accessories_.spindle_paused = !accessories_.spindle_paused;
     reporter_.overrides_changed();
+    if (accessories_.spindle_paused) {
+        starting_ = false;
+    } else {
+        wait_until_up(restoring_ticks(accessories_, stored_.settings));
+    }
+}
+
+// The operator's M7, M8 and M9.
+void Machine::toggle_coolant(RealtimeCommand command) noexcept
+{
+    if (state_ != State::kIdle && state_ != State::kRun && state_ != State::kHold &&
+        state_ != State::kJog) {
+        return;
+    }
+    const bool flood = accessories_.flood;
+    const bool mist = accessories_.mist;
+    const bool of_flood = command == RealtimeCommand::kFloodToggle;
+    switch_coolant(of_flood ? !flood : flood, of_flood ? mist : !mist);
+}
+
+void Machine::switch_coolant(bool flood, bool mist) noexcept
+{
+    accessories_.flood = flood;
+    accessories_.mist = mist;
+    interpreter_.set_coolant(flood, mist);
+    reporter_.overrides_changed();
+}
+
+void Machine::switch_off() noexcept
+{
+    accessories_ = Accessories{};
+    coming_up_ = false;
+    interpreter_.set_coolant(false, false);
+    interpreter_.set_spindle_off();
+    reporter_.overrides_changed();
+}
+
+// What was switched on takes so long to come up; nothing moves meanwhile.
+void Machine::wait_until_up(std::uint32_t ticks) noexcept
+{
+    coming_up_ = true;
+    up_at_ = motion_.ticks() + ticks;
 }
 
 }  // namespace cusp::machine

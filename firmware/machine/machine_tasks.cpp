@@ -13,6 +13,8 @@ bool Machine::step_task() noexcept
             return step_actions();
         case Task::kDwell:
             return step_dwell();
+        case Task::kSpindleUp:
+            return step_spindle_up();
         case Task::kProbe:
             return step_probe();
         case Task::kHome:
@@ -64,7 +66,7 @@ bool Machine::wait_settled() noexcept
 bool Machine::perform(const path::Move& move) noexcept
 {
     const bool limited = stored_.settings.on(Setting::kSoftLimits) && state_ != State::kCheck;
-    if (limited && !within_travel(move, stored_.settings)) {
+    if (limited && !may_travel(move, stored_.settings)) {
         if (jogging_line_) {
             resynchronise();
             finish_line(Error::kTravelExceeded);
@@ -109,7 +111,7 @@ bool Machine::perform(const gcode::Probe& probe) noexcept
         finish_line(std::nullopt);
         return true;
     }
-    if (stored_.settings.on(Setting::kSoftLimits) && !within_travel(probe.move, stored_.settings)) {
+    if (stored_.settings.on(Setting::kSoftLimits) && !may_travel(probe.move, stored_.settings)) {
         raise(Alarm::kSoftLimit);
         return true;
     }
@@ -182,10 +184,24 @@ bool Machine::perform(const gcode::Spindle& spindle) noexcept
     if (!wait_settled()) {
         return false;
     }
+    const Accessories before = accessories_;
     accessories_.spindle = spindle.mode;
     accessories_.speed = spindle.speed;
     accessories_.spindle_paused = false;
     reporter_.overrides_changed();
+    if (accessories_.spindle_starts_after(before)) {
+        wait_until_up(spindle_ticks(stored_.settings));
+        task_ = Task::kSpindleUp;
+    }
+    return true;
+}
+
+bool Machine::step_spindle_up() noexcept
+{
+    if (coming_up_) {
+        return false;
+    }
+    task_ = Task::kActions;
     return true;
 }
 
@@ -197,9 +213,9 @@ bool Machine::perform(const gcode::Coolant& coolant) noexcept
     if (!wait_settled()) {
         return false;
     }
-    accessories_.flood = coolant.flood;
-    accessories_.mist = coolant.mist;
-    reporter_.overrides_changed();
+    const bool on = coolant != gcode::Coolant::kOff;
+    switch_coolant(on && (accessories_.flood || coolant == gcode::Coolant::kFlood),
+                   on && (accessories_.mist || coolant == gcode::Coolant::kMist));
     return true;
 }
 
@@ -228,8 +244,8 @@ bool Machine::perform(const gcode::ParametersChanged& changed) noexcept
 
 bool Machine::perform(const gcode::Pause& pause) noexcept
 {
-    // As in Grbl there is no switch for an optional stop, so M1 does not stop.
-    if (state_ == State::kCheck || pause.optional) {
+    const bool passes = pause.optional && !stored_.settings.on(Setting::kOptionalStop);
+    if (state_ == State::kCheck || passes) {
         return true;
     }
     if (!wait_settled()) {

@@ -88,7 +88,8 @@ bool Machine::step_tool_change() noexcept
         case ToolChanger::Progress::kOverPart:
             accessories_.changing_tool = false;
             reporter_.overrides_changed();
-            tool_changer_.rest(motion_.ticks() + accessories_.restoring_ticks());
+            wait_until_up(restoring_ticks(accessories_, stored_.settings));
+            tool_changer_.rest(up_at_);
             break;
         case ToolChanger::Progress::kFailed:
             raise(tool_changer_.alarm());

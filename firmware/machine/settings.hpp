@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 and $394 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -59,11 +59,13 @@ enum class Setting : std::uint8_t {
     kSquarePercent,           // $347 %: of the travel that one switch may close later, but
     kSquareLeast,             // $348 mm: no less
     kSquareMost,              // $349 mm: no more
+    kSpindleDelay,            // $394 s: until the spindle is up; 0: see Accessories
     kLimitFilter,             // $790 ms
     kLinkWatchdog,            // $791 ms; 0: off
     kStopOnError,             // $792
     kSecondMotor,             // $793: axis with a second motor, 1 to 3; 0: none
     kSquaring,                // $794: the second motor has a switch of its own
+    kOptionalStop,            // $795: M1 stops
     kJerk,                    // $800 mm/s^3
     kShaperType = kJerk + 3,  // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz

@@ -45,7 +45,7 @@ private:
         std::uint32_t mark;
     };
     // "CUS" and the version of the record's layout: another one's records do not count.
-    static constexpr std::uint32_t kMark = 0x43555304;
+    static constexpr std::uint32_t kMark = 0x43555305;
     static constexpr std::uint32_t kErased = 0xFFFFFFFF;
     static constexpr std::uint32_t kChunk = 64;
     static constexpr unsigned kSectors = 2;

@@ -44,6 +44,24 @@ void include_turns(Extent& extent, const path::Arc& arc, unsigned axis, Position
     }
 }
 
+// A control point in float may lie a rounding outside.
+constexpr std::int64_t kRounding = 10;
+
+// Whether it lies between -travel and 0, or not beyond `edge`.
+bool holds(const Extent& extent, const Extent& edge, const Settings& settings) noexcept
+{
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        const std::int64_t travel =
+            to_nanometres(static_cast<double>(settings.value(Setting::kTravel, axis)));
+        const std::int64_t least = std::min(-travel - kRounding, edge.least[axis]);
+        const std::int64_t most = std::max(kRounding, edge.most[axis]);
+        if (extent.most[axis] > most || extent.least[axis] < least) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 Extent extent_of(const path::Move& move) noexcept
@@ -68,17 +86,13 @@ Extent extent_of(const path::Move& move) noexcept
 
 bool within_travel(const path::Move& move, const Settings& settings) noexcept
 {
-    const Extent extent = extent_of(move);
-    // A control point in float may lie a rounding outside.
-    constexpr std::int64_t kRounding = 10;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        const std::int64_t travel =
-            to_nanometres(static_cast<double>(settings.value(Setting::kTravel, axis)));
-        if (extent.most[axis] > kRounding || extent.least[axis] < -travel - kRounding) {
-            return false;
-        }
-    }
-    return true;
+    return holds(extent_of(move), {}, settings);
+}
+
+bool may_travel(const path::Move& move, const Settings& settings) noexcept
+{
+    const bool line = std::holds_alternative<path::Line>(move.path);
+    return holds(extent_of(move), line ? Extent{move.start, move.start} : Extent{}, settings);
 }
 
 }  // namespace cusp::machine

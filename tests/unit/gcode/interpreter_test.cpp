@@ -152,7 +152,7 @@ TEST(Interpreter, YieldsActionsInGrblsOrder)
     LONGS_EQUAL(4, std::get<ToolChange>(runner.actions[0]).tool);
     CHECK(std::get<Spindle>(runner.actions[1]).mode == SpindleMode::kClockwise);
     DOUBLES_EQUAL(1000, static_cast<double>(std::get<Spindle>(runner.actions[1]).speed), 0);
-    CHECK(std::get<Coolant>(runner.actions[2]).flood);
+    CHECK(std::get<Coolant>(runner.actions[2]) == Coolant::kFlood);
     DOUBLES_EQUAL(1.5, std::get<Dwell>(runner.actions[3]).seconds, 0);
     CHECK(std::holds_alternative<path::Move>(runner.actions[4]));
     CHECK(std::holds_alternative<ProgramEnd>(runner.actions[5]));

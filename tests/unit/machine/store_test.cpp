@@ -79,7 +79,7 @@ TEST(Store, KeepsTheTableOfTools)
 TEST(Store, TellsOfSettingsOfAnEarlierVersion)
 {
     (void)bench.exchange("$110=5000\n", 50);
-    constexpr std::uint32_t kMark = 0x43555304;
+    constexpr std::uint32_t kMark = 0x43555305;
     std::array<std::uint8_t, 4> mark{};
     auto& store = bench.board.settings_store;
     for (std::uint32_t at = 0; at + 4 <= store.sector_size(); at += 4) {
@@ -87,7 +87,7 @@ TEST(Store, TellsOfSettingsOfAnEarlierVersion)
         const std::uint32_t word =
             mark[0] | mark[1] << 8U | mark[2] << 16U | static_cast<std::uint32_t>(mark[3]) << 24U;
         if (word == kMark) {
-            store.damage(0, at, 0x07);  // 04 becomes 03
+            store.damage(0, at, 0x01);  // 05 becomes 04
         }
     }
     const PowerCycle again{store};
