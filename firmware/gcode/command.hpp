@@ -71,10 +71,10 @@ struct Command {
     ToolLength tool_length{ToolLength::kUnchanged};
     ProgramFlow flow{ProgramFlow::kRunning};
     Coolant coolant{Coolant::kOff};  // where the line names it
-    bool ends_curve{false};   // G5.3
-    std::uint32_t groups{0};  // one bit a Group
-    LetterSet words{0};       // value words present
-    LetterSet unused{0};      // value words not used yet
+    bool ends_curve{false};          // G5.3
+    std::uint32_t groups{0};         // one bit a Group
+    LetterSet words{0};              // value words present
+    LetterSet unused{0};             // value words not used yet
     std::array<Decimal, 26> values{};
 
     bool names(Group group) const noexcept

@@ -12,10 +12,7 @@ namespace cusp::interpolator {
 struct OverrideFactors {
     std::array<float, path::kMoveKinds> factors{1, 1, 1};
 
-    float of(path::MoveKind kind) const noexcept
-    {
-        return factors[static_cast<std::size_t>(kind)];
-    }
+    float of(path::MoveKind kind) const noexcept { return factors[static_cast<std::size_t>(kind)]; }
     void set(path::MoveKind kind, float factor) noexcept
     {
         factors[static_cast<std::size_t>(kind)] = factor;

@@ -147,8 +147,7 @@ inline bool PathServo::pass_intervals(Ahead& ahead, bool may_pass) noexcept
         const float slope = envelope.slope;
         least.speed = lower_root(envelope.limit.cap, least.speed);
         least.speed = speed_under(envelope.end_speed, slope, to_end, least.speed);
-        const float scaled_off =
-            (1.0F - factors.of(interval->origin_kind)) * envelope.feed_origin;
+        const float scaled_off = (1.0F - factors.of(interval->origin_kind)) * envelope.feed_origin;
         least.feed = lower_root(factors.of(interval->kind) * envelope.limit.feed, least.feed);
         least.feed = speed_under(envelope.feed_end - scaled_off, slope, to_end, least.feed);
         least.last = index;

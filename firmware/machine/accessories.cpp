@@ -27,8 +27,8 @@ std::uint16_t spindle_pwm(float speed, const Settings& settings) noexcept
 
 bool Accessories::spindle_starts_after(const Accessories& before) const noexcept
 {
-    const bool turned = before.spindle_on() && before.spindle == spindle &&
-                        (before.speed > 0 || speed <= 0);
+    const bool turned =
+        before.spindle_on() && before.spindle == spindle && (before.speed > 0 || speed <= 0);
     return spindle_on() && !turned;
 }
 

@@ -106,8 +106,8 @@ bool Machine::poll() noexcept
 // closed: a person must be able to drive off one.
 void Machine::guard_limits() noexcept
 {
-    const bool moves = state_ != State::kAlarm && task_ != Task::kHome &&
-                       state_ != State::kSleep && state_ != State::kCheck;
+    const bool moves = state_ != State::kAlarm && task_ != Task::kHome && state_ != State::kSleep &&
+                       state_ != State::kCheck;
     if (!moves || !stored_.settings.on(Setting::kHardLimits)) {
         motion_.guard_limits(false);
     } else if (!limit_on()) {
@@ -168,7 +168,7 @@ bool Machine::follow_motion() noexcept
     return false;
 }
 
-// A door stops spindle and coolant once the tool rests. A start goes on once they are up.
+// A door stops spindle and coolant once the tool rests. A start waits until they are up.
 void Machine::follow_hold() noexcept
 {
     if (!motion_.at_rest()) {
@@ -184,9 +184,7 @@ void Machine::follow_hold() noexcept
     }
     starting_ = false;
     motion_.resume();
-    state_ = task_ == Task::kHome ? State::kHome
-             : motion_.finished() ? State::kIdle
-                                  : State::kRun;
+    state_ = task_ == Task::kHome ? State::kHome : motion_.finished() ? State::kIdle : State::kRun;
 }
 
 // Discards all moves and lines in progress; the machine stays at its position.

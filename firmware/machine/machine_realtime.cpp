@@ -194,8 +194,7 @@ void Machine::feed_hold() noexcept
 // calls off the start: what moved there is held already.
 void Machine::hold_program() noexcept
 {
-    const bool moves =
-        state_ == State::kIdle || state_ == State::kRun || state_ == State::kHome;
+    const bool moves = state_ == State::kIdle || state_ == State::kRun || state_ == State::kHome;
     if (moves || starting_) {
         motion_.hold();
         state_ = State::kHold;
@@ -203,7 +202,7 @@ void Machine::hold_program() noexcept
     }
 }
 
-// What a hold or the door has stopped is switched on again; motion goes on once it is up.
+// What a hold or the door has stopped is switched on again; motion continues once it is up.
 void Machine::cycle_start() noexcept
 {
     const bool closed = state_ == State::kDoor && !input_on(kDoor);

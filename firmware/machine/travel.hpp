@@ -18,7 +18,7 @@ Extent extent_of(const path::Move& move) noexcept;
 // Whether all of it lies in Grbl's machine space, -travel to 0 on each axis.
 bool within_travel(const path::Move& move, const Settings& settings) noexcept;
 
-// Whether soft limits let it pass: it lies within the travel or, where the machine stands beyond it,
+// Whether soft limits let it pass: it lies within the travel or, where the machine is beyond it,
 // is a line that goes no further out on any axis: the way back.
 bool may_travel(const path::Move& move, const Settings& settings) noexcept;
 

@@ -87,7 +87,9 @@ void IntervalBuilder::append_piece(std::uint32_t length,
     queue_.append_interval(interval);
 }
 
-void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, path::MoveKind kind) noexcept
+void IntervalBuilder::append(std::uint32_t length,
+                             const Allowance& allowance,
+                             path::MoveKind kind) noexcept
 {
     const Allowance limits = limits_alone(allowance);
     const float limits_reach = greatest_speed(allowance, kind) * reach_.limit;

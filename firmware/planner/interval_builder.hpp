@@ -61,7 +61,9 @@ private:
     void keep_carries(Keep keep) noexcept;
     void merge_closest_carries() noexcept;
     void travel(float distance) noexcept;
-    void append_piece(std::uint32_t length, const Allowance& allowance, path::MoveKind kind) noexcept;
+    void append_piece(std::uint32_t length,
+                      const Allowance& allowance,
+                      path::MoveKind kind) noexcept;
     void publish_to(std::uint32_t end) noexcept;
     void refresh_time(Interval& interval) noexcept;
     void restrict(Interval& interval, const Allowance& allowance) noexcept;

@@ -108,7 +108,8 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     }
     const Vec3<std::int32_t>& last = vertices_[count - 1].at;
     const Position end = origin_ + Position{last.x, last.y, last.z};
-    if (move.kind != kind_ || move.feed != feed_ || move.tolerance != tolerance_ || end != move.start) {
+    if (move.kind != kind_ || move.feed != feed_ || move.tolerance != tolerance_ ||
+        end != move.start) {
         return false;
     }
     const Vec3f before = unit(between(count - 2, count - 1));

@@ -52,7 +52,7 @@ private:
         const std::uint64_t scaling = number() % 6;
         move.kind = scaling == 0   ? path::MoveKind::kRapid
                     : scaling == 1 ? path::MoveKind::kFixedFeed
-                                : path::MoveKind::kFeed;
+                                   : path::MoveKind::kFeed;
         move.start = at_;
         move.tolerance = tolerance_;
         move.feed = feed_;

@@ -29,19 +29,14 @@ struct OverriddenMoves {
     double mm_per_minute;
 };
 constexpr OverriddenMoves kNeverScaled[] = {
-    {"$J=G91 X20 F600\n", 600},
-    {"$J=G91 X2 F600\n$J=G91 Y2 F600\n", 600},
-    {"G91 G38.2 Z-20 F300\n", 300},
-    {"G91 G38.3 Z-20 F300\n", 300},
+    {"$J=G91 X20 F600\n", 600},      {"$J=G91 X2 F600\n$J=G91 Y2 F600\n", 600},
+    {"G91 G38.2 Z-20 F300\n", 300},  {"G91 G38.3 Z-20 F300\n", 300},
     {"G91 G38.5 X4 F300\n", 0},  // there is no contact to lose: alarm 4
-    {"G91 G93 G38.3 X4 F60\n", 240},
-    {"$H\n", 1500},
+    {"G91 G93 G38.3 X4 F60\n", 240}, {"$H\n", 1500},
 };
 constexpr OverriddenMoves kScaled[] = {
-    {"G91 G1 X20 F600\n", 600},
-    {"G91 G3 X4 I2 F600\n", 600},
-    {"G91 G93 G1 X20 F30\n", 600},
-    {"G91 G1 X20 Y20 F600\n", 600},
+    {"G91 G1 X20 F600\n", 600},         {"G91 G3 X4 I2 F600\n", 600},
+    {"G91 G93 G1 X20 F30\n", 600},      {"G91 G1 X20 Y20 F600\n", 600},
     {"G91 G83 Z-4 R0 Q4 F300\n", 3000},  // its rapids, which feed overrides leave alone
 };
 

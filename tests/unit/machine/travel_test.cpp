@@ -69,3 +69,30 @@ TEST(Travel, OfACurveIsThatOfItsControlPoints)
     LONGS_EQUAL(kMillimetre, extent_of(move).most.x);
     CHECK_FALSE(within_travel(move, settings));
 }
+
+// Beyond the travel by 5 mm in X and above it by 1 mm in Z.
+TEST(Travel, LetsALineComeBackAndGoNoFurtherOut)
+{
+    struct Way {
+        double x, y, z;
+        bool passes;
+    };
+    constexpr Way kWays[] = {
+        {-1, 0, 0, true},                          // into the travel
+        {2, -5, 1, true},                          // towards it
+        {5, -5, 0, true},                          // in again on one axis
+        {5, -40, 1, true},                         // no further out
+        {5.1, 0, 0, false},                        // further out
+        {-1, 0, 1.1, false}, {-301, 0, 0, false},  // out at the other end
+        {2, 1, 0, false},                          // out on an axis that was in
+    };
+    path::Move move;
+    move.start = {5 * kMillimetre, -kMillimetre, kMillimetre};
+    for (const Way& way : kWays) {
+        move.end = to_position({way.x, way.y, way.z});
+        CHECK(may_travel(move, settings) == way.passes);
+        CHECK(within_travel(move, settings) == false);
+    }
+    move.path = std::get<path::Arc>(arc_from_minus_ten(false, -10, -30).path);
+    CHECK_FALSE(may_travel(move, settings));
+}
