@@ -14,6 +14,13 @@ namespace cusp::files {
 // The content of a file. Throws InputError with the file's name and the system's reason.
 std::string text_of_file(const std::string& file);
 
+// Without the mark with which some editors begin a text in UTF-8.
+constexpr std::string_view without_byte_order_mark(std::string_view text)
+{
+    constexpr std::string_view kMark{"\xEF\xBB\xBF"};
+    return text.substr(text.substr(0, kMark.size()) == kMark ? kMark.size() : 0);
+}
+
 // An output file written through one large buffer. Throws InputError where the file can't be made
 // or written (the disk is full).
 class TextFile {

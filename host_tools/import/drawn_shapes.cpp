@@ -10,6 +10,15 @@ namespace cusp::import {
 
 using nurbs::Curve;
 
+std::vector<Curve> curves_of(const std::vector<DrawingPath>& paths)
+{
+    std::vector<Curve> all;
+    for (const DrawingPath& path : paths) {
+        all.insert(all.end(), path.curves.begin(), path.curves.end());
+    }
+    return all;
+}
+
 Curve line_curve(Vec2d a, Vec2d b)
 {
     return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};

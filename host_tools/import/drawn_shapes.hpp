@@ -7,6 +7,15 @@
 
 namespace cusp::import {
 
+// What one object of a drawing draws: its curves in order, each from the end of the one before.
+struct DrawingPath {
+    std::vector<nurbs::Curve> curves;
+    bool closed{};  // a loop by itself: as drawn, or since its ends meet
+};
+
+// All curves, in order.
+std::vector<nurbs::Curve> curves_of(const std::vector<DrawingPath>& paths);
+
 nurbs::Curve line_curve(Vec2d a, Vec2d b);
 
 // The arc about `centre` that starts at the angle `start`; a positive sweep is counter-clockwise.

@@ -7,7 +7,8 @@
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/files/files.hpp"
-#include "host_tools/import/number_ranges.hpp"
+#include "host_tools/import/dxf_text.hpp"
+#include "host_tools/import/dxf_units.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -34,7 +35,7 @@ std::string upper(std::string_view text)
 }  // namespace
 
 DxfDrawing::DxfDrawing(std::string file, double millimetres)
-    : file_{std::move(file)}, text_{files::text_of_file(file_)}, unit_{millimetres}
+    : file_{std::move(file)}, text_{dxf_text(files::text_of_file(file_), file_)}, unit_{millimetres}
 {
     groups_ = groups();
     read_unit();
@@ -106,23 +107,96 @@ std::vector<DxfEntity> DxfDrawing::section(std::string_view wanted, bool& found)
     return out;
 }
 
-void DxfDrawing::read_unit()
+// The first group of a variable of the header; nullptr: there is none.
+const DxfGroup* DxfDrawing::header_value(std::string_view name) const
 {
     bool asked = false;
     for (const DxfGroup& group : groups_) {
-        if (group.code == 9) {
-            asked = group.value == "$INSUNITS";
-        } else if (asked && group.code == 70) {
-            constexpr double kInches = 1;
-            constexpr double kMillimetres = 4;
-            const double unit = number(group);
-            names_unit_ = unit == kInches || unit == kMillimetres;
-            unit_ = unit == kInches ? kMillimetresPerInch : unit == kMillimetres ? 1.0 : unit_;
-            return;
-        } else if (group.code == 0 && group.value == "ENDSEC") {
-            return;  // of the header, the first section
+        if (asked && group.code != 9) {
+            return &group;
+        }
+        asked = group.code == 9 && group.value == name;
+        if (group.code == 0 && group.value == "ENDSEC") {
+            break;  // of the header, the first section
         }
     }
+    return nullptr;
+}
+
+void DxfDrawing::read_unit()
+{
+    const double assumed = unit_;
+    const DxfGroup* insertion = header_value("$INSUNITS");
+    const DxfGroup* measurement = header_value("$MEASUREMENT");
+    if (insertion != nullptr && number(*insertion) != 0) {
+        const double code = number(*insertion);
+        const bool small = std::abs(code) < 1000;
+        const DxfUnit* unit = small ? dxf_unit(static_cast<int>(code)) : nullptr;
+        if (unit == nullptr || code != std::floor(code)) {
+            refuse(insertion->line,
+                   fmt::format("$INSUNITS {:g} names no unit: known are 0 (none) to 24", code));
+        }
+        if (unit->millimetres == 0) {
+            refuse(insertion->line, fmt::format("$INSUNITS {:g}: the drawing is in {}: no unit of "
+                                                "parts",
+                                                code, unit->name));
+        }
+        unit_ = unit->millimetres;
+        unit_name_ = unit->name;
+        unit_note_ = fmt::format("$INSUNITS {:g} says {}", code, unit_name_);
+    } else if (measurement != nullptr) {
+        const bool metric = number(*measurement) != 0;
+        unit_ = metric ? 1.0 : kMillimetresPerInch;
+        unit_name_ = metric ? "millimetres" : "inches";
+        unit_note_ = fmt::format("no $INSUNITS, its $MEASUREMENT says {}", unit_name_);
+    }
+    unit_note_ = unit_ == assumed ? ""
+                                  : fmt::format("{}: {}: 1 unit of the drawing is {:.10g} mm",
+                                                file_, unit_note_, unit_);
+}
+
+template <class Visit>
+void DxfDrawing::each_group(const Visit& visit) const
+{
+    const auto each = [&](const std::vector<DxfEntity>& entities) {
+        for (const DxfEntity& entity : entities) {
+            for (const DxfGroup& group : entity.groups) {
+                visit(group);
+            }
+        }
+    };
+    each(entities_);
+    for (const auto& [name, block] : blocks_) {
+        each(block.entities);
+    }
+}
+
+double DxfDrawing::resolution() const
+{
+    std::size_t most = 0;
+    each_group([&](const DxfGroup& group) {
+        const bool coordinate =
+            group.code == 10 || group.code == 11 || group.code == 20 || group.code == 21;
+        const std::size_t point = group.value.find('.');
+        if (coordinate && point != std::string_view::npos) {
+            const bool exponent = group.value.find_first_of("eE") != std::string_view::npos;
+            const std::size_t last = group.value.find_last_not_of('0');
+            most = std::max(most, exponent ? group.value.size() : last - point);
+        }
+    });
+    return most == 0 ? 0 : unit_ * std::pow(10.0, -static_cast<double>(most));
+}
+
+bool DxfDrawing::has_depth() const
+{
+    bool found = false;
+    each_group([&](const DxfGroup& group) {
+        // z of points, elevation, x and y of the direction of extrusion
+        const bool asked = (group.code >= 30 && group.code <= 33) || group.code == 38 ||
+                           group.code == 210 || group.code == 220;
+        found = found || (asked && group.value.find_first_of("123456789") < group.value.size());
+    });
+    return found;
 }
 
 void DxfDrawing::read_layers()

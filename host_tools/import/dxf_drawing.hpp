@@ -33,7 +33,7 @@ struct DxfBlock {
 // with file and line.
 class DxfDrawing {
 public:
-    // millimetres  of one unit, where $INSUNITS doesn't name millimetres or inches
+    // millimetres  of one unit, where the drawing names none: neither by $INSUNITS nor by $MEASUREMENT
     DxfDrawing(std::string file, double millimetres);
     DxfDrawing(const DxfDrawing&) = delete;
     DxfDrawing& operator=(const DxfDrawing&) = delete;
@@ -42,8 +42,15 @@ public:
     // Names match in any case; no such block: nullptr.
     const DxfBlock* block(std::string_view name) const;
     double unit() const { return unit_; }  // mm
-    // Whether the drawing names millimetres or inches itself.
-    bool names_unit() const { return names_unit_; }
+    // As the drawing names it, "centimetres"; "": it names none.
+    const std::string& unit_name() const { return unit_name_; }
+    // A sentence on the unit where it is not the one that was handed in; else "".
+    const std::string& unit_note() const { return unit_note_; }
+    // mm: one unit of the last decimal place that coordinates of curves are written with; 0 where they
+    // are whole numbers.
+    double resolution() const;
+    // Whether anything may lie off the plane of x and y.
+    bool has_depth() const;
     // The names of all layers that objects are on, those in blocks included, in order.
     std::set<std::string> layers() const;
     // Layers that are switched off or frozen draw nothing.
@@ -65,6 +72,10 @@ public:
 
 private:
     std::vector<DxfGroup> groups() const;
+    // Calls visit(group) for every group of objects and blocks.
+    template <class Visit>
+    void each_group(const Visit& visit) const;
+    const DxfGroup* header_value(std::string_view name) const;
     std::vector<DxfEntity> section(std::string_view wanted, bool& found) const;
     void read_unit();
     void read_layers();
@@ -73,7 +84,8 @@ private:
     std::string file_;
     std::string text_;
     double unit_;
-    bool names_unit_{false};
+    std::string unit_name_;
+    std::string unit_note_;
     std::vector<DxfGroup> groups_;
     std::set<std::string_view> hidden_;
     std::map<std::string, DxfBlock> blocks_;

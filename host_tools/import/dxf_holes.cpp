@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -54,9 +55,10 @@ std::optional<Hole> circle_of(const Curve& curve)
     const Vec2d centre = 0.5 * (in_plan(point_at(curve, begin)) +
                                 in_plan(point_at(curve, begin + step * kSamples / 2)));
     const double radius = norm(in_plan(curve.points.front()) - centre);
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * norm(centre);
     for (int i = 0; i < kSamples; ++i) {
         const double away = norm(in_plan(point_at(curve, begin + i * step)) - centre);
-        if (!(std::abs(away - radius) <= kRoundness * radius)) {
+        if (!(std::abs(away - radius) <= kRoundness * radius + rounding)) {
             return std::nullopt;
         }
     }
@@ -184,7 +186,7 @@ std::vector<Hole> read_holes(const std::string& name,
                              std::vector<std::string>& notes)
 {
     const auto [file, layer] = parts_of(name);
-    const DxfPlaces drawn = read_dxf_places(file, millimetres, layer);
+    const DxfPlaces drawn = read_dxf_places(file, millimetres, layer, &notes);
     std::vector<Hole> all;
     for (const Vec2d place : drawn.points) {
         all.push_back({place, 0});
@@ -223,16 +225,40 @@ std::vector<Hole> read_holes(const std::string& name,
     return holes;
 }
 
+namespace {
+
+// Those of a JSON file are paths of one curve.
+std::vector<DrawingPath> read_paths(const std::string& name,
+                                    double millimetres,
+                                    std::vector<std::string>* notes)
+{
+    const auto [file, layer] = parts_of(name);
+    if (path_ending(file) != ".json") {
+        return read_dxf_paths(file, millimetres, layer, notes).paths;
+    }
+    std::vector<DrawingPath> paths;
+    for (Curve& curve : read_json_curves(file, millimetres)) {
+        paths.push_back({{std::move(curve)}, false});
+    }
+    return paths;
+}
+
+}  // namespace
+
+std::vector<Curve> read_curves(const std::string& name,
+                               double millimetres,
+                               std::vector<std::string>* notes)
+{
+    return curves_of(read_paths(name, millimetres, notes));
+}
+
 std::vector<Chain> read_chains(const std::string& name,
                                double millimetres,
                                std::vector<std::string>& notes)
 {
-    const auto [file, layer] = parts_of(name);
-    const std::vector<Curve> curves = path_ending(file) == ".json"
-                                          ? read_json_curves(file, millimetres)
-                                          : read_dxf_curves(file, millimetres, layer, &notes);
     std::size_t repeated = 0;
-    const std::vector<Curve> once = without_repeats(curves, repeated);
+    const std::vector<Curve> once =
+        without_repeats(read_curves(name, millimetres, &notes), repeated);
     if (repeated > 0) {
         notes.push_back(repeats_text(name, repeated));
     }

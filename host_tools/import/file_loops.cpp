@@ -8,6 +8,7 @@
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/loop_nesting.hpp"
 #include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/loop_shape.hpp"
 
@@ -29,16 +30,23 @@ namespace {
 {
     const OpenChain& chain = nesting.open.front();
     const auto others = nesting.open.size() - 1;
-    throw InputError(fmt::format(
-        "{}: the loop is open: {} curve{} from x {:.6g} y {:.6g} to x {:.6g} y {:.6g} mm; the gap "
+    std::string text = fmt::format(
+        "{}: the loop is open: {} from x {:.6g} y {:.6g} to x {:.6g} y {:.6g} mm; the gap "
         "from x {:.6g} y {:.6g} to the nearest end, x {:.6g} y {:.6g}, is {:.6g} mm, the limit is "
-        "{:g} (plan_tolerance){}",
-        name, chain.curves, chain.curves == 1 ? "" : "s", chain.begin.x, chain.begin.y, chain.end.x,
+        "{:g} mm: join_gaps of the operation closes wider ones",
+        name, counted(chain.curves, "curve"), chain.begin.x, chain.begin.y, chain.end.x,
         chain.end.y, chain.gap_from.x, chain.gap_from.y, chain.gap_to.x, chain.gap_to.y, chain.gap,
-        join,
-        others == 0 ? ""
-                    : fmt::format("; {} more open chain{}: cusp info lists all", others,
-                                  others == 1 ? "" : "s")));
+        join);
+    if (nesting.junction) {
+        text += fmt::format(
+            "; {} ends meet at x {:.6g} y {:.6g} mm, where more than one way "
+            "continues: closed polylines stay apart there",
+            nesting.junction_ends, nesting.junction->x, nesting.junction->y);
+    }
+    if (others > 0) {
+        text += fmt::format("; {}: cusp info lists all", counted(others, "more open chain"));
+    }
+    throw InputError(text);
 }
 
 void describe_loops(const std::string& name,
@@ -51,7 +59,7 @@ void describe_loops(const std::string& name,
     }
     if (nesting.bridged > 0) {
         notes.push_back(fmt::format(
-            "{}: {} {:.3g} mm {} joined; the limit is {:g} mm (plan_tolerance)", name,
+            "{}: {} {:.3g} mm {} joined; the limit is {:g} mm (join_gaps)", name,
             nesting.bridged == 1 ? "a gap of" : fmt::format("{} gaps of up to", nesting.bridged),
             nesting.widest_gap, nesting.bridged == 1 ? "is" : "are", join));
     }
@@ -59,13 +67,16 @@ void describe_loops(const std::string& name,
 
 std::vector<FileLoop> drawn_loops(const std::string& name,
                                   double millimetres,
-                                  double join,
+                                  EndDistance gaps,
                                   std::vector<std::string>& notes)
 {
     const std::size_t mark = layer_mark(name);
     const std::string file = name.substr(0, mark);
     const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
-    const LoopNesting nesting = nest_loops(read_dxf_curves(file, millimetres, layer, &notes), join);
+    const DxfPaths drawn = read_dxf_paths(file, millimetres, layer, &notes);
+    const double join = gaps.given ? std::max(*gaps.given, kEndsMeet)
+                                   : std::max(gaps.least, join_limit(drawn.resolution));
+    const LoopNesting nesting = nest_loops(drawn.paths, join);
     if (!nesting.open.empty()) {
         refuse_open(name, nesting, join);
     }
@@ -96,11 +107,11 @@ bool names_drawing(const std::string& name)
 
 std::vector<FileLoop> read_loops(const std::string& name,
                                  double millimetres,
-                                 double join,
+                                 EndDistance gaps,
                                  std::vector<std::string>& notes)
 {
     if (names_drawing(name)) {
-        return drawn_loops(name, millimetres, std::max(join, kEndsMeet), notes);
+        return drawn_loops(name, millimetres, gaps, notes);
     }
     if (path_ending(name) == ".json") {
         return {{closed_loop(read_json_curves(name, millimetres), name), name}};

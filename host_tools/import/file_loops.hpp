@@ -1,6 +1,7 @@
 // The closed loops of a file, and the pockets that they bound.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,18 +17,23 @@ struct FileLoop {
     int depth{};       // number of loops around it
 };
 
+// Largest gap between ends of open chains of a drawing that is closed.
+struct EndDistance {
+    double least{};               // mm: join_limit() of the drawing may be larger
+    std::optional<double> given;  // mm: by join_gaps, takes the place of both
+};
+
 // All loops of a drawing, the largest first; one loop of a JSON file.
 //
 // name         a file; of a drawing FILE#LAYER selects a layer
 // millimetres  of one unit of a file that names none
-// join         mm: largest gap between ends of open chains that is closed
 // notes        receives sentences on what was joined or left out
 //
 // Errors: InputError with the ends and the gap of an open chain; crossing loops; those of the
 // readers of curves.
 std::vector<FileLoop> read_loops(const std::string& name,
                                  double millimetres,
-                                 double join,
+                                 EndDistance gaps,
                                  std::vector<std::string>& notes);
 
 // Copies the operation for each pocket. A loop of even depth bounds a pocket; its children are the

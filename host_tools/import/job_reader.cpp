@@ -146,6 +146,7 @@ void JobReader::read_common(JobTable& table, Operation& operation)
                        : output == "arcs" ? OutputForm::kArcs
                                           : OutputForm::kNurbs;
     operation.plan_tolerance = length(table, "plan_tolerance", kTolerance, kDefaultTolerance);
+    operation.join_gaps = length(table, "join_gaps", kNotNegative);
     operation.floor_tolerance = length(table, "floor_tolerance", kTolerance, kDefaultTolerance);
     operation.tolerance_side =
         table.one_of("tolerance_side", {"outside", "both"}).value_or("outside") == "both"
@@ -317,7 +318,7 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
 std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
 {
     const auto loops_of = [&](const std::string& name) {
-        return parts_.loops(path_of(name), unit_, operation.plan_tolerance);
+        return parts_.loops(path_of(name), unit_, {operation.plan_tolerance, operation.join_gaps});
     };
     std::vector<FileLoop> islands;
     for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {

@@ -38,6 +38,7 @@ constexpr OperationKey kOperationKeys[]{
     {"scallop", "", kNoScallop},
     {"floor_tolerance", ""},
     {"plan_tolerance", ""},
+    {"join_gaps", "", "drill, engrave"},
     {"tolerance_side", "", kAllButPocket},
     {"direction_of_cut", "", "drill, engrave"},
     {"entry", "", kLines},

@@ -1,16 +1,16 @@
-// A grid of squares finds neighbouring ends. Chains are followed from open ends first, then closed
-// loops. Open chains are joined in a second step, across gaps up to the tolerance.
+// Paths that are loops by themselves stay so; loose pieces are joined where they meet, and what is open
+// then, across gaps up to the tolerance.
 #include "host_tools/import/loop_nesting.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
-#include <unordered_map>
 
+#include "host_tools/import/path_chains.hpp"
 #include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
@@ -28,50 +28,13 @@ using nurbs::CurvePoint;
 
 namespace {
 
-constexpr double kOutline = 1e-3;           // mm, of chords
+constexpr double kOutline = 1e-3;  // mm, of chords
+// mm: loops that cross no deeper touch, as chords of an arc of two loops do.
+constexpr double kTouching = 2 * kOutline;
+// Places of the last digit that ends are apart where both are rounded.
+constexpr double kPlacesApart = 2;
 constexpr double kRepeated = 1e-4;          // mm: distance below which curves are duplicates
 constexpr std::size_t kMostSides = 200000;  // limit of the search for crossings
-
-// Curves in order; each starts at the end of the previous one.
-using Chain = std::vector<Curve>;
-
-struct End {
-    std::size_t chain;
-    bool last;  // of the chain
-    Vec2d at;
-};
-
-// Spatial hash of curve ends.
-class EndGrid {
-public:
-    explicit EndGrid(double side) : side_{side} {}
-    void add(std::size_t number, Vec2d at) { squares_[key(at, 0, 0)].push_back(number); }
-
-    // Calls visit(number) for all ends in the 3 x 3 squares around a point.
-    template <class Visit>
-    void near(Vec2d at, const Visit& visit) const
-    {
-        for (int i = -1; i <= 1; ++i) {
-            for (int j = -1; j <= 1; ++j) {
-                if (const auto found = squares_.find(key(at, i, j)); found != squares_.end()) {
-                    std::for_each(found->second.begin(), found->second.end(), visit);
-                }
-            }
-        }
-    }
-
-private:
-    std::uint64_t key(Vec2d at, int i, int j) const
-    {
-        const auto column = static_cast<std::int64_t>(std::floor(at.x / side_)) + i;
-        const auto row = static_cast<std::int64_t>(std::floor(at.y / side_)) + j;
-        return static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15U ^
-               static_cast<std::uint64_t>(row);
-    }
-
-    double side_;
-    std::unordered_map<std::uint64_t, std::vector<std::size_t>> squares_;
-};
 
 struct Measures {
     double length{};
@@ -100,123 +63,136 @@ Measures measures_of(const Curve& curve, Vec2d origin)
     return sum;
 }
 
-Chain reversed_chain(const Chain& chain)
+Measures measures_of(const CurveChain& chain)
 {
-    Chain back;
-    for (auto curve = chain.rbegin(); curve != chain.rend(); ++curve) {
-        back.push_back(reversed(*curve));
+    const Vec2d origin = in_plan(chain.front().points.front());
+    Measures sum;
+    for (const Curve& curve : chain) {
+        const Measures one = measures_of(curve, origin);
+        sum.length += one.length;
+        sum.area += one.area;
     }
-    return back;
+    return sum;
 }
 
-// Joins chains whose ends meet.
-class Joining {
+void add_loop(const CurveChain& chain, const Measures& measures, LoopNesting& nesting)
+{
+    nesting.loops.push_back({chain, loop_polyline(chain, kOutline), measures.length,
+                             std::abs(measures.area), measures.area > 0, -1, 0, std::nullopt});
+}
+
+void add_joined(ChainResult joined, LoopNesting& nesting)
+{
+    for (const CurveChain& chain : joined.closed) {
+        add_loop(chain, measures_of(chain), nesting);
+    }
+    nesting.bridged += joined.bridged;
+    nesting.widest_gap = std::max(nesting.widest_gap, joined.widest_gap);
+}
+
+// Where a curve lies, the same either way round.
+using Place = std::array<std::int64_t, 6>;
+
+Place place_of(const Curve& curve)
+{
+    const auto rounded = [](Vec2d p) {
+        return std::array<std::int64_t, 2>{std::llround(p.x / kRepeated),
+                                           std::llround(p.y / kRepeated)};
+    };
+    auto a = rounded(in_plan(curve.points.front()));
+    auto b = rounded(in_plan(curve.points.back()));
+    if (b < a) {
+        std::swap(a, b);
+    }
+    const auto middle =
+        rounded(in_plan(point_at(curve, (curve.domain_begin() + curve.domain_end()) / 2)));
+    return {a[0], a[1], b[0], b[1], middle[0], middle[1]};
+}
+
+// Sorts paths into loops and loose pieces, and leaves out what is drawn twice.
+class Sorting {
 public:
-    // meets  mm: largest distance of ends that meet
-    Joining(const std::vector<Chain>& chains, double meets)
-        : chains_{chains}, meets_{meets}, grid_{meets}, used_(chains.size(), false)
+    Sorting(const std::vector<DrawingPath>& paths, LoopNesting& nesting) : nesting_{nesting}
     {
-        for (std::size_t k = 0; k < chains.size(); ++k) {
-            for (const bool last : {false, true}) {
-                const Vec3d at =
-                    last ? chains[k].back().points.back() : chains[k].front().points.front();
-                grid_.add(ends_.size(), in_plan(at));
-                ends_.push_back({k, last, in_plan(at)});
+        for (const DrawingPath& path : paths) {
+            if (!path.curves.empty() && !take_loop(path)) {
+                take_pieces(path);
             }
         }
     }
 
-    // Returns the chains that remain open.
-    std::vector<Chain> sort_into(LoopNesting& nesting)
+    const std::vector<CurveChain>& pieces() const { return pieces_; }
+
+    // Without the chains that lie on loops, edge by edge: they are drawn over them.
+    std::vector<CurveChain> without_repeats_of_loops(const std::vector<CurveChain>& chains)
     {
-        // Open chains first, from their ends; what remains is closed.
-        for (const bool from_open_ends : {true, false}) {
-            for (std::size_t e = 0; e < ends_.size(); ++e) {
-                if (!used_[ends_[e].chain] && (!from_open_ends || is_open(e))) {
-                    add_chain(e, nesting);
-                }
+        std::vector<CurveChain> kept;
+        for (const CurveChain& chain : chains) {
+            if (std::all_of(chain.begin(), chain.end(), [&](const Curve& curve) {
+                    return on_loops_.count(place_of(curve)) > 0;
+                })) {
+                nesting_.repeated += chain.size();
+            } else {
+                kept.push_back(chain);
             }
         }
-        return std::move(open_);
+        return kept;
     }
 
 private:
-    // The nearest end of an unused chain that meets this one; ends_.size(): there is none.
-    std::size_t next_to(std::size_t end) const
+    // Closed loops may have edges in common, but not all of them.
+    bool take_loop(const DrawingPath& path)
     {
-        std::size_t nearest = ends_.size();
-        double least = meets_;
-        grid_.near(ends_[end].at, [&](std::size_t other) {
-            const double apart = norm(ends_[other].at - ends_[end].at);
-            if (other != end && !used_[ends_[other].chain] && apart <= least) {
-                least = apart;
-                nearest = other;
-            }
-        });
-        return nearest;
-    }
-    bool is_open(std::size_t end) const
-    {
-        bool meets = false;
-        grid_.near(ends_[end].at, [&](std::size_t other) {
-            meets = meets || (other != end && norm(ends_[other].at - ends_[end].at) <= meets_);
-        });
-        return !meets;
+        const Vec2d begin = in_plan(path.curves.front().points.front());
+        const Vec2d end = in_plan(path.curves.back().points.back());
+        if (norm(end - begin) > kEndsMeet) {
+            return false;
+        }
+        const Measures measures = measures_of(path.curves);
+        constexpr double kThin = 1e-9;  // of the length, squared: drawn there and back
+        if (!(measures.length > 2 * kEndsMeet) ||
+            !(std::abs(measures.area) > kThin * measures.length * measures.length)) {
+            return false;
+        }
+        std::vector<Place> places;
+        for (const Curve& curve : path.curves) {
+            places.push_back(place_of(curve));
+        }
+        on_loops_.insert(places.begin(), places.end());
+        std::sort(places.begin(), places.end());
+        if (loops_.insert(places).second) {
+            add_loop(path.curves, measures, nesting_);
+        } else {
+            nesting_.repeated += path.curves.size();
+        }
+        return true;
     }
 
-    void note_gap(double gap, LoopNesting& nesting) const
+    void take_pieces(const DrawingPath& path)
     {
-        if (gap > kEndsMeet) {
-            ++nesting.bridged;
-            nesting.widest_gap = std::max(nesting.widest_gap, gap);
-        }
-    }
-
-    void add_chain(std::size_t first, LoopNesting& nesting)
-    {
-        Chain chain;
-        const Vec2d begin = ends_[first].at;
-        Vec2d end = begin;
-        Measures sum;
-        bool closed = false;
-        for (std::size_t at = first; at < ends_.size();) {
-            const End& from = ends_[at];
-            used_[from.chain] = true;
-            const Chain& next = chains_[from.chain];
-            Chain turned = from.last ? reversed_chain(next) : next;
-            for (Curve& curve : turned) {
-                const Measures one = measures_of(curve, begin);
-                sum.length += one.length;
-                sum.area += one.area;
-                chain.push_back(std::move(curve));
-            }
-            const std::size_t other = at ^ 1U;
-            end = ends_[other].at;
-            closed = norm(end - begin) <= meets_ && sum.length > 2 * meets_;
-            at = closed ? ends_.size() : next_to(other);
-            if (at < ends_.size()) {
-                note_gap(norm(ends_[at].at - end), nesting);
+        std::vector<Curve> kept;
+        for (const Curve& curve : path.curves) {
+            if (loose_.insert(place_of(curve)).second) {
+                kept.push_back(curve);
             }
         }
-        if (closed) {
-            note_gap(norm(end - begin), nesting);
-            const std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
-            nesting.loops.push_back({std::move(chain), outline, sum.length, std::abs(sum.area),
-                                     sum.area > 0, -1, 0, std::nullopt});
+        if (kept.size() == path.curves.size()) {
+            pieces_.push_back(std::move(kept));
             return;
         }
-        open_.push_back(std::move(chain));
+        nesting_.repeated += path.curves.size() - kept.size();
+        for (Curve& curve : kept) {
+            pieces_.push_back({std::move(curve)});
+        }
     }
 
-    const std::vector<Chain>& chains_;
-    double meets_;
-    EndGrid grid_;
-    std::vector<End> ends_;
-    std::vector<bool> used_;
-    std::vector<Chain> open_;
+    LoopNesting& nesting_;
+    std::vector<CurveChain> pieces_;
+    std::set<Place> loose_, on_loops_;
+    std::set<std::vector<Place>> loops_;
 };
 
-OpenChain open_chain(const Chain& chain)
+OpenChain open_chain(const CurveChain& chain)
 {
     double length = 0;
     for (const Curve& curve : chain) {
@@ -317,7 +293,7 @@ void find_crossings(LoopNesting& nesting)
         outlines.push_back(loop.outline);
         sides += loop.outline.size();
     }
-    if (sides > kMostSides || !(nesting.crossing = crossing_of(outlines))) {
+    if (sides > kMostSides || !(nesting.crossing = crossing_of(outlines, kTouching))) {
         return;
     }
     bool own = false;
@@ -334,22 +310,10 @@ void find_crossings(LoopNesting& nesting)
 
 std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t& repeated)
 {
-    using Key = std::array<std::int64_t, 6>;
-    std::map<Key, int> seen;
+    std::set<Place> seen;
     std::vector<Curve> out;
     for (const Curve& curve : curves) {
-        const auto rounded = [](Vec2d p) {
-            return std::array<std::int64_t, 2>{std::llround(p.x / kRepeated),
-                                               std::llround(p.y / kRepeated)};
-        };
-        auto a = rounded(in_plan(curve.points.front()));
-        auto b = rounded(in_plan(curve.points.back()));
-        if (b < a) {
-            std::swap(a, b);
-        }
-        const auto middle =
-            rounded(in_plan(point_at(curve, (curve.domain_begin() + curve.domain_end()) / 2)));
-        if (seen[{a[0], a[1], b[0], b[1], middle[0], middle[1]}]++ == 0) {
+        if (seen.insert(place_of(curve)).second) {
             out.push_back(curve);
         } else {
             ++repeated;
@@ -364,19 +328,31 @@ std::string repeats_text(const std::string& name, std::size_t repeated)
                        repeated == 1 ? "1 curve is" : fmt::format("{} curves are", repeated));
 }
 
-LoopNesting nest_loops(const std::vector<Curve>& curves, double join)
+double join_limit(double resolution)
+{
+    return std::clamp(kPlacesApart * resolution, kJoinTolerance, kWidestJoin);
+}
+
+LoopNesting nest_loops(const std::vector<DrawingPath>& paths, double join)
 {
     LoopNesting nesting;
-    nesting.curves = curves.size();
-    std::vector<Chain> chains;
-    for (Curve& curve : without_repeats(curves, nesting.repeated)) {
-        chains.push_back({std::move(curve)});
+    for (const DrawingPath& path : paths) {
+        nesting.curves += path.curves.size();
     }
-    chains = Joining{chains, kEndsMeet}.sort_into(nesting);
-    if (join > kEndsMeet && !chains.empty()) {
-        chains = Joining{chains, join}.sort_into(nesting);
+    Sorting sorted{paths, nesting};
+    ChainResult met = join_chains(sorted.pieces(), kEndsMeet, kEndsMeet);
+    std::vector<CurveChain> open = sorted.without_repeats_of_loops(met.open);
+    if (met.junction) {
+        nesting.junction = met.junction->at;
+        nesting.junction_ends = met.junction->ends;
     }
-    for (const Chain& chain : chains) {
+    add_joined(std::move(met), nesting);
+    if (join > kEndsMeet && !open.empty()) {
+        ChainResult bridged = join_chains(open, join, kEndsMeet);
+        open = std::move(bridged.open);
+        add_joined(std::move(bridged), nesting);
+    }
+    for (const CurveChain& chain : open) {
         nesting.open.push_back(open_chain(chain));
     }
     std::stable_sort(nesting.loops.begin(), nesting.loops.end(),
@@ -385,6 +361,15 @@ LoopNesting nest_loops(const std::vector<Curve>& curves, double join)
     find_crossings(nesting);
     measure_gaps(nesting.open);
     return nesting;
+}
+
+LoopNesting nest_loops(const std::vector<Curve>& curves, double join)
+{
+    std::vector<DrawingPath> paths;
+    for (const Curve& curve : curves) {
+        paths.push_back({{curve}, false});
+    }
+    return nest_loops(paths, join);
 }
 
 }  // namespace cusp::import

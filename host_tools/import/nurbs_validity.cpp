@@ -103,7 +103,8 @@ void check_weight_ratio(const std::vector<double>& weights, const std::string& p
 
 void check_points(const std::vector<Vec3d>& points,
                   const std::vector<double>& weights,
-                  const std::string& place)
+                  const std::string& place,
+                  double largest)
 {
     if (weights.size() != points.size()) {
         throw InputError(fmt::format("{}: {} weights for {} control points", place, weights.size(),
@@ -112,9 +113,9 @@ void check_points(const std::vector<Vec3d>& points,
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (unsigned axis = 0; axis < 3; ++axis) {
             const double value = points[i][axis];
-            if (!(std::abs(value) <= kLargestCoordinate)) {
+            if (!(std::abs(value) <= largest)) {
                 throw InputError(fmt::format("{}: control point {} has {} = {} mm, the limit is {}",
-                                             place, i, "xyz"[axis], value, kLargestCoordinate));
+                                             place, i, "xyz"[axis], value, largest));
             }
         }
         if (!(weights[i] > 0) || !std::isfinite(weights[i])) {
@@ -158,10 +159,10 @@ void merge_close_knots(std::vector<double>& knots)
     }
 }
 
-void check_curve(const Curve& curve, const std::string& place)
+void check_curve(const Curve& curve, const std::string& place, double largest)
 {
     check_direction({"", curve.degree, curve.points.size(), curve.knots}, place);
-    check_points(curve.points, curve.weights, place);
+    check_points(curve.points, curve.weights, place, largest);
 }
 
 void check_surface(const Surface& surface, const std::string& place)
@@ -179,7 +180,7 @@ void check_surface(const Surface& surface, const std::string& place)
     }
     check_direction({"_u", surface.degree_u, size_u, surface.knots_u}, place);
     check_direction({"_v", surface.degree_v, size_v, surface.knots_v}, place);
-    check_points(surface.points, surface.weights, place);
+    check_points(surface.points, surface.weights, place, kLargestCoordinate);
     if (!has_area(surface)) {
         throw InputError(place + ": the surface has no area: its control points lie on a line");
     }

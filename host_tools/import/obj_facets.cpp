@@ -130,7 +130,8 @@ private:
 
 Facets read_obj(const std::string& file, double millimetres)
 {
-    return ObjReader{file, millimetres}.read(files::text_of_file(file));
+    const std::string text = files::text_of_file(file);
+    return ObjReader{file, millimetres}.read(files::without_byte_order_mark(text));
 }
 
 }  // namespace cusp::import

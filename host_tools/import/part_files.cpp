@@ -1,10 +1,13 @@
 // One cache for each kind of geometry.
 #include "host_tools/import/part_files.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "host_tools/import/drawn_shapes.hpp"
 #include "host_tools/import/mesh_file.hpp"
+#include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/loop_shape.hpp"
@@ -37,6 +40,21 @@ void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
         move_curves(placed, found.loop);
         if (mirrors) {
             found.loop = job::reversed(found.loop);
+        }
+    }
+}
+
+// Drawings may be far away until they are placed.
+void check_place(const std::vector<Curve>& curves, const std::string& name)
+{
+    for (const Curve& curve : curves) {
+        for (const Vec3d& p : curve.points) {
+            if (std::max(std::abs(p.x), std::abs(p.y)) > kLargestCoordinate) {
+                throw InputError(fmt::format(
+                    "{}: drawn at x {:.10g} y {:.10g} mm, the limit is {:g}: [placing] with origin "
+                    "= \"corner\" moves it to the origin",
+                    name, p.x, p.y, kLargestCoordinate));
+            }
         }
     }
 }
@@ -75,14 +93,24 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
 
 const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
                                               double millimetres,
-                                              double join)
+                                              EndDistance gaps)
 {
-    const auto [found, is_new] = loops_.try_emplace({file, join});
+    const auto [found, is_new] = loops_.try_emplace({file, gaps.least, gaps.given.value_or(-1)});
     if (is_new) {
-        found->second = read_loops(file, millimetres, join, notes_);
+        found->second = read_loops(file, millimetres, gaps, notes_);
         move_loops(placed_drawing(file), found->second);
+        for (const FileLoop& loop : found->second) {
+            check_place(loop.loop, file);
+        }
     }
     return found->second;
+}
+
+std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres) const
+{
+    std::vector<Curve> curves = read_curves(file, millimetres, nullptr);
+    move_curves(placed_drawing(file), curves);
+    return curves;
 }
 
 Similarity PartFiles::placed_drawing(const std::string& name) const
@@ -105,6 +133,7 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
     std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
     for (job::Hole& hole : holes) {
         hole = {in_plan(move.of({hole.at.x, hole.at.y, 0})), scale * hole.diameter};
+        check_place({line_curve(hole.at, hole.at)}, file);
     }
     return holes;
 }
@@ -146,6 +175,7 @@ std::vector<job::Chain> PartFiles::chains(const std::string& file, double millim
     std::vector<job::Chain> chains = read_chains(file, millimetres, notes_);
     for (job::Chain& chain : chains) {
         move_curves(move, chain);
+        check_place(chain, file);
     }
     return chains;
 }
@@ -181,7 +211,7 @@ void PartFiles::shift(const std::string& file, Vec3d by)
     }
     cad_holes_.erase(file);
     for (auto& [key, loops] : loops_) {
-        if (key.first == file || without_layer(key.first) == file) {
+        if (std::get<0>(key) == file || without_layer(std::get<0>(key)) == file) {
             Similarity move;
             move.shift = by;
             move_loops(move, loops);

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,12 @@ public:
                                                 double millimetres,
                                                 double mesh_tolerance);
     const Triangles& mesh(const std::string& file, double millimetres);
-    // join  mm: as in `read_loops`
-    const std::vector<FileLoop>& loops(const std::string& file, double millimetres, double join);
+    // gaps  as in `read_loops`
+    const std::vector<FileLoop>& loops(const std::string& file,
+                                       double millimetres,
+                                       EndDistance gaps);
+    // All curves of a drawing, or of a JSON file, wherever they are.
+    std::vector<nurbs::Curve> curves(const std::string& file, double millimetres) const;
 
     // As read_holes() and read_chains(), placed. Of a model the holes have their heights
     // (cad_holes.hpp).
@@ -64,7 +69,8 @@ private:
     // keys: file, tolerance
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
     std::map<std::string, Triangles> meshes_;
-    std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // keys: file, join
+    // keys: file, limits of gaps; below 0: not given
+    std::map<std::tuple<std::string, double, double>, std::vector<FileLoop>> loops_;
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     Similarity turn_;                           // of all files, last

@@ -30,6 +30,11 @@ PartUnit unit_of(double millimetres, bool assumed)
     return {millimetres == 1 ? "mm" : "inch", millimetres, assumed};
 }
 
+std::string short_name(const std::string& unit)
+{
+    return unit == "millimetres" ? "mm" : unit == "inches" ? "inch" : unit;
+}
+
 void take_extent(PartGeometry& part, const PartExtent& extent)
 {
     part.box_low = extent.low;
@@ -102,13 +107,16 @@ void take_drawing(PartGeometry& part,
 {
     DxfLayers drawing = read_dxf_layers(file, millimetres);
     part.format = "DXF";
-    part.unit = unit_of(drawing.millimetres, !drawing.names_unit);
+    part.unit = drawing.unit_name.empty()
+                    ? unit_of(drawing.millimetres, true)
+                    : PartUnit{short_name(drawing.unit_name), drawing.millimetres, false};
+    part.notes = drawing.notes;
     std::string names;
     for (DxfLayer& drawn : drawing.layers) {
         names += (names.empty() ? "\"" : ", \"") + drawn.name + "\"";
         if (layer.empty() || drawn.name == layer) {
-            part.layers.push_back(
-                {drawn.name, drawn.hidden, drawn.problem, nest_loops(drawn.curves)});
+            part.layers.push_back({drawn.name, drawn.hidden, drawn.problem,
+                                   nest_loops(drawn.paths, join_limit(drawing.resolution))});
         }
     }
     if (part.layers.empty()) {

@@ -146,7 +146,7 @@ public:
     }
 
 private:
-    static constexpr double kChord = 1e-3;  // mm, of the box of a drawing
+    static constexpr double kChord = 1e-3;  // mm, of the box of a mesh
 
     PartExtent box_of(const PlacedFiles& governed) const
     {
@@ -171,12 +171,7 @@ private:
 
     PartExtent box_of_drawing(const std::string& name) const
     {
-        std::optional<PartExtent> box;
-        for (const FileLoop& loop : parts_.loops(name, millimetres_, kChord)) {
-            const PartExtent more = extent_of_curves(loop.loop);
-            box = box ? joined(*box, more) : more;
-        }
-        return box.value_or(PartExtent{});
+        return extent_of_curves(parts_.curves(name, millimetres_));
     }
 
     PlacedFiles files_;

@@ -284,7 +284,8 @@ void read_drawing(const JobTable& table,
     } else if (operation.strategy == "engrave") {
         cut.chains = parts.chains(file, unit);
     } else if (!file.empty()) {
-        cut.loops = nested(parts.loops(file, unit, operation.plan_tolerance));
+        cut.loops =
+            nested(parts.loops(file, unit, {operation.plan_tolerance, operation.join_gaps}));
     }
 }
 

@@ -175,7 +175,7 @@ std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
 Loop read_loop(const std::string& name, double millimetres)
 {
     std::vector<std::string> unread;
-    std::vector<FileLoop> loops = read_loops(name, millimetres, kEndsMeet, unread);
+    std::vector<FileLoop> loops = read_loops(name, millimetres, {0, kEndsMeet}, unread);
     if (loops.size() > 1) {
         throw InputError(fmt::format("{}: holds {} loops, one is needed", name, loops.size()));
     }

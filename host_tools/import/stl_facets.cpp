@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <string_view>
 
 #include "host_tools/files/files.hpp"
@@ -64,7 +65,7 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
 // The words of an ASCII file with their line numbers.
 class Words {
 public:
-    Words(const std::string& text, std::string file) : rest_{text}, file_{std::move(file)} {}
+    Words(std::string_view text, std::string file) : rest_{text}, file_{std::move(file)} {}
 
     // The next word in lower case; "" at the end.
     std::string next()
@@ -80,7 +81,7 @@ public:
         }
         return word;
     }
-    void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
+    void skip_line() { rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size())); }
     void expect(const char* wanted)
     {
         const std::string word = next();
@@ -137,7 +138,7 @@ std::array<Vec3d, 3> read_facet(Words& words, double unit)
 
 Facets read_ascii(const std::string& text, double unit, const std::string& file)
 {
-    Words words{text, file};
+    Words words{files::without_byte_order_mark(text), file};
     Facets facets;
     words.expect("solid");
     words.skip_line();  // the name of the solid is free text
@@ -160,15 +161,40 @@ Facets read_ascii(const std::string& text, double unit, const std::string& file)
     }
 }
 
-// A binary header may also start with "solid", so the size is tested first.
+// Whether the next word is one of these, in any case.
+bool next_is(std::string_view text, std::initializer_list<std::string_view> words)
+{
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+        const std::string_view start = text.substr(0, word.size());
+        return std::equal(start.begin(), start.end(), word.begin(), word.end(), [](char a, char b) {
+            return std::tolower(static_cast<unsigned char>(a)) == b;
+        });
+    });
+}
+
+// A binary header may also start with "solid", so the size is tested first, and then what follows the
+// first line.
 bool is_ascii(const std::string& bytes)
 {
     if (bytes.size() >= kHead && bytes.size() == kHead + word_at(bytes, kHead - 4) * kFacet) {
         return false;
     }
-    const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
-    return begin != std::string::npos && bytes.compare(begin, 5, "solid") == 0 &&
-           bytes.find('\0') == std::string::npos;
+    const std::string_view text = files::without_byte_order_mark(bytes);
+    if (!next_is(text, {"solid"})) {
+        return false;
+    }
+    const std::string_view rest = text.substr(std::min(text.find_first_of("\r\n"), text.size()));
+    return text.find('\0') == std::string_view::npos || next_is(rest, {"facet", "endsolid"});
+}
+
+// Of a binary file this would be one of half a thousand million facets.
+bool is_other_text(const std::string& bytes)
+{
+    return std::all_of(bytes.begin(), bytes.begin() + kHead, [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return std::isprint(byte) != 0 || std::isspace(byte) != 0;
+    });
 }
 
 }  // namespace
@@ -177,7 +203,7 @@ Facets read_stl(const std::string& file, double millimetres)
 {
     const std::string bytes = files::text_of_file(file);
     const bool ascii = is_ascii(bytes);
-    if (!ascii && bytes.size() < kHead) {
+    if (!ascii && (bytes.size() < kHead || is_other_text(bytes))) {
         throw InputError(fmt::format(
             "{}: no STL: neither \"solid\" nor the {} bytes that a binary one has at least", file,
             kHead));

@@ -142,7 +142,7 @@ void StockTable::read_outline(PartFiles& parts, Job& job) const
     }
     std::vector<FileLoop> loops;
     try {
-        loops = parts.loops(outline_, unit_, kOutlineGap);
+        loops = parts.loops(outline_, unit_, {kOutlineGap, std::nullopt});
     } catch (const InputError& error) {
         keys_.refuse("outline", error.what());
     }

@@ -72,6 +72,8 @@ struct Operation {
     std::vector<toolpath::Tool> tools;
     OutputForm output{OutputForm::kLines};
     double plan_tolerance{};
+    std::optional<double>
+        join_gaps;  // mm: of drawings; none: as plan_tolerance and the drawing say
     double floor_tolerance{};
     // Of a level floor, where the job gives none: a post with fewer decimals may raise them.
     bool default_floor_tolerance{false};

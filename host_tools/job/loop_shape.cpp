@@ -127,13 +127,18 @@ bool are_neighbours(const Segment& s, const Segment& t)
     return s.loop == t.loop && (apart <= 1 || apart + 1 >= s.count);
 }
 
-bool cross_properly(const Segment& s, const Segment& t)
+bool cross_properly(const Segment& s, const Segment& t, double touching)
 {
     const double side_a = cross(t.b - t.a, s.a - t.a);
     const double side_b = cross(t.b - t.a, s.b - t.a);
     const double side_c = cross(s.b - s.a, t.a - s.a);
     const double side_d = cross(s.b - s.a, t.b - s.a);
-    return side_a * side_b < 0 && side_c * side_d < 0;
+    if (!(side_a * side_b < 0 && side_c * side_d < 0)) {
+        return false;
+    }
+    return !(touching > 0) ||
+           (std::min(std::abs(side_a), std::abs(side_b)) > touching * norm(t.b - t.a) &&
+            std::min(std::abs(side_c), std::abs(side_d)) > touching * norm(s.b - s.a));
 }
 
 // Precondition: they cross properly.
@@ -145,7 +150,7 @@ Vec2d meeting_point(const Segment& s, const Segment& t)
 }
 
 // The first crossing of two segments of closed polylines that are not neighbours.
-std::optional<Vec2d> find_crossing(std::vector<Segment>& segments)
+std::optional<Vec2d> find_crossing(std::vector<Segment>& segments, double touching)
 {
     const auto left = [](const Segment& s) {
         return std::min(s.a.x, s.b.x);
@@ -162,7 +167,7 @@ std::optional<Vec2d> find_crossing(std::vector<Segment>& segments)
         };
         open.erase(std::remove_if(open.begin(), open.end(), passed), open.end());
         for (const Segment* t : open) {
-            if (!are_neighbours(s, *t) && cross_properly(s, *t)) {
+            if (!are_neighbours(s, *t) && cross_properly(s, *t, touching)) {
                 return meeting_point(s, *t);
             }
         }
@@ -181,7 +186,7 @@ void check_simple(const std::vector<Vec2d>& closed, const std::string& place)
 
 }  // namespace
 
-std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
+std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed, double touching)
 {
     std::vector<Segment> segments;
     std::size_t count = 0;
@@ -195,7 +200,7 @@ std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
             segments.push_back({polyline[i], polyline[i + 1], loop, i, polyline.size() - 1});
         }
     }
-    return find_crossing(segments);
+    return find_crossing(segments, touching);
 }
 
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)

@@ -18,7 +18,10 @@ std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance);
 double signed_area(const std::vector<Vec2d>& closed);
 
 // A crossing of closed polylines with themselves or each other; no value where they only touch.
-std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed);
+//
+// touching  mm: an end of a segment that is no farther from the line of another one touches it
+std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed,
+                                 double touching = 0);
 
 // Even-odd test against a closed polyline.
 bool encloses(const std::vector<Vec2d>& closed, Vec2d point);

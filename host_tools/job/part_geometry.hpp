@@ -42,6 +42,9 @@ struct LoopNesting {
     std::size_t bridged{};          // gaps over 1e-3 mm that were joined
     double widest_gap{};            // mm, of those
     std::optional<Vec2d> crossing;  // where two loops cross: their nesting is undefined
+    // The first place where more than two ends of loose curves meet, and how many.
+    std::optional<Vec2d> junction;
+    std::size_t junction_ends{};
 };
 
 struct PartUnit {

@@ -148,6 +148,7 @@ Json part_json(const PartInfo& info)
         for (const PartLayer& layer : info.part.layers) {
             out["layers"].push_back(layer_json(layer));
         }
+        out["notes"] = info.part.notes;
     } else if (info.is_mesh()) {
         add_mesh(info, out);
     } else {

@@ -253,9 +253,9 @@ std::string text_of(const PartInfo& info)
                 fmt::format("; {} more face down and have broken edges", info.part.unread_faces);
         }
         lines.add("faces", faces);
-        for (const std::string& note : info.part.notes) {
-            lines.add("note", note);
-        }
+    }
+    for (const std::string& note : info.part.notes) {
+        lines.add("note", note);
     }
     if (info.ground) {
         add_ground(info, lines);

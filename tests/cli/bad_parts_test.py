@@ -187,7 +187,7 @@ DRAWINGS = (
     (dxf(), "edge.dxf"),
     ("", "edge.dxf"),
     ("no drawing at all\n", "edge.dxf"),
-    (dxf(*SQUARE[:3], (0, "3DFACE", 8, 0)), "3DFACE"),
+    (dxf(*SQUARE[:3], (0, "3DFACE", 8, 0)), "edge.dxf: the loop is open"),
     (dxf((0, "CIRCLE", 8, 0, 10, 15, 20, 10, 40, -3)), "edge.dxf"),
     (dxf((0, "CIRCLE", 8, 0, 10, 15, 20, 10, 40, "nan")), "edge.dxf"),
     (dxf((0, "CIRCLE", 8, 0, 10, 1e300, 20, 10, 40, 3)), "edge.dxf"),

@@ -115,10 +115,11 @@ TEST(DxfCurves, RefuseBrokenDrawings)
     STRCMP_CONTAINS("is not a number", refused(drawing(line("0", "x", "4", "0"))).c_str());
     STRCMP_CONTAINS("LINE without group 11", refused(drawing("0\nLINE\n10\n0\n20\n0\n")).c_str());
     STRCMP_CONTAINS("radius -1", refused(drawing("0\nCIRCLE\n10\n0\n20\n0\n40\n-1\n")).c_str());
-    STRCMP_CONTAINS("3DFACE: known are", refused(drawing("0\n3DFACE\n10\n0\n")).c_str());
+    STRCMP_CONTAINS("no curve", refused(drawing("0\n3DFACE\n10\n0\n")).c_str());
     STRCMP_CONTAINS("no curve", refused(drawing("")).c_str());
     STRCMP_CONTAINS("open", refused(drawing(line("0", "0", "4", "0"))).c_str());
-    STRCMP_CONTAINS("control points", refused(drawing("0\nSPLINE\n71\n3\n")).c_str());
+    STRCMP_CONTAINS("SPLINE without control points and without fit points",
+                    refused(drawing("0\nSPLINE\n71\n3\n")).c_str());
 }
 
 TEST(DxfCurves, AreExactEllipses)
@@ -244,7 +245,7 @@ TEST(DxfCurves, RepeatBlocksInArrays)
     const std::string text =
         with_blocks(block("dot", "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n"),
                     insert("dot", "10\n0\n20\n0\n70\n3\n71\n2\n44\n5\n45\n7\n"));
-    const auto curves = read_dxf_curves(folder.with("d.dxf", text), 1);
+    const auto curves = curves_of(read_dxf_paths(folder.with("d.dxf", text), 1).paths);
     CHECK_EQUAL(6U, curves.size());
     double sum = 0;
     for (const Curve& curve : curves) {
@@ -258,9 +259,9 @@ TEST(DxfCurves, PutLayerZeroOfABlockOnTheLayerOfItsReference)
     const std::string text =
         with_blocks(block("square", kSquare + "0\nCIRCLE\n8\nother\n10\n9\n20\n9\n40\n1\n"),
                     "0\nINSERT\n8\ncut\n2\nsquare\n10\n0\n20\n0\n" + line("50", "50", "60", "60"));
-    CHECK_EQUAL(4U, read_dxf_curves(folder.with("d.dxf", text), 1, "cut").size());
-    CHECK_EQUAL(1U, read_dxf_curves(folder.with("d.dxf", text), 1, "other").size());
-    CHECK_EQUAL(6U, read_dxf_curves(folder.with("d.dxf", text), 1).size());
+    CHECK_EQUAL(4U, curves_of(read_dxf_paths(folder.with("d.dxf", text), 1, "cut").paths).size());
+    CHECK_EQUAL(1U, curves_of(read_dxf_paths(folder.with("d.dxf", text), 1, "other").paths).size());
+    CHECK_EQUAL(6U, curves_of(read_dxf_paths(folder.with("d.dxf", text), 1).paths).size());
 }
 
 TEST(DxfCurves, RefuseReferencesThatCannotBeDrawn)
@@ -313,8 +314,8 @@ TEST(DxfCurves, BoundPocketsByTheirNesting)
     std::vector<std::string> notes;
     Operation operation;
     operation.strategy = "contour_pocket";
-    const auto pockets = pockets_of(operation, read_loops(file + "#0", 1, 0.02, notes),
-                                    read_loops(file + "#keep", 1, 0.02, notes));
+    const auto pockets = pockets_of(operation, read_loops(file + "#0", 1, {0.02, {}}, notes),
+                                    read_loops(file + "#keep", 1, {0.02, {}}, notes));
     CHECK(notes.empty());
     CHECK_EQUAL(3U, pockets.size());
     const double bounds[] = {10000, 2500, 25};
@@ -326,8 +327,9 @@ TEST(DxfCurves, BoundPocketsByTheirNesting)
     CHECK(pockets[2].islands.empty());
     STRCMP_CONTAINS("d.dxf#0: loop 2 of 5, at x 200 y 0 mm", pockets[1].boundary_file.c_str());
     const std::string outside = cusp::test::refusal([&] {
-        pockets_of(operation, read_loops(file + "#0", 1, 0.02, notes),
-                   read_loops(folder.with("e.dxf", drawing(square(-20, 0, 5))), 1, 0.02, notes));
+        pockets_of(
+            operation, read_loops(file + "#0", 1, {0.02, {}}, notes),
+            read_loops(folder.with("e.dxf", drawing(square(-20, 0, 5))), 1, {0.02, {}}, notes));
     });
     STRCMP_CONTAINS("the island lies outside all 3 pockets", outside.c_str());
 }
@@ -340,7 +342,7 @@ TEST(DxfCurves, NameTextsBesideThem)
     };
     const auto said = [&](const std::string& file, const std::string& layer = "name") {
         std::vector<std::string> notes;
-        read_dxf_curves(file, 1, layer, &notes);
+        read_dxf_paths(file, 1, layer, &notes);
         return notes.empty() ? std::string{} : notes.front().substr(notes.front().find("d.dxf"));
     };
     const std::string plain = folder.with("d.dxf", drawing(circle + text("TEXT", "")));
@@ -387,15 +389,15 @@ TEST(DxfCurves, AreJoinedAtGapsUpToTheToleranceAndNotBeyond)
                              line("10.015", "0.022", "10", "10") + line("0", "0", "10", "10");
     const std::string file = folder.with("d.dxf", drawing(soup));
     std::vector<std::string> notes;
-    const auto loops = read_loops(file, 1, 0.02, notes);
+    const auto loops = read_loops(file, 1, {0.02, {}}, notes);
     CHECK_EQUAL(1U, loops.size());
     DOUBLES_EQUAL(50, areas_of({loops[0].loop})[0], 0.2);
     CHECK_EQUAL(1U, notes.size());
     STRCMP_CONTAINS("d.dxf: 2 gaps of up to 0.015 mm are joined; the limit is 0.02 mm",
                     notes[0].c_str());
-    const std::string open = cusp::test::refusal([&] { read_loops(file, 1, 0.012, notes); });
+    const std::string open = cusp::test::refusal([&] { read_loops(file, 1, {0, 0.012}, notes); });
     STRCMP_CONTAINS("the loop is open: 4 curves from x 10 y 0 to x 10.015 y 0 mm", open.c_str());
-    STRCMP_CONTAINS("is 0.015 mm, the limit is 0.012 (plan_tolerance)", open.c_str());
+    STRCMP_CONTAINS("is 0.015 mm, the limit is 0.012 mm: join_gaps", open.c_str());
 }
 
 TEST(DxfCurves, TakeChainsOfBezierCurvesApart)
@@ -406,7 +408,7 @@ TEST(DxfCurves, TakeChainsOfBezierCurvesApart)
         "40\n3\n40\n3\n40\n3\n10\n0\n20\n0\n10\n2\n20\n4\n10\n4\n20\n0\n"
         "10\n4\n20\n0\n10\n6\n20\n4\n10\n8\n20\n0\n";
     DOUBLES_EQUAL(2 * 16.0 / 3, area(chain + line("0", "0", "8", "0")), 1e-3);
-    CHECK_EQUAL(3U, read_dxf_curves(folder.file("d.dxf"), 1).size());
+    CHECK_EQUAL(3U, curves_of(read_dxf_paths(folder.file("d.dxf"), 1).paths).size());
     // a knot too many is still an error
     std::string broken = chain;
     broken.replace(broken.find("40\n3\n40\n3"), 5, "40\n1\n");

@@ -56,12 +56,14 @@ TEST(PartInfo, LayersAreListedEachWithItsLoops)
     const PartInfo info =
         of("plate.dxf", drawing(circle("holes", 5, 5, 1) + circle("holes", 9, 5, 1) +
                                 line("marks", 0, 0, 4, 3) + "0\n3DFACE\n8\nsolid\n10\n0\n"));
-    UNSIGNED_LONGS_EQUAL(3, info.part.layers.size());
+    UNSIGNED_LONGS_EQUAL(2, info.part.layers.size());
     STRCMP_EQUAL("holes", info.part.layers[0].name.c_str());
     UNSIGNED_LONGS_EQUAL(2, info.part.layers[0].loops.loops.size());
     STRCMP_EQUAL("marks", info.part.layers[1].name.c_str());
     DOUBLES_EQUAL(5, info.part.layers[1].loops.open[0].gap, 1e-12);
-    STRCMP_CONTAINS("3DFACE", info.part.layers[2].problem.c_str());
+    UNSIGNED_LONGS_EQUAL(1, info.part.notes.size());
+    STRCMP_CONTAINS("#solid: left out, since they draw no curve: 1 3DFACE",
+                    info.part.notes[0].c_str());
     CHECK(info.part.unit.assumed);
     DOUBLES_EQUAL(10, info.part.box_high.x, 1e-2);
 }
