@@ -71,7 +71,7 @@ class Model:
         self.opened = opened         # the door
         self.starting = starting     # a cycle start waits for it
         self.waits = waits           # a line does: a dwell, or the spindle after M3
-        self.alarm = None            # the number that was told last
+        self.alarm = None            # the last number
 
     def report(self):
         if self.state == "Hold":
