@@ -19,6 +19,8 @@ STOP_SPINDLE, FLOOD, MIST = "\x9e", "\xa0", "\xa1"
 OVERRIDES = "\x90\x91\x92\x93\x94\x95\x96\x97\x99\x9a\x9b\x9c\x9d"
 BYTES = ("?", HOLD, START, RESET, DOOR, CANCEL, STOP_SPINDLE, FLOOD, MIST, OVERRIDES)
 OUTPUTS = frozenset("SFM")
+# Lines that lead to a state, and are answered after it.
+UNANSWERED = ("G4P60", "$H", "G91G38.3", "M4")
 
 # A line's answer in each state. A dash: none, for as long as the state lasts. In Hold, Door, Home and Sleep, and while
 # a line waits (dwell, spindle), no line is answered. An arrow: the state behind it.
@@ -191,6 +193,8 @@ def states():
         "Home, held": (Model("Hold", "", "Home"), home + [HOLD]),
         "Sleep": (Model("Sleep"), [on, "$SLP\n"]),
         "Dwell": (Model("Idle", "SF", waits=True), [on + "G4P60\n"]),
+        "Probe": (Model("Run", "SF", waits=True), [on + "G91G38.3Z-60F100\n", "=Run"]),
+        "Spindle comes up": (Model("Idle", "SF", up=False, waits=True), [on + "$394=30\nM4S1000\n"]),
     }
 
 
@@ -268,7 +272,7 @@ def try_line(driver, name, line):
 def walk(driver, seed, length):
     """Random bytes from a random state on."""
     chance = random.Random(seed)
-    name = chance.choice([name for name in states() if name != "Dwell"])
+    name = chance.choice([name for name in states() if not states()[name][0].waits])
     model = enter(driver, name)
     where = f"seed {seed}: {name}"
     for _ in range(length):

@@ -52,7 +52,7 @@ class MillDriver:
             line = line.format("" if self.away > 0 else "-")
             if line == "M3S1000\n":
                 self.port.ask("$394=0")
-            if not line.endswith("\n") or line.startswith(("G4P60", "$H")):
+            if not line.endswith("\n") or line.startswith(live_model.UNANSWERED):
                 self.port.send(line)
             else:
                 self.port.ask(line.strip())

@@ -26,7 +26,7 @@ class ChipDriver:
         for line in ("$22=1", "$25=30", "$26=50"):
             machine.ask(line)
         self.away, self.text = 1, ""
-        self.opened = False
+        self.opened = self.delays = False
 
     def door(self, opened):
         if opened != self.opened:
@@ -39,15 +39,19 @@ class ChipDriver:
         self.machine.send(live_model.RESET)
         self.machine.run(1000, "help]\r\n")
         self.machine.ask("$X")
+        if self.delays:
+            self.machine.ask("$394=0")
+            self.delays = False
         self.away = -self.away
 
     def say(self, text):
         for line in text.splitlines(True):
             line = line.format("" if self.away > 0 else "-")
-            if not line.endswith("\n") or line.startswith(("G4P60", "$H")):
+            if not line.endswith("\n") or line.startswith(live_model.UNANSWERED):
                 self.send(line)
             else:
                 self.machine.ask(line.strip())
+            self.delays = self.delays or line.startswith("$394")
 
     def send(self, text):
         self.machine.send(text)
