@@ -7,6 +7,7 @@ each line, and compared with the model (all_trials, walk). What a driver does:
     say(text)           sends lines that lead to a state, and waits for their answers where they come at once
     send(text)          sends
     door(opened)
+    wait(seconds)
     observe()           (report's state, outputs that are on, whether it moves, whether it reports spindle speed)
     heard()             what it said since the last call
     heard_until(answer) as above, up to that answer; for a while where it is None
@@ -19,6 +20,9 @@ STOP_SPINDLE, FLOOD, MIST = "\x9e", "\xa0", "\xa1"
 OVERRIDES = "\x90\x91\x92\x93\x94\x95\x96\x97\x99\x9a\x9b\x9c\x9d"
 BYTES = ("?", HOLD, START, RESET, DOOR, CANCEL, STOP_SPINDLE, FLOOD, MIST, OVERRIDES)
 OUTPUTS = frozenset("SFM")
+SPEED_UP = "faster"
+# States that end by themselves, or that hide what a walk would see.
+UNSTEADY = ("Dwell", "Probe", "Spindle comes up", "Hold:1", "Door:2")
 # Lines that lead to a state, and are answered after it.
 UNANSWERED = ("G4P60", "$H", "G91G38.3", "M4")
 
@@ -44,7 +48,7 @@ M9                ok        -        error:9  error:9   ok
 M8                ok        -        error:9  error:9   ok
 M0                ok>Hold   -        error:9  error:9   ok
 M1                ok        ok       error:9  error:9   ok
-G1X0F600          ok        ok       error:9  error:9   ok
+G91G1X0F600       ok        ok       error:9  error:9   ok
 """
 
 
@@ -64,7 +68,7 @@ class Model:
     """The controller as its documents tell of it."""
 
     def __init__(self, state="Idle", wanted="", behind="Idle", stopped="", up=True, opened=False, starting=False,
-                 waits=False):
+                 waits=False, braking=False):
         self.state = state
         self.wanted = set(wanted)    # outputs that the program has on
         self.stopped = set(stopped)  # of them those that a hold or the door has off
@@ -73,23 +77,33 @@ class Model:
         self.opened = opened         # the door
         self.starting = starting     # a cycle start waits for it
         self.waits = waits           # a line does: a dwell, or the spindle after M3
+        self.braking = braking       # towards the stop of a hold or a door
         self.alarm = None            # the last number
 
     def report(self):
         if self.state == "Hold":
-            return "Hold:0"
+            return "Hold:1" if self.braking else "Hold:0"
         if self.state == "Door":
-            return "Door:" + ("3" if self.starting else "1" if self.opened else "0")
+            return "Door:2" if self.braking else "Door:" + ("3" if self.starting else "1" if self.opened else "0")
         return self.state
 
     def outputs(self):
         return frozenset(self.wanted - self.stopped)
 
     def moves(self):
-        return self.state in ("Run", "Jog", "Home")
+        return self.braking or self.state in ("Run", "Jog", "Home")
 
     def byte(self, byte):
+        """The machine has come to rest after it."""
         self.alarm = None
+        ignored = self.braking and byte in (START, STOP_SPINDLE)
+        if self.braking and byte == RESET:
+            self.raise_alarm(3)
+        elif not ignored:
+            self.act(byte)
+        self.braking = False
+
+    def act(self, byte):
         action = {HOLD: self.hold, START: self.start, RESET: self.reset, DOOR: self.door,
                   STOP_SPINDLE: self.stop_spindle}.get(byte)
         if action:
@@ -152,7 +166,7 @@ class Model:
 
     def line(self, line):
         """The answer; None: none comes."""
-        self.alarm = None
+        self.alarm, self.braking = None, False
         cells = answers()[line]
         if self.state not in cells or self.waits:
             return None
@@ -172,11 +186,13 @@ def states():
     """name -> (model, what leads there from a fresh Idle with nothing on: lines, bytes, and reports to wait for)."""
     on = "M3S1000\nM8\n"
     run, jog, home = [on + "G91G1X{}90F200\n", "=Run"], ["$J=G91X{}90F200\n", "=Jog"], ["$H\n", "=Home"]
+    fast = [on + "G91G1X{}90F1200\n", "=Run", SPEED_UP]
     held, closed = run + [HOLD, "=Hold:0"], run + [DOOR, "=Door:0"]
     return {
         "Idle": (Model("Idle", "SF"), [on]),
         "Run": (Model("Run", "SF"), run),
         "Hold": (Model("Hold", "SF", "Run"), held),
+        "Hold:1": (Model("Hold", "SF", "Run", braking=True), fast + [HOLD]),
         "Hold at rest": (Model("Hold", "SF", "Idle"), [on, HOLD]),
         "Hold, spindle stopped": (Model("Hold", "SF", "Run", "S"), held + [STOP_SPINDLE]),
         "Hold, starting": (Model("Hold", "SF", "Run", up=False, starting=True), held + [STOP_SPINDLE, START]),
@@ -187,6 +203,7 @@ def states():
         "Door:0": (Model("Door", "SF", "Run", "SFM"), closed),
         "Door:0 at rest": (Model("Door", "SF", "Idle", "SFM"), [on, DOOR]),
         "Door:1": (Model("Door", "SF", "Run", "SFM", opened=True), run + ["open"]),
+        "Door:2": (Model("Door", "SF", "Run", "SFM", braking=True), fast + [DOOR]),
         "Door:3": (Model("Door", "SF", "Run", up=False, starting=True), closed + [START]),
         "Check": (Model("Check"), ["$C\n"]),
         "Home": (Model("Home"), home),
@@ -220,7 +237,7 @@ def compare(driver, model, where):
 
 def wait_for(driver, report):
     """The report; where the machine moves in that state, it does."""
-    moves = report in ("Run", "Jog", "Home")
+    moves = report in ("Run", "Jog", "Home", "Hold:1", "Door:2")
     for _ in range(driver.patience):
         found = driver.observe()
         if found[0] == report and found[2] == moves:
@@ -235,11 +252,16 @@ def enter(driver, name):
     for step in steps:
         if step == "open":
             driver.door(True)
+        elif step == SPEED_UP:
+            driver.wait(1.5)
         elif step[0] == "=":
             wait_for(driver, step[1:])
         else:
             driver.say(step)
-    compare(driver, model, name)
+    if model.braking:
+        wait_for(driver, model.report())
+    else:
+        compare(driver, model, name)
     driver.heard()
     return model
 
@@ -272,7 +294,7 @@ def try_line(driver, name, line):
 def walk(driver, seed, length):
     """Random bytes from a random state on."""
     chance = random.Random(seed)
-    name = chance.choice([name for name in states() if not states()[name][0].waits])
+    name = chance.choice([name for name in states() if name not in UNSTEADY])
     model = enter(driver, name)
     where = f"seed {seed}: {name}"
     for _ in range(length):

@@ -15,7 +15,7 @@ import live_model
 from port import Port
 from virtual_mill import VirtualMill, say
 
-SETTINGS = "$20=0\n$22=1\n$25=30\n$26=50\n$341=0\n"
+SETTINGS = "$120=10\n$121=10\n$122=10\n$20=0\n$22=1\n$25=30\n$26=50\n$341=0\n"
 SECONDS = 8  # until it must be as the model says; a busy machine may need them
 
 
@@ -62,6 +62,9 @@ class MillDriver:
 
     def send(self, text):
         self.port.send(text)
+
+    def wait(self, seconds):
+        time.sleep(seconds)
 
     def steps(self):
         text = self.mill.command("where")

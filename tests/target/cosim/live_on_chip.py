@@ -23,7 +23,7 @@ class ChipDriver:
         machine.boot()
         machine.send("$X\n")
         machine.run(20)
-        for line in ("$22=1", "$25=30", "$26=50"):
+        for line in ("$120=10", "$121=10", "$122=10", "$22=1", "$25=30", "$26=50"):
             machine.ask(line)
         self.away, self.text = 1, ""
         self.opened = self.delays = False
@@ -59,6 +59,9 @@ class ChipDriver:
 
     def run(self, milliseconds, until=""):
         self.text += self.machine.run(milliseconds, until)
+
+    def wait(self, seconds):
+        self.run(1000 * seconds)
 
     def observe(self):
         self.machine.changes()
