@@ -9,6 +9,7 @@
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/program_fit/program_fit.hpp"
 
 #include "CLI/CLI.hpp"
@@ -54,7 +55,7 @@ void write_stats(const std::string& name, const FitReport& report, double tolera
                                        {"max_deviation_mm", report.max_deviation_mm},
                                        {"max_vertex_deviation_mm", report.max_vertex_deviation_mm},
                                        {"seconds", seconds}};
-    write_text(name, stats.dump(1) + "\n");
+    write_text(name, json_text::written(stats, 1) + "\n");
 }
 
 int run_fit(const FitOptions& options)

@@ -21,6 +21,7 @@
 #include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/job/level_warnings.hpp"
 #include "host_tools/job/overlap_warnings.hpp"
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/simulate/simulated_times.hpp"
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
@@ -227,7 +228,7 @@ void write_plan(const Job& job,
         if (!job.notes.empty()) {
             about["notes"] = job.notes;
         }
-        write_text(output.stats, plan_statistics(plan, about).dump(1) + "\n");
+        write_text(output.stats, json_text::written(plan_statistics(plan, about), 1) + "\n");
     }
 }
 

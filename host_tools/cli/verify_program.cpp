@@ -6,6 +6,7 @@
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/report/report.hpp"
 
 #include "fmt/format.h"
@@ -156,7 +157,7 @@ Verification verify_program(const Job& job,
     Verification result = verify::verify(job, program_file, settings, ShareProgress{"cutting"});
     const cancellation::FinishOutput finish;
     if (!output.stats.empty()) {
-        write_text(output.stats, stats_of(result).dump(1) + "\n");
+        write_text(output.stats, json_text::written(stats_of(result), 1) + "\n");
     }
     if (!output.path_picture.empty()) {
         write_text(output.path_picture, path_picture(job, result.program));
@@ -176,7 +177,7 @@ std::string verification_text(const Verification& result)
     const Json stats = stats_of(result);
     for (const auto& [name, value] : stats.items()) {
         if (name != "broken") {
-            text += fmt::format("{}: {}\n", name, value.dump());
+            text += fmt::format("{}: {}\n", name, json_text::written(value));
         }
     }
     for (const std::string& broken : result.broken) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
 
 #include "host_tools/dialect/leading_number.hpp"
@@ -39,8 +40,9 @@ std::optional<Vec3d> vector_of(std::string_view text)
 {
     Vec3d vector;
     for (unsigned axis = 0; axis < 3; ++axis) {
+        constexpr double kFarthest = 1e7;  // mm; a damaged number may be any
         const auto number = decimal(split_off(text, ','));
-        if (!number) {
+        if (!number || std::abs(*number) > kFarthest) {
             return std::nullopt;
         }
         vector[axis] = *number;

@@ -1,4 +1,4 @@
-// ProgramLines: the lines of a program as sent, without comments and blanks.
+// ProgramLines: the lines of a program as sent, without comments and blanks, up to its end.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,31 @@
 
 namespace cusp::dialect {
 
-// The line without comments, blanks and tape markers (%); $ commands are unchanged.
+// The line without comments, blanks, control characters and tape markers (%); $ commands keep their
+// blanks.
 std::string bare_line(std::string_view line);
+
+// The first byte that a controller takes out of a line at once: ?, ! and ~ ask, hold and resume, and
+// those above 0x7F override, open the door or reset. No value where the line can be sent.
+//
+// words  as bare_line()
+std::optional<std::size_t> realtime_byte(std::string_view words);
+
+// Whether the line ends the program when it is run: M2 or M30. Wrong lines are not looked for.
+//
+// words  as bare_line()
+bool ends_program(std::string_view words);
+
+// Finds the % that ends a program: the second, where the first line is one.
+class EndLine {
+public:
+    // For every line of the file in order. Whether the program has ended before this line.
+    bool at(std::string_view line);
+
+private:
+    bool begun_{false};
+    bool marked_{false};  // by a % in the first line that is not blank
+};
 
 // bare_line() with `number` as its only N word, so that the controller's reports name the line of
 // the file. $ commands and lines with a malformed N word are unchanged.
@@ -27,7 +50,7 @@ public:
     // Throws InputError, as next() does.
     explicit ProgramLines(const std::string& file) : source_{file} {}
 
-    // The next line that is not empty.
+    // The next line that is not empty. None after M2 or M30, nor from the second % on.
     std::optional<ProgramLine> next();
 
     double progress() const { return source_.progress(); }
@@ -35,6 +58,8 @@ public:
 
 private:
     LineSource source_;
+    EndLine end_line_;
+    bool ended_{false};
 };
 
 }  // namespace cusp::dialect

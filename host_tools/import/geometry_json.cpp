@@ -7,6 +7,7 @@
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
@@ -32,7 +33,7 @@ const Json& member(const Json& object, const char* key, const std::string& place
 double number(const Json& value, const std::string& place)
 {
     if (!value.is_number()) {
-        throw InputError(fmt::format("{}: {} is not a number", place, value.dump()));
+        throw InputError(fmt::format("{}: {} is not a number", place, json_text::written(value)));
     }
     return value.get<double>();
 }
@@ -150,7 +151,7 @@ void read_trims(const Json& shape, const std::string& place, Surface& surface)
     if (trims.contains("count") &&
         whole_number(trims, "count", place + ": trims") != static_cast<int>(data.size())) {
         throw InputError(fmt::format("{}: trims: count is {}, data holds {}", place,
-                                     trims.at("count").dump(), data.size()));
+                                     json_text::written(trims.at("count")), data.size()));
     }
     std::vector<Curve> curves;
     for (const Json& trim : data) {
@@ -193,14 +194,14 @@ void for_each_shape(const Json& document, const std::string& file, const char* t
     const Json& shape = member(document, "shape", file);
     const Json& found = member(shape, "type", file);
     if (found != type) {
-        throw InputError(
-            fmt::format("{}: type is {}, here a \"{}\" is needed", file, found.dump(), type));
+        throw InputError(fmt::format("{}: type is {}, here a \"{}\" is needed", file,
+                                     json_text::written(found), type));
     }
     const Json& data = list(shape, "data", file);
     if (shape.contains("count") &&
         whole_number(shape, "count", file) != static_cast<int>(data.size())) {
         throw InputError(fmt::format("{}: count is {}, data holds {}", file,
-                                     shape.at("count").dump(), data.size()));
+                                     json_text::written(shape.at("count")), data.size()));
     }
     if (data.empty()) {
         throw InputError(fmt::format("{}: holds no {}", file, type));

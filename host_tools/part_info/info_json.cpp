@@ -1,6 +1,7 @@
 // PartInfo as JSON. Its keys are stable: scripts read them.
 #include <cmath>
 
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/part_info/part_info.hpp"
 
 #include "nlohmann/json.hpp"
@@ -172,8 +173,7 @@ std::string json_of(const std::vector<PartInfo>& parts)
     for (const PartInfo& info : parts) {
         out["files"].push_back(part_json(info));
     }
-    // names of files and layers may be invalid UTF-8
-    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text::written(out, 1) + "\n";
 }
 
 }  // namespace cusp::part_info

@@ -8,6 +8,7 @@
 
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/segmenter/arc_fitter.hpp"
+#include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/dialect/refusal.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/program_fit/fit_check.hpp"
@@ -88,7 +89,10 @@ public:
     }
 
     void read(std::string_view text);
-    FittedProgram finish();
+    // Whether the line read last ends the program.
+    bool ended() const { return ended_; }
+    // rest  of the program, after its end: as it is
+    FittedProgram finish(std::string_view rest);
 
 private:
     static constexpr std::size_t kBuffer = 4096;
@@ -114,6 +118,7 @@ private:
 
     std::string name_;
     double tolerance_;
+    bool ended_{false};
     gcode::Interpreter interpreter_;
     std::vector<gcode::Action> actions_;
     std::vector<Vec3d> buffer_;
@@ -164,6 +169,7 @@ void Fitter::read(std::string_view text)
     gcode::Action action;
     while (interpreter_.next(action)) {
         const auto* move = std::get_if<path::Move>(&action);
+        ended_ = ended_ || std::holds_alternative<gcode::ProgramEnd>(action);
         report_.moves_in += move != nullptr && move->kind == path::MoveKind::kFeed ? 1 : 0;
         if (actions_.size() < 2) {
             actions_.push_back(action);
@@ -319,7 +325,7 @@ void Fitter::note_what_is_known(const Command& command)
     }
 }
 
-FittedProgram Fitter::finish()
+FittedProgram Fitter::finish(std::string_view rest)
 {
     end_run();
     const MeasuredFit measured = measure_fit(out_, vertices_, replacements_);
@@ -337,6 +343,7 @@ FittedProgram Fitter::finish()
     report_.moves_out = measured.lines + measured.arcs + measured.other_moves;
     report_.max_deviation_mm = std::max(measured.vertices, measured.between);
     report_.max_vertex_deviation_mm = measured.vertices;
+    out_ += rest;
     return {std::move(out_), report_};
 }
 
@@ -351,8 +358,12 @@ FittedProgram fit_program(std::string_view program,
     Fitter fitter{name, tolerance};
     const std::size_t size = program.size();
     std::size_t reported = 0;
-    while (!program.empty()) {
+    dialect::EndLine end_line;
+    while (!program.empty() && !fitter.ended()) {
         const std::size_t end = program.find('\n');
+        if (end_line.at(program.substr(0, end))) {
+            break;
+        }
         fitter.read(program.substr(0, end));
         program.remove_prefix(end == std::string_view::npos ? program.size() : end + 1);
         const std::size_t done = size - program.size();
@@ -361,7 +372,7 @@ FittedProgram fit_program(std::string_view program,
             reported = done;
         }
     }
-    return fitter.finish();
+    return fitter.finish(program);
 }
 
 }  // namespace cusp::program_fit

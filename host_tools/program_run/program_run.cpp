@@ -202,7 +202,7 @@ private:
     {
         while (!no_more_lines_) {
             const auto line = source_.next();
-            if (!line) {
+            if (!line || end_line_.at(*line)) {
                 no_more_lines_ = true;
                 break;
             }
@@ -212,6 +212,10 @@ private:
             const std::string words = dialect::bare_line(*line);
             if (words.empty()) {
                 continue;
+            }
+            if (const auto byte = dialect::realtime_byte(words)) {
+                refuse_byte(*line, words.substr(*byte, 1));
+                return false;
             }
             const std::string numbered = dialect::numbered_line(words, source_.line_number());
             effects_ = instruments_->read(numbered, source_.line_number());
@@ -226,6 +230,15 @@ private:
             return true;
         }
         return false;
+    }
+
+    // What a controller would take for a command of the operator is not sent.
+    void refuse_byte(const std::string& line, const std::string& byte)
+    {
+        constexpr int kNoLetter = 1;
+        result_.errors.push_back(
+            {source_.line_number(), kNoLetter, dialect::refusal(kNoLetter, line).text, line, byte});
+        no_more_lines_ = true;
     }
 
     bool refused_by_stock_grbl(const std::string& line)
@@ -308,6 +321,7 @@ private:
 
     const RunOptions& options_;
     LineSource& source_;
+    dialect::EndLine end_line_;
     RunResult result_;
     SimulatedController controller_;
     Sender sender_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "host_tools/json_text/json_text.hpp"
 #include "host_tools/simulate/simulate.hpp"
 
 namespace cusp::simulate {
@@ -55,8 +56,7 @@ std::string statistics_json(const SimulationResult& result)
         {"tools", tools},
         {"tool_changes", result.tool_changes},
     };
-    // A program may hold any bytes, JSON no others than UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text::written(json, 2) + "\n";
 }
 
 }  // namespace cusp::simulate

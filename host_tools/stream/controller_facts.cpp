@@ -1,7 +1,9 @@
 // Parses the listings.
 #include "host_tools/stream/controller_facts.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace cusp::stream {
 namespace {
@@ -16,11 +18,19 @@ std::optional<Number> number_in(std::string_view text)
     return failed == std::errc{} ? std::optional{number} : std::nullopt;
 }
 
+// mm; 0 where it is none that a machine has.
+double distance_in(std::string_view text)
+{
+    constexpr double kFarthest = 1e7;
+    const double distance = number_in<double>(text).value_or(0.0);
+    return std::abs(distance) <= kFarthest ? distance : 0.0;
+}
+
 Position position_in(std::string_view text)
 {
     Vec3d place;
     for (unsigned axis = 0; axis < 3; ++axis) {
-        place[axis] = number_in<double>(text).value_or(0.0);
+        place[axis] = distance_in(text);
         const std::size_t comma = text.find(',');
         text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
     }
@@ -50,7 +60,7 @@ void ControllerFacts::take(std::string_view line)
     }
     const auto number = number_in<std::uint32_t>(line.substr(1));
     const auto value = number_in<float>(line.substr(equals + 1));
-    if (number && value) {
+    if (number && value && std::isfinite(*value)) {
         has_settings_ = true;
         machine::Settings changed = settings_;
         if (!changed.put(*number, *value)) {
@@ -75,14 +85,16 @@ void ControllerFacts::take_parameter(std::string_view name, std::string_view val
     } else if (name == "G92") {
         parameters_.coordinate_offset = position_in(value);
     } else if (name == "TLO") {
-        parameters_.tool_length_offset_nm = to_nanometres(number_in<double>(value).value_or(0.0));
+        parameters_.tool_length_offset_nm = to_nanometres(distance_in(value));
     } else if (name == "T") {
         take_tool(value);
     } else if (name == "OPT") {
         // `OPT:V,15,128`: blocks and bytes.
         const std::size_t comma = value.rfind(',');
         if (comma != std::string_view::npos) {
-            receive_buffer_ = number_in<std::size_t>(value.substr(comma + 1));
+            constexpr std::size_t kMost = 1 << 16;
+            const auto bytes = number_in<std::size_t>(value.substr(comma + 1));
+            receive_buffer_ = bytes ? std::optional{std::min(*bytes, kMost)} : std::nullopt;
         }
     }
 }

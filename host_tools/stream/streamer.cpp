@@ -1,6 +1,11 @@
 // The transfer: lines, end of motion, and stopping.
 #include "host_tools/stream/streamer.hpp"
 
+#include <algorithm>
+
+#include "firmware/gcode/command.hpp"
+#include "firmware/gcode/decimal.hpp"
+
 namespace cusp::stream {
 
 using dialect::numbered_line;
@@ -16,6 +21,19 @@ constexpr char kSoftReset = '\x18';
 constexpr milliseconds kHoldLimit{10'000};
 constexpr milliseconds kResetLimit{3000};
 
+// Of the G4 of a line; 0: it has none.
+milliseconds dwell_of(const std::string& words)
+{
+    constexpr double kLongest = 1e6;  // s
+    gcode::Command command;
+    if (!gcode::read_command(words, gcode::ModalState{}, command) ||
+        command.non_modal != gcode::NonModal::kDwell || !command.has('P')) {
+        return milliseconds{0};
+    }
+    const double seconds = std::clamp(gcode::to_double(command.value('P')), 0.0, kLongest);
+    return milliseconds{static_cast<std::int64_t>(1000 * seconds)};
+}
+
 }  // namespace
 
 Streamer::Streamer(Transport& transport, StreamWatcher& watcher, const StreamOptions& options)
@@ -27,7 +45,7 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
 {
     stop_ = &stop;
     file_ = program.file();
-    last_heard_ = last_asked_ = Clock::now();
+    last_heard_ = last_asked_ = last_answered_ = Clock::now();
     StreamReport report;
     try {
         greet();
@@ -96,7 +114,9 @@ std::optional<ProgramLine> Streamer::next_line(ProgramLines& program)
         first_lines_.pop_front();
     }
     if (line && line->number != 0) {
+        refuse_realtime_byte(*line);
         checks_.add(*line);
+        dwell_ = std::max(dwell_, dwell_of(line->text));
     }
     return line;
 }
@@ -140,6 +160,9 @@ void Streamer::send_checked_program(ProgramLines& program)
     auto line = next_line(program);
     while (line || !checked_->empty()) {
         while (line && checked_->has_room()) {
+            if (checked_->empty()) {
+                note_answer();
+            }
             checked_->add(line->number, line->text);
             progress_.lines_sent += line->number != 0 ? 1U : 0U;
             progress_.sent_fraction = program.progress();
@@ -203,6 +226,9 @@ void Streamer::send_waiting()
 void Streamer::send_line(std::uint64_t number, std::string text)
 {
     text.push_back('\n');
+    if (window_.empty()) {
+        note_answer();
+    }
     window_.sent(number, text.size());
     outgoing_ += text;
     if (number != 0) {
@@ -230,18 +256,7 @@ void Streamer::pump(milliseconds wait)
 {
     send_waiting();
     const std::string bytes = transport_.read(outgoing_.empty() ? wait : milliseconds{1});
-    if (!bytes.empty()) {
-        last_heard_ = Clock::now();
-    }
-    for (const char byte : bytes) {
-        if (byte == '\n') {
-            std::string line;
-            line.swap(incoming_);
-            take_line(line);
-        } else if (byte != '\r') {
-            incoming_.push_back(byte);
-        }
-    }
+    take_bytes(bytes);
     if (Clock::now() - last_asked_ > options_.status_interval) {
         last_asked_ = Clock::now();
         const char question = '?';

@@ -48,6 +48,8 @@ struct StreamOptions {
     std::chrono::milliseconds status_interval{200};
     // Silence, despite status requests, after which the link is considered lost.
     std::chrono::milliseconds silence_limit{5000};
+    // For an answer while the controller reports that it is idle, beside the program's longest dwell.
+    std::chrono::milliseconds answer_limit{30'000};
     // Lines with numbers and CRCs, for bad serial lines; the controller must support them.
     bool checked{false};
     // Longest time until the controller's first output.
@@ -168,6 +170,11 @@ private:
     void take_key(StreamKey key);
     void take_error(std::uint64_t line, int code);
     void check_silence();
+    // A line that is sent is answered from now on; that it is answered counts as life.
+    void note_answer() { last_answered_ = Clock::now(); }
+    bool waits_for_answer() const;
+    void take_bytes(const std::string& bytes);
+    void refuse_realtime_byte(const dialect::ProgramLine& line);
     Position machine_position() const;
     bool is_state(const char* state) const { return progress_.status.state == state; }
 
@@ -180,8 +187,12 @@ private:
     std::optional<CheckedWindow> checked_;
     StreamProgress progress_;
     std::string incoming_;
+    bool after_return_{false};  // the last byte that came was a carriage return
+    bool is_noise_{false};      // the line that is coming holds bytes of no answer
     std::string outgoing_;
-    Clock::time_point last_heard_;
+    Clock::time_point last_heard_;        // a line of text
+    Clock::time_point last_answered_;     // or sent, where none was waited for
+    std::chrono::milliseconds dwell_{0};  // the longest of the program so far
     Clock::time_point last_asked_;
     std::uint64_t statuses_{0};
     std::uint64_t banners_{0};

@@ -42,8 +42,54 @@ std::string text_of(const std::string& file, std::uint64_t line)
 
 }  // namespace
 
+// Bytes that no answer holds come of a bad line: they are left out. Lines with too many of them, or
+// longer than any answer, are no sign that a controller is there.
+void Streamer::take_bytes(const std::string& bytes)
+{
+    constexpr std::size_t kLongestAnswer = 4096;
+    for (const char byte : bytes) {
+        const bool ends = byte == '\n' || byte == '\r';
+        if (ends) {
+            if (byte == '\n' && after_return_) {
+                after_return_ = false;
+                continue;
+            }
+            std::string line;
+            line.swap(incoming_);
+            last_heard_ = is_noise_ ? last_heard_ : Clock::now();
+            is_noise_ = false;
+            take_line(line);
+        } else if (byte != '\t' && (byte < ' ' || byte > '~')) {
+            is_noise_ = true;
+        } else if (incoming_.size() < kLongestAnswer) {
+            incoming_.push_back(byte);
+        } else {
+            is_noise_ = true;
+        }
+        after_return_ = byte == '\r';
+    }
+}
+
+void Streamer::refuse_realtime_byte(const dialect::ProgramLine& line)
+{
+    constexpr int kNoLetter = 1;
+    if (dialect::realtime_byte(line.text)) {
+        take_error(line.number, kNoLetter);
+    }
+}
+
+bool Streamer::waits_for_answer() const { return checked_ ? !checked_->empty() : !window_.empty(); }
+
 void Streamer::check_silence()
 {
+    const auto waiting = Clock::now() - last_answered_;
+    if (!stopping_ && is_state("Idle") && waits_for_answer() &&
+        waiting > options_.answer_limit + dwell_ + dwell_ / 2) {
+        throw LinkLost{
+            "the controller is idle and has not answered for " +
+            std::to_string(std::chrono::duration_cast<milliseconds>(waiting).count() / 1000) +
+            " s: an answer was lost"};
+    }
     const auto silence = Clock::now() - last_heard_;
     if (silence > options_.silence_limit && statuses_ > 0) {
         throw LinkLost{
@@ -144,6 +190,7 @@ void Streamer::take_answer(const Answer& answer)
     if (!number) {
         return;
     }
+    note_answer();
     if (*number == 0) {
         ++own_answers_;
         own_errors_ += answer.kind == AnswerKind::kError ? 1 : 0;
@@ -181,6 +228,7 @@ void Streamer::take_checked(const std::string& line)
     if (!verdict || verdict->done_lines == 0) {
         return;
     }
+    note_answer();
     if (!sending_) {
         own_errors_ += verdict->error != 0 ? 1U : 0U;
         return;

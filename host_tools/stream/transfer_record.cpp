@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/json_text/json_text.hpp"
 
 namespace cusp::stream {
 namespace {
@@ -101,7 +102,7 @@ bool write_record(const std::string& program, const TransferRecord& record)
     const std::string fresh = record_file(program) + ".new";
     {
         std::ofstream out{fresh};
-        out << json_of(record).dump(1) << "\n";
+        out << json_text::written(json_of(record), 1) << "\n";
         out.close();
         if (!out) {
             return false;

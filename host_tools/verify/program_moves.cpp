@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
+#include "host_tools/dialect/line_source.hpp"
+#include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/dialect/refusal.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -132,7 +134,7 @@ public:
         commented_tool_ = tool_in_comment(line).value_or(commented_tool_);
         take_tool(line);
         const bool was_curve = is_curve(interpreter_.modal().motion);
-        const Status status = interpreter_.execute(line, number_);
+        const Status status = interpreter_.execute(dialect::bare_line(line), number_);
         if (!status) {
             const int code = static_cast<int>(status.error());
             throw InputError(
@@ -202,15 +204,10 @@ Program read_program(const std::string& file, double start_z)
 {
     const std::string text = files::text_of_file(file);
     ProgramReader reader{file, start_z};
-    std::string_view rest{text};
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        if (!line.empty() && line.back() == '\r') {
-            line.remove_suffix(1);
-        }
-        if (!reader.read_line(line)) {
+    dialect::LineSource source = dialect::LineSource::of_text(file, text);
+    dialect::EndLine end_line;
+    while (const auto line = source.next()) {
+        if (end_line.at(*line) || !reader.read_line(*line)) {
             break;
         }
     }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/json_text/json_text.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
@@ -115,7 +116,7 @@ public:
         if (!session_.empty()) {
             message["sessionId"] = session_;
         }
-        write_all(message.dump() + '\0');
+        write_all(json_text::written(message) + '\0');
         while (true) {
             BrowserMessage answer = next();
             if (answer.value("id", 0) == number_) {

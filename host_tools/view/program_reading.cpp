@@ -47,6 +47,7 @@ public:
 
     void read(const std::string& line, std::uint64_t number)
     {
+        ended_ = ended_ || end_line_.at(line);
         const std::string words = bare_line(line);
         note_comment(line, words.empty(), number);
         std::uint8_t rapid = 0;
@@ -126,6 +127,7 @@ private:
     std::string title_;  // of the next section
     bool begun_{false};
     bool ended_{false};
+    dialect::EndLine end_line_;
 };
 
 }  // namespace

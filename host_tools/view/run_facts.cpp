@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "host_tools/json_text/json_text.hpp"
+
 #include "nlohmann/json.hpp"
 
 namespace cusp::view {
@@ -198,7 +200,7 @@ std::string facts_json(const RunFacts& facts)
     if (facts.verification != nullptr) {
         json["verification"] = verification_of(facts);
     }
-    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string text = json_text::written(json);
     // In JSON < occurs in strings only.
     std::string out;
     for (const char c : text) {

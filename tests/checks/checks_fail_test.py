@@ -219,7 +219,8 @@ class ChecksOfTheTree(unittest.TestCase):
                             ("box = {1e9, -1e9};", "1e9 is"), ("constexpr double kFar = kInfinite;", "a second name"),
                             ("constexpr double kFar{-kUnbounded};", "a second name"),
                             ("double least = std::numeric_limits<double>::max();", "numeric_limits<double>::max is"),
-                            ("double left = std::nan(\"\");", "std::nan( is"), ("double unit = inch ? 25.4 : 1.0;", "25.4 is")):
+                            ("double left = std::nan(\"\");", "std::nan( is"), ("double unit = inch ? 25.4 : 1.0;", "25.4 is"),
+                            ("out << stats.dump(1);", "dump() is json_text::written()")):
             self.write(place, f"\n{line}\n")
             status, said = self.run_check("constants.py")
             self.assertEqual(status, 1 if wrong else 0, said)

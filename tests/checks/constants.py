@@ -5,7 +5,8 @@ usage: constants.py TOP
 host_tools/nurbs/plan_vector.hpp defines kInfinite, kUnbounded and kNoValue. Elsewhere in host_tools no number of 1e9 or
 more replaces them: it is allowed only as a named constant (`constexpr`). No constant is another name of the three, and
 none is written as std::numeric_limits. LACK may not include plan_vector.hpp and write std::numeric_limits.
-kMillimetresPerInch of firmware/base/inch.hpp is the only 25.4. Comments and strings do not count.
+kMillimetresPerInch of firmware/base/inch.hpp is the only 25.4. JSON is written by host_tools/json_text alone: dump() throws at
+bytes that are no UTF-8. Comments and strings do not count.
 Exit status: 0 all do, 1 some do not, 2 there are no sources.
 """
 import pathlib
@@ -14,11 +15,13 @@ import sys
 
 HOME = "host_tools/nurbs/plan_vector.hpp"
 INCH = "firmware/base/inch.hpp"
+JSON_TEXT = "host_tools/json_text/json_text.hpp"
 LACK = ("host_tools/program_run/", "host_tools/view/")
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 HUGE = re.compile(r"(?<![\w.])[\d']+(?:\.\d*)?[eE]\+?0*(?:9|[1-9]\d+)\b")
 ALIAS = re.compile(r"\bk\w+(?: = |\{)-?k(?:Infinite|Unbounded|NoValue)[;}]")
 LIMITS = re.compile(r"numeric_limits<(?:double|float)>::(?:max|lowest)\b|numeric_limits<double>::(?:infinity|quiet_NaN)\b|\bstd::nan\(|\b(?:HUGE_VAL|INFINITY|NAN)\b")
+DUMP = re.compile(r"\.dump\(")
 TWENTY_FIVE = re.compile(r"(?<![\w.])25\.4F?(?![\w.])")
 
 
@@ -27,6 +30,8 @@ def complaints(text, place):
     for number, line in enumerate(lines, 1):
         if place != INCH and TWENTY_FIVE.search(line):
             yield f"{place}:{number}: 25.4 is kMillimetresPerInch of {INCH}"
+        if DUMP.search(line) and place != JSON_TEXT:
+            yield f"{place}:{number}: dump() is json_text::written() of {JSON_TEXT}"
         if place == HOME or not place.startswith("host_tools/"):
             continue
         if "constexpr" not in line and HUGE.search(line):

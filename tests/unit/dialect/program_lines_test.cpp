@@ -1,6 +1,9 @@
 // Lines as they go over the wire.
 #include "host_tools/dialect/program_lines.hpp"
 
+#include <string>
+#include <vector>
+
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -35,4 +38,47 @@ TEST(ProgramLines, AreNeverMadeTooLong)
 {
     const std::string longest(255, 'X');
     LONGS_EQUAL(255, numbered_line(longest, 7).size());
+}
+
+TEST(ProgramLines, HaveNoControlCharacters)
+{
+    using cusp::dialect::bare_line;
+    CHECK_EQUAL(std::string{"G1X1"}, bare_line(std::string{"\0G1\x7f X1\x1a\x0c", 9}));
+    CHECK_EQUAL(std::string{"$N0=G21 G90"}, bare_line("  $N0=G21 G90\x01"));
+    CHECK_EQUAL(std::string{}, bare_line("\x1a"));
+}
+
+TEST(ProgramLines, NameTheFirstByteThatAControllerActsOn)
+{
+    using cusp::dialect::realtime_byte;
+    for (const char* words : {"G1!", "G1~", "G1?", "G1\x84", "G1\xff"}) {
+        CHECK(realtime_byte(words) == 2U);
+    }
+    CHECK(!realtime_byte("$J=G91X1F100"));
+}
+
+TEST(ProgramLines, EndAtM2AndM30)
+{
+    using cusp::dialect::ends_program;
+    for (const char* words : {"M2", "m02", "M30", "M030", "G1X3M2", "M5M30", "M2.0"}) {
+        CHECK(ends_program(words));
+    }
+    for (const char* words : {"M3", "M300", "M20", "G2", "M", "$N0=M30", "M0", "M2.5"}) {
+        CHECK(!ends_program(words));
+    }
+}
+
+TEST(ProgramLines, EndAtTheSecondTapeMark)
+{
+    const auto ends_at = [](const std::vector<std::string>& lines) {
+        cusp::dialect::EndLine end_line;
+        std::size_t line = 0;
+        while (line < lines.size() && !end_line.at(lines[line])) {
+            ++line;
+        }
+        return line;
+    };
+    UNSIGNED_LONGS_EQUAL(3, ends_at({"", " % ", "G21", "%\r", "G1"}));
+    UNSIGNED_LONGS_EQUAL(4, ends_at({"G21", "%", "G1", "%"}));
+    UNSIGNED_LONGS_EQUAL(3, ends_at({"%", "%O1000", "G1"}));
 }
