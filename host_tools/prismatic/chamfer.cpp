@@ -4,6 +4,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "host_tools/prismatic/common_edges.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
@@ -45,7 +46,8 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
                         std::max(0.0, tool.radius - away)));
     }
     const double z = cut.top - (cut.width + kTipClearance) / std::tan(tool.tip_angle / 2);
-    Region2d centres = RegionOffset{opposite(material_of(cut))}.at(away);
+    Region2d centres =
+        RegionOffset{opposite(without_common_edges(material_of(cut)).region)}.at(away);
     if (centres.contours.empty()) {
         const Vec2d p = in_plan(cut.loops.front().loop.front().points.front());
         throw InputError(

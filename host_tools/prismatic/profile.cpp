@@ -6,6 +6,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "host_tools/prismatic/common_edges.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
@@ -40,14 +41,29 @@ namespace {
 // Radius of leads over the tool's, where the job gives none.
 constexpr double kLeadRadius = 1.0;
 
+// Where the tool may be. Parts that touch are one to a tool outside them.
+ContourGroup contours_beside(const Prismatic& cut)
+{
+    ContourGroup drawn{material_of(cut), {}, 0, {}};
+    if (cut.side == ProfileSide::kOutside) {
+        drawn = without_common_edges(drawn.region);
+        drawn.region = opposite(drawn.region);
+        return drawn;
+    }
+    for (std::size_t n = 0; n < drawn.region.contours.size(); ++n) {
+        drawn.sources.push_back(n);
+    }
+    return drawn;
+}
+
 class ProfilePlanner {
 public:
     ProfilePlanner(const Job& job, const Operation& operation)
         : job_{job},
           operation_{operation},
           cut_{*operation.prismatic},
-          waste_{cut_.side == ProfileSide::kOutside ? opposite(material_of(cut_))
-                                                    : material_of(cut_)},
+          drawn_{contours_beside(cut_)},
+          waste_{drawn_.region},
           walls_{edges_of(waste_)},
           levels_{cut_levels(job, operation, cut_.depth)},
           planned_{begun(job, operation, side_text())},
@@ -109,6 +125,12 @@ private:
         if (on_line()) {
             return;
         }
+        if (drawn_.common > 0) {
+            planned_.stats.warnings.push_back(
+                fmt::format("{}: loops have edges in common, {:.4g} mm of them, such as at x "
+                            "{:.6g} y {:.6g} mm: not cut",
+                            cut_.file, drawn_.common, drawn_.place.x, drawn_.place.y));
+        }
         const Unreached left = unreached(waste_, centres, radius);
         if (centres.contours.empty()) {
             throw InputError(fmt::format(
@@ -119,10 +141,10 @@ private:
         }
         for (const std::size_t n : left.loops) {
             const Vec2d p = waste_.contours[n].front().start;
-            planned_.stats.warnings.push_back(
-                fmt::format("{}: tool {} of {:g} mm fits nowhere along the loop at x {:.6g} y "
-                            "{:.6g} mm: not cut",
-                            cut_.loops[n].name, operation_.tool.number, 2 * radius, p.x, p.y));
+            planned_.stats.warnings.push_back(fmt::format(
+                "{}: tool {} of {:g} mm fits nowhere along the loop at x {:.6g} y "
+                "{:.6g} mm: not cut",
+                cut_.loops[drawn_.sources[n]].name, operation_.tool.number, 2 * radius, p.x, p.y));
         }
         constexpr double kCorner = 4.0;  // radii: what a corner of 53 degrees leaves
         if (left.longest > kCorner * radius) {
@@ -301,6 +323,7 @@ private:
     const Job& job_;
     const Operation& operation_;
     const Prismatic& cut_;
+    ContourGroup drawn_;
     Region2d waste_;
     EdgeTree walls_;
     std::vector<double> levels_;

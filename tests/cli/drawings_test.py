@@ -120,6 +120,12 @@ class Drawings(CuspCase):
         self.planned(drawing(rectangle(0, 0, 20, 20) + rectangle(20, 5, 20, 10)), keys='side = "inside"')
         self.holds()
 
+    def test_parts_with_a_common_edge_are_cut_around(self):
+        for second, common in ((rectangle(20, 0, 20, 20), 20), (rectangle(20, 5, 20, 10), 10), (rectangle(20, -5, 10, 40), 20)):
+            out = self.planned(drawing(rectangle(0, 0, 20, 20) + second), placing="bottom = -4\nmargin = 12")
+            self.assertIn(f"loops have edges in common, {common} mm of them", out)
+            self.holds()
+
     def test_fit_points_are_interpolated(self):
         turns = [2 * math.pi * k / 12 for k in range(13)]
         spline = groups((0, "SPLINE"), (8, "o"), (70, 0), (71, 3), (72, 0), (73, 0), (74, 13),
