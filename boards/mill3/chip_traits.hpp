@@ -107,8 +107,14 @@ struct ChipTraits {
         board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
                                  reset_amid_motion());
         start_watchdog<Chip>();
+        // Only while servo ticks come: without them nothing stops what goes on.
+        std::uint32_t fed_at = application.machine().motion().ticks() - 1;
         for (;;) {
-            feed_watchdog<Chip>();
+            const std::uint32_t ticks = application.machine().motion().ticks();
+            if (ticks != fed_at) {
+                fed_at = ticks;
+                feed_watchdog<Chip>();
+            }
             if (!application.poll()) {
                 __asm volatile("wfi");
             }

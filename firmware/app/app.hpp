@@ -6,9 +6,15 @@
 //   main loop:   while (true) { app.poll(); }
 //   servo tick:  app.tick();          every time a pulse frame has been played, lower priority
 //
+// The tick alone drives the outputs: what the main loop wants on is off there while a stop is pending,
+// whatever the main loop does.
+//
 // Nothing here reads a clock: time is counted in servo ticks. The same bytes, in the same order
 // with the ticks, give the same frames on every board and in the simulator.
 #pragma once
+
+#include <atomic>
+#include <cstdint>
 
 #include "firmware/machine/machine.hpp"
 #include "firmware/machine/settings_log.hpp"
@@ -35,7 +41,10 @@ public:
           machine_{queue, factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
     {
         machine_.start(log_.load(machine_.stored().bytes()));
-        set_outputs(machine_.outputs());
+        wanted_ = machine_.outputs();
+        driven_ = wanted_;
+        board_.panel.set(driven_);
+        board_.pulse_player.invert(driven_.inverted_lines);
     }
     App(const App&) = delete;
     App& operator=(const App&) = delete;
@@ -62,17 +71,18 @@ private:
     bool read_bytes() noexcept;
     bool write_bytes() noexcept;
     void store_settings() noexcept;
-    void set_outputs(const OutputLevels& outputs) noexcept
-    {
-        outputs_ = outputs;
-        board_.panel.set(outputs);
-        board_.pulse_player.invert(outputs.inverted_lines);
-    }
+    void want_outputs(const OutputLevels& outputs) noexcept;
+    void scan_bytes() noexcept;
+    void drive_outputs() noexcept;
 
     Board& board_;
     machine::SettingsLog<decltype(Board::settings_store)> log_;
     machine::Machine machine_;
-    OutputLevels outputs_;
+    OutputLevels wanted_;  // the main loop's
+    std::atomic<bool> wants_other_{false};
+    OutputLevels driven_;  // the tick's, before it cuts them
+    bool cut_{false};
+    bool drives_cut_{false};
     PulseFrame frame_;
     bool frame_waits_{false};
 };
@@ -80,6 +90,7 @@ private:
 template <class Board>
 bool App<Board>::poll() noexcept
 {
+    machine_.begin_slice();
     const bool read = read_bytes();
     if (board_.pulse_player.underrun()) {
         machine_.frame_missed();
@@ -87,9 +98,10 @@ bool App<Board>::poll() noexcept
     }
     const bool worked = machine_.poll();
     const OutputLevels outputs = machine_.outputs();
-    if (!(outputs == outputs_)) {
-        set_outputs(outputs);
+    if (!(outputs == wanted_)) {
+        want_outputs(outputs);
     }
+    machine_.end_slice();
     const bool stores = machine_.wants_store();
     if (stores) {
         store_settings();
@@ -100,10 +112,12 @@ bool App<Board>::poll() noexcept
 template <class Board>
 void App<Board>::tick() noexcept
 {
+    scan_bytes();
     if (!frame_waits_) {
         frame_.edges.clear();
         machine_.tick(board_.panel.inputs(), frame_);
     }
+    drive_outputs();
     frame_waits_ = !board_.pulse_player.try_play(frame_);
 }
 
@@ -120,7 +134,59 @@ bool App<Board>::read_bytes() noexcept
         machine_.receive(byte);
         ++count;
     }
+    if (count < kBytesPerSlice) {
+        machine_.link_empty();
+    }
     return count > 0;
+}
+
+// For the tick to drive. It does not look while they are written.
+template <class Board>
+void App<Board>::want_outputs(const OutputLevels& outputs) noexcept
+{
+    wants_other_.store(false, std::memory_order_relaxed);
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    wanted_ = outputs;
+    wants_other_.store(true, std::memory_order_release);
+    board_.pulse_player.invert(outputs.inverted_lines);
+}
+
+// A stop in the bytes that the main loop has not come to read.
+template <class Board>
+void App<Board>::scan_bytes() noexcept
+{
+    constexpr unsigned kBytesPerTick = 128;  // at 1 Mbaud 100 come
+    std::uint8_t byte = 0;
+    for (unsigned i = 0; i < kBytesPerTick && board_.byte_link.try_scan(byte); ++i) {
+        machine_.notice(byte);
+    }
+}
+
+template <class Board>
+void App<Board>::drive_outputs() noexcept
+{
+    const bool cut = machine_.cuts_outputs();
+    const bool drives_cut = machine_.cuts_drives();
+    const bool other = wants_other_.load(std::memory_order_acquire);
+    if (!other && cut == cut_ && drives_cut == drives_cut_) {
+        return;
+    }
+    if (other) {
+        driven_ = wanted_;
+        wants_other_.store(false, std::memory_order_relaxed);
+    }
+    cut_ = cut;
+    drives_cut_ = drives_cut;
+    OutputLevels levels = driven_;
+    if (cut) {
+        levels.spindle_on = false;
+        levels.spindle_reverse = false;
+        levels.spindle_pwm = 0;
+        levels.flood = false;
+        levels.mist = false;
+    }
+    levels.drives_enabled = levels.drives_enabled && !drives_cut;
+    board_.panel.set(levels);
 }
 
 template <class Board>

@@ -39,6 +39,21 @@ public:
         return true;
     }
 
+    // The element at `place`, which counts all that were pushed, or the oldest one left where that is
+    // gone; moves the place past it. False where there is none. Context: one that may interrupt the
+    // consumer, never the other way round.
+    bool try_peek(std::uint32_t& place, T& value) const noexcept
+    {
+        const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
+        place = static_cast<std::int32_t>(tail - place) > 0 ? tail : place;
+        if (place == head_.load(std::memory_order_acquire)) {
+            return false;
+        }
+        value = elements_[place & (N - 1)];
+        ++place;
+        return true;
+    }
+
     std::uint32_t size() const noexcept
     {
         return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_acquire);

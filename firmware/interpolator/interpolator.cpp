@@ -71,7 +71,7 @@ Position Interpolator::tick() noexcept
 {
     drained_before_ = drained_;
     drained_ = leading_->filter.drained();
-    const OverrideFactors& factors = holding_ ? kHeld : factors_;
+    const OverrideFactors& factors = holding_ || braking_ ? kHeld : factors_;
     const bool may_pass = servo_.standing() && ready_to_go_on();
     const std::int32_t step =
         servo_.tick({factors, may_pass, trail_drained_, leading_->filter.oldest()});

@@ -38,6 +38,8 @@ public:
     void hold() noexcept { holding_ = true; }
     void resume() noexcept { holding_ = false; }
     bool holding() const noexcept { return holding_; }
+    // The same, as long as the servo tick says so. Context: servo tick.
+    void brake(bool on) noexcept { braking_ = on; }
 
     // Per cent of the programmed feed, 10 to 200, and of rapids, 25 to 100.
     void set_feed_override(unsigned percent) noexcept;
@@ -100,6 +102,7 @@ private:
     bool drained_before_{false};  // and before the last one
     bool trail_drained_{true};    // that of the trailing track, before the last tick
     bool holding_{false};
+    bool braking_{false};
     bool at_rest_{true};
     RunningSum<PathOffset, kMaxSecondFilter> second_;
     RunningSum<PathOffset, kMaxAxisFilter> first_;

@@ -78,11 +78,7 @@ bool Machine::poll() noexcept
     motion_.work(can_answer && (!received_.empty() || task_ == Task::kActions));
     guard_limits();
     if (!can_answer) {
-        // A stop acts even if the sender does not read the reply.
-        if (hold_wanted_ || door_wanted_ || reset_wanted_) {
-            motion_.hold();
-        }
-        return false;
+        return false;  // a stop acts in the tick meanwhile
     }
     const bool handled = handle_events();
     const bool followed = follow_motion();
@@ -100,6 +96,13 @@ bool Machine::poll() noexcept
         return true;
     }
     return read_lines();
+}
+
+void Machine::end_slice() noexcept
+{
+    const bool cut = reset_wanted_ || door_wanted_;
+    motion_.stops().want(cut || hold_wanted_, cut);
+    motion_.stops().confirm();
 }
 
 // Hard limits guard every state in which something may move, from the moment that no switch is
@@ -168,7 +171,7 @@ bool Machine::follow_motion() noexcept
     return false;
 }
 
-// A door stops spindle and coolant once the tool rests. A start waits until they are up.
+// An open door keeps spindle and coolant off. A start waits until they are up.
 void Machine::follow_hold() noexcept
 {
     if (!motion_.at_rest()) {
@@ -176,8 +179,7 @@ void Machine::follow_hold() noexcept
     }
     starting_ = starting_ && !(state_ == State::kDoor && input_on(kDoor));
     if (state_ == State::kDoor && !starting_) {
-        accessories_.spindle_paused = true;
-        accessories_.coolant_paused = true;
+        pause_outputs();
     }
     if (!starting_ || coming_up_) {
         return;
@@ -278,7 +280,10 @@ void Machine::say_hello() noexcept
 {
     reporter_ = StatusReporter{};
     (void)replies_.text("\r\nGrbl 1.1h ['$' for help]").end_line();
-    panel_before_ = static_cast<std::uint16_t>(motion_.inputs().steady() & ~unsigned{kDoor});
+    // What was pressed before is over; an open door is not.
+    constexpr std::uint16_t kButtons = kResetButton | kHoldButton | kStartButton | kDoor;
+    motion_.stops().handle(kButtons);
+    door_wanted_ = door_wanted_ || input_on(kDoor);
     if (stored_.settings.on(Setting::kHardLimits) && limit_on()) {
         state_ = State::kAlarm;
         message("Check Limits");

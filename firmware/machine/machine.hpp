@@ -68,11 +68,24 @@ public:
     // A pulse frame was missing during motion: the steps stopped at once.
     void frame_missed() noexcept;
 
+    // A byte that has come and that receive() has not had yet. Context: servo tick.
+    void notice(std::uint8_t byte) noexcept { motion_.stops().take_byte(byte, checked_.on()); }
     // Context: servo tick.
     void tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
     {
         motion_.tick(raw_inputs, frame);
     }
+
+    // Whether outputs() are cut: see Stops. Context: servo tick.
+    bool cuts_outputs() const noexcept { return motion_.stops().cuts_outputs(); }
+    bool cuts_drives() const noexcept { return motion_.stops().cuts_drives(); }
+
+    // The start of a slice, before the link is read.
+    void begin_slice() noexcept { stop_bytes_ = motion_.stops().bytes(); }
+    // receive() has had all that had come by then.
+    void link_empty() noexcept { motion_.stops().read_up_to(stop_bytes_); }
+    // The end of a slice, with outputs() in force: the stops that it has handled are let go.
+    void end_slice() noexcept;
 
     State state() const noexcept { return state_; }
     Alarm alarm() const noexcept { return alarm_; }
@@ -110,7 +123,9 @@ private:
     void feed_hold() noexcept;
     void hold_program() noexcept;
     void cycle_start() noexcept;
+    bool protect() noexcept;
     void open_door() noexcept;
+    void pause_outputs() noexcept;
     void cancel_jog() noexcept;
     void toggle_spindle_stop() noexcept;
     void toggle_coolant(protocol::RealtimeCommand command) noexcept;
@@ -135,12 +150,13 @@ private:
     {
         return (motion_.inputs().steady() & input) != 0;
     }
-    // Inputs that stop everything: an alarm while one is on.
+    // Inputs that stop everything: an alarm while one is on, or after it was.
     Alarm protector() const noexcept
     {
-        return input_on(kEmergencyStop) ? Alarm::kEmergencyStop
-               : input_on(kMotorFault)  ? Alarm::kMotorFault
-                                        : Alarm::kNone;
+        const unsigned on = motion_.inputs().steady() | unsigned{motion_.stops().pending()};
+        return (on & kEmergencyStop) != 0 ? Alarm::kEmergencyStop
+               : (on & kMotorFault) != 0  ? Alarm::kMotorFault
+                                          : Alarm::kNone;
     }
     bool limit_on() const noexcept { return (motion_.inputs().steady() & kLimitInputs) != 0; }
     void message(std::string_view text) noexcept;
@@ -239,7 +255,7 @@ private:
     bool spindle_stop_wanted_{false};
     bool link_lost_bytes_{false};
     bool frame_missed_{false};
-    std::uint16_t panel_before_{0};
+    std::uint32_t stop_bytes_{0};
 
     Overrides overrides_;
     Accessories accessories_;

@@ -89,8 +89,7 @@ bool Machine::handle_events() noexcept
         raise(Alarm::kHardLimit);
         return true;
     }
-    if (protector() != Alarm::kNone && !reset_needed_) {
-        raise(protector());
+    if (protect()) {
         return true;
     }
     if (frame_missed_) {
@@ -139,12 +138,27 @@ bool Machine::handle_events() noexcept
     return watch_panel() || watch_link();
 }
 
+// An emergency stop or a motor fault. After one only an emergency stop raises another alarm: it
+// switches the drives off.
+bool Machine::protect() noexcept
+{
+    const Alarm alarm = protector();
+    const bool new_one =
+        !reset_needed_ || (alarm == Alarm::kEmergencyStop && alarm_ != Alarm::kEmergencyStop);
+    motion_.stops().handle(Stops::kHalting);
+    if (alarm == Alarm::kNone || !new_one) {
+        return false;
+    }
+    raise(alarm);
+    return true;
+}
+
 // Buttons and the door act when they come on.
 bool Machine::watch_panel() noexcept
 {
-    const std::uint16_t now = motion_.inputs().steady();
-    const auto risen = static_cast<std::uint16_t>(now & ~unsigned{panel_before_});
-    panel_before_ = now;
+    constexpr unsigned kActing = kResetButton | kHoldButton | kStartButton | kDoor;
+    const auto risen = static_cast<std::uint16_t>(motion_.stops().pending() & kActing);
+    motion_.stops().handle(risen);
     if ((risen & kResetButton) != 0) {
         act(RealtimeCommand::kReset);
     }
@@ -157,7 +171,7 @@ bool Machine::watch_panel() noexcept
     if ((risen & kDoor) != 0) {
         door_wanted_ = true;
     }
-    return (risen & (kResetButton | kHoldButton | kStartButton | kDoor)) != 0;
+    return risen != 0;
 }
 
 // $791: a program whose sender has gone silent is held. Checked lines lapse in a long silence at
@@ -234,6 +248,13 @@ void Machine::open_door() noexcept
     motion_.hold();
     state_ = State::kDoor;
     starting_ = false;
+    pause_outputs();
+}
+
+void Machine::pause_outputs() noexcept
+{
+    accessories_.spindle_paused = true;
+    accessories_.coolant_paused = true;
 }
 
 void Machine::cancel_jog() noexcept

@@ -198,7 +198,7 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
 {
     if (!gate_shut_.load(std::memory_order_acquire)) {
         sample(raw_inputs);
-        if (!limit_hit_.load(std::memory_order_relaxed)) {
+        if (!limit_hit_.load(std::memory_order_relaxed) && !stops_.halts()) {
             set_point_ = interpolator_.tick();
         }
     }
@@ -217,6 +217,8 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
 void Motion::sample(std::uint16_t raw_inputs) noexcept
 {
     inputs_.sample(static_cast<std::uint16_t>((raw_inputs ^ inverted_inputs_) & used_inputs_));
+    stops_.take_inputs(inputs_.raw(), inputs_.steady());
+    interpolator_.brake(stops_.brakes());
     if (guarding_.load(std::memory_order_relaxed) && (inputs_.steady() & kLimitInputs) != 0) {
         limit_hit_.store(true, std::memory_order_release);
     }

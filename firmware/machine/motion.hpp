@@ -13,6 +13,7 @@
 #include "firmware/interpolator/interpolator.hpp"
 #include "firmware/machine/input_filter.hpp"
 #include "firmware/machine/settings.hpp"
+#include "firmware/machine/stops.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
 
@@ -92,6 +93,9 @@ public:
     bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
 
     const InputFilter& inputs() const noexcept { return inputs_; }
+    // What stops motion in the tick, whatever the main loop does.
+    Stops& stops() noexcept { return stops_; }
+    const Stops& stops() const noexcept { return stops_; }
     // Servo ticks since power-up: the only clock there is. Wraps.
     std::uint32_t ticks() const noexcept { return ticks_.load(std::memory_order_acquire); }
 
@@ -115,6 +119,7 @@ private:
     interpolator::Interpolator interpolator_{planner_};
     pulse::PulseMaker pulses_;
     InputFilter inputs_;
+    Stops stops_;
 
     // Two frames are in flight and the pulses follow one tick behind: what the switches see now
     // happened this many set points ago.

@@ -5,9 +5,9 @@ namespace cusp::protocol {
 
 void CheckedLines::switch_on() noexcept
 {
-    on_ = true;
+    on_.store(true, std::memory_order_relaxed);
     expected_ = 1;
-    repetitions_ = 0;
+    filter_.text();
 }
 
 std::optional<std::string_view> CheckedLines::accept(const LineAssembler& line) noexcept
@@ -31,14 +31,14 @@ std::optional<std::string_view> CheckedLines::accept(const LineAssembler& line) 
     return text.substr(end);
 }
 
-bool CheckedLines::accept_realtime(std::uint8_t byte) noexcept
+bool RealtimeFilter::accept(std::uint8_t byte) noexcept
 {
-    if (!on_ || byte == '?') {
+    if (byte == '?') {
         return true;
     }
     repetitions_ =
-        byte == last_realtime_ ? static_cast<std::uint8_t>(repetitions_ + 1) : std::uint8_t{1};
-    last_realtime_ = byte;
+        byte == last_ ? static_cast<std::uint8_t>(repetitions_ + 1) : std::uint8_t{1};
+    last_ = byte;
     if (repetitions_ < kRepetitions) {
         return false;
     }

@@ -31,9 +31,12 @@ constexpr bool is_pulse_player()
     return true;
 }
 
-// ByteLink carries the serial line. Context: main loop; neither call waits.
+// ByteLink carries the serial line. Context: main loop, but for try_scan(); no call waits.
 //
 //   try_read(byte)   one received byte, or false where none waits.
+//   try_scan(byte)   one received byte that neither call has given yet, which stays to be read; false
+//                    where there is none. So the servo tick sees a stop that the main loop does not come
+//                    to read. Context: servo tick. Bounded time.
 //   overrun()        whether received bytes were lost since the last call; clears the mark.
 //   write_room()     bytes that write() takes now.
 //   write(bytes)     precondition: bytes.size() <= write_room().
@@ -41,6 +44,7 @@ template <class T>
 constexpr bool is_byte_link()
 {
     static_assert(std::is_same_v<decltype(&T::try_read), bool (T::*)(std::uint8_t&) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::try_scan), bool (T::*)(std::uint8_t&) noexcept>);
     static_assert(std::is_same_v<decltype(&T::overrun), bool (T::*)() noexcept>);
     static_assert(std::is_same_v<decltype(&T::write_room), std::uint32_t (T::*)() const noexcept>);
     static_assert(

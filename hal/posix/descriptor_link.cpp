@@ -33,7 +33,7 @@ DescriptorLink::DescriptorLink(Descriptor descriptor) { connect(std::move(descri
 void DescriptorLink::connect(Descriptor descriptor)
 {
     descriptor_ = std::move(descriptor);
-    read_ = filled_ = 0;
+    read_ = filled_ = scanned_ = 0;
     outgoing_.clear();
     lost_ = false;
     const int flags = ::fcntl(descriptor_.number(), F_GETFL);
@@ -43,7 +43,7 @@ void DescriptorLink::connect(Descriptor descriptor)
 void DescriptorLink::disconnect() noexcept
 {
     descriptor_.close();
-    read_ = filled_ = 0;
+    read_ = filled_ = scanned_ = 0;
     outgoing_.clear();
     lost_ = true;
 }
@@ -61,13 +61,24 @@ bool DescriptorLink::try_read(std::uint8_t& byte) noexcept
     return true;
 }
 
+bool DescriptorLink::try_scan(std::uint8_t& byte) noexcept
+{
+    scanned_ = scanned_ < read_ ? read_ : scanned_;
+    if (scanned_ == filled_) {
+        return false;
+    }
+    byte = incoming_[scanned_];
+    ++scanned_;
+    return true;
+}
+
 void DescriptorLink::fill() noexcept
 {
     if (!descriptor_.is_open()) {
         return;
     }
     const ssize_t count = ::read(descriptor_.number(), incoming_.data(), incoming_.size());
-    read_ = 0;
+    read_ = scanned_ = 0;
     filled_ = count > 0 ? static_cast<std::uint32_t>(count) : 0;
     if ((count == 0 || (count < 0 && !is_passing(errno))) && !survives_) {
         lost_ = true;

@@ -20,6 +20,8 @@ public:
     explicit DescriptorLink(Descriptor descriptor);
 
     bool try_read(std::uint8_t& byte) noexcept;
+    // Of those that a try_read() has brought in.
+    bool try_scan(std::uint8_t& byte) noexcept;
     bool overrun() noexcept { return false; }  // the kernel holds the sender back
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
@@ -49,6 +51,7 @@ private:
     std::array<std::uint8_t, 4096> incoming_{};
     std::uint32_t read_{0};
     std::uint32_t filled_{0};
+    std::uint32_t scanned_{0};
     std::string outgoing_;
     bool lost_{false};
     bool survives_{false};

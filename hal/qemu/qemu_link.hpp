@@ -21,6 +21,11 @@ public:
     {
         return program_.is_open() ? program_.try_read(byte) : line_.try_read(byte);
     }
+    // A program's bytes come when they are read.
+    bool try_scan(std::uint8_t& byte) noexcept
+    {
+        return !program_.is_open() && line_.try_scan(byte);
+    }
     bool overrun() noexcept { return program_.is_open() ? false : line_.overrun(); }
     std::uint32_t write_room() const noexcept
     {

@@ -24,6 +24,7 @@ public:
 
     // See hal/contract/board.hpp. write() waits for the port byte by byte.
     bool try_read(std::uint8_t& byte) noexcept { return received_.try_pop(byte); }
+    bool try_scan(std::uint8_t& byte) noexcept { return received_.try_peek(scanned_, byte); }
     bool overrun() noexcept { return overrun_.exchange(false, std::memory_order_relaxed); }
     std::uint32_t write_room() const noexcept { return kRoom; }
     void write(Span<const std::uint8_t> bytes) noexcept
@@ -74,6 +75,7 @@ private:
     // 44 ms of the fastest sender: the firmware, which has the large buffer, takes bytes out far
     // sooner.
     SpscRing<std::uint8_t, 512> received_;
+    std::uint32_t scanned_{0};  // the servo tick's place
     std::atomic<bool> overrun_{false};
 };
 

@@ -32,6 +32,19 @@ bool SimulatedLink::try_read(std::uint8_t& byte) noexcept
     }
     byte = incoming_.front();
     incoming_.pop_front();
+    scanned_ -= scanned_ > 0 ? 1 : 0;
+    return true;
+}
+
+bool SimulatedLink::try_scan(std::uint8_t& byte) noexcept
+{
+    const std::uint64_t arrived =
+        bits_per_second_ == 0 ? incoming_.size() : read_credit_ / kMilliBitsPerByte;
+    if (scanned_ >= arrived || scanned_ >= incoming_.size()) {
+        return false;
+    }
+    byte = incoming_[scanned_];
+    ++scanned_;
     return true;
 }
 
@@ -84,6 +97,7 @@ void SimulatedLink::advance() noexcept
 void SimulatedLink::clear() noexcept
 {
     incoming_.clear();
+    scanned_ = 0;
     outgoing_.clear();
     overrun_ = false;
 }

@@ -14,6 +14,7 @@ namespace cusp::hal {
 class SimulatedLink {
 public:
     bool try_read(std::uint8_t& byte) noexcept;
+    bool try_scan(std::uint8_t& byte) noexcept;
     bool overrun() noexcept;
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
@@ -46,6 +47,7 @@ private:
 
     std::deque<std::uint8_t> incoming_;
     std::deque<std::uint8_t> outgoing_;
+    std::size_t scanned_{0};  // of incoming_, from its front
     std::uint32_t bits_per_second_{0};
     // Bytes that the rate lets through now, in thousandths of a bit.
     std::uint64_t read_credit_{0};

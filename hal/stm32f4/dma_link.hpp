@@ -26,6 +26,7 @@ public:
 
     // See hal/contract/board.hpp.
     bool try_read(std::uint8_t& byte) noexcept;
+    bool try_scan(std::uint8_t& byte) noexcept;
     bool overrun() noexcept;
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
@@ -37,9 +38,10 @@ private:
     // More than a sender may have in transit (1024 bytes, as `$I` reports) plus its status queries
     // while a sector is erased.
     static constexpr std::uint32_t kReceiveSize = 2048;
+    static constexpr auto kTurn = static_cast<std::int32_t>(kReceiveSize);
     static constexpr std::uint32_t kSendSize = 512;
 
-    static constexpr std::uint32_t kLost = 1U << 3U | 1U << 1U;  // overrun, framing error
+    static constexpr std::uint32_t kLost = 1U << 3U | 1U << 2U | 1U << 1U;  // overrun, noise, framing
     static constexpr std::uint32_t kReceiver = 1U << 2U;
     static constexpr std::uint32_t kTransmitter = 1U << 3U;
     static constexpr std::uint32_t kReceiveInterrupt = 1U << 5U;
@@ -69,7 +71,10 @@ private:
     void send_piece() noexcept;
 
     std::array<std::uint8_t, kReceiveSize> received_{};
-    std::uint32_t tail_{0};
+    // These count bytes and wrap at 2^32. The main loop writes the first, the servo tick the others.
+    std::atomic<std::uint32_t> read_{0};
+    std::atomic<std::uint32_t> arrived_{0};  // up to the last try_scan()
+    std::uint32_t scanned_{0};
     std::uint32_t seen_{0};    // head when overrun() looked last
     std::uint32_t unread_{0};  // bytes between tail and head then
 
@@ -104,17 +109,42 @@ void DmaLink<Chip, Port>::start(std::uint32_t bus_hz, std::uint32_t baud) noexce
 template <class Chip, class Port>
 bool DmaLink<Chip, Port>::try_read(std::uint8_t& byte) noexcept
 {
-    if (tail_ == head()) {
+    const std::uint32_t read = read_.load(std::memory_order_relaxed);
+    if (read % kReceiveSize == head()) {
         return false;
     }
     std::atomic_thread_fence(std::memory_order_acquire);
-    byte = received_[tail_];
-    tail_ = (tail_ + 1) % kReceiveSize;
+    byte = received_[read % kReceiveSize];
+    read_.store(read + 1, std::memory_order_relaxed);
+    return true;
+}
+
+// The ring goes round in 20 ms at 1 Mbaud at the earliest: no tick misses a turn but while a sector
+// is erased, which overrun() finds out.
+template <class Chip, class Port>
+bool DmaLink<Chip, Port>::try_scan(std::uint8_t& byte) noexcept
+{
+    const std::uint32_t before = arrived_.load(std::memory_order_relaxed);
+    const std::uint32_t arrived = before + (head() - before) % kReceiveSize;
+    arrived_.store(arrived, std::memory_order_relaxed);
+    // What was read is not scanned, unless the ring has lapped the reader.
+    const std::uint32_t read = read_.load(std::memory_order_relaxed);
+    const bool lapped = static_cast<std::int32_t>(arrived - read) >= kTurn;
+    if (!lapped && static_cast<std::int32_t>(read - scanned_) > 0) {
+        scanned_ = read;
+    }
+    if (static_cast<std::int32_t>(arrived - scanned_) <= 0) {
+        return false;
+    }
+    std::atomic_thread_fence(std::memory_order_acquire);
+    byte = received_[scanned_ % kReceiveSize];
+    ++scanned_;
     return true;
 }
 
 // Called before each reading. The stream passes its middle and its end: if it has passed both and is
-// less than half a ring further, it has overrun the ring.
+// less than half a ring further, it has overrun the ring. Where this was not called for longer, the
+// tick has counted the turns.
 template <class Chip, class Port>
 bool DmaLink<Chip, Port>::overrun() noexcept
 {
@@ -125,9 +155,16 @@ bool DmaLink<Chip, Port>::overrun() noexcept
     const bool both = (raised & kReceiveHalf) != 0 && (raised & kReceiveEnd) != 0;
     // A flag raised just after this reading counts for the next call.
     constexpr std::uint32_t kLate = 64;
-    const bool lapped = unread_ + came >= kReceiveSize || (both && came + kLate < kReceiveSize / 2);
+    bool lapped = unread_ + came >= kReceiveSize || (both && came + kLate < kReceiveSize / 2);
+    std::uint32_t read = read_.load(std::memory_order_relaxed);
+    const auto behind = static_cast<std::int32_t>(arrived_.load(std::memory_order_relaxed) - read);
+    if (behind >= kTurn) {
+        lapped = true;
+        read += static_cast<std::uint32_t>(behind / kTurn) * kReceiveSize;
+        read_.store(read, std::memory_order_relaxed);
+    }
     seen_ = now;
-    unread_ = (now + kReceiveSize - tail_) % kReceiveSize;
+    unread_ = (now - read) % kReceiveSize;
     return lost_.exchange(false, std::memory_order_relaxed) || lapped;
 }
 
@@ -172,8 +209,10 @@ void DmaLink<Chip, Port>::send_piece() noexcept
 template <class Chip, class Port>
 void DmaLink<Chip, Port>::on_interrupt() noexcept
 {
-    // The stream's reading of the byte clears the errors, once they were read here.
+    // Errors go when the state is read and then the byte (RM0090 section 30.6.1). The stream alone does
+    // not do: after an overrun it has read its byte before, and the interrupt would come without end.
     if ((Port::usart().sr.read() & kLost) != 0) {
+        static_cast<void>(Port::usart().dr.read());
         lost_.store(true, std::memory_order_relaxed);
     }
     const std::uint32_t raised = stream_flags(Port::dma(), Port::kSendStream).read() & kSendFlags;

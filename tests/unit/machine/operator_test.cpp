@@ -104,6 +104,7 @@ TEST(Operator, TogglesCoolantBeforeALineThatWaits)
     bench.board.byte_link.send("G1 X5 F600\nM7\n");
     bench.run(100);
     (void)say("\xA0");
+    bench.run(1);  // the tick drives the outputs
     CHECK(bench.board.mill.outputs().flood && bench.board.mill.outputs().mist);
     CHECK(has_text(say("$G\n"), " M7 M8 "));
 }
