@@ -83,6 +83,8 @@ private:
     OutputLevels driven_;  // the tick's, before it cuts them
     bool cut_{false};
     bool drives_cut_{false};
+    std::atomic<std::uint32_t> slices_{0};  // that the main loop has ended; wraps
+    std::uint32_t slices_seen_{0};          // by the last tick
     PulseFrame frame_;
     bool frame_waits_{false};
 };
@@ -102,6 +104,7 @@ bool App<Board>::poll() noexcept
         want_outputs(outputs);
     }
     machine_.end_slice();
+    slices_.store(slices_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     const bool stores = machine_.wants_store();
     if (stores) {
         store_settings();
@@ -151,11 +154,18 @@ void App<Board>::want_outputs(const OutputLevels& outputs) noexcept
     board_.pulse_player.invert(outputs.inverted_lines);
 }
 
-// A stop in the bytes that the main loop has not come to read.
+// A stop in the bytes that the main loop does not come to read. Where it has ended a slice since the last
+// tick it reads them next, and what follows is the same on every board.
 template <class Board>
 void App<Board>::scan_bytes() noexcept
 {
     constexpr unsigned kBytesPerTick = 128;  // at 1 Mbaud 100 come
+    const std::uint32_t slices = slices_.load(std::memory_order_acquire);
+    const bool reads = slices != slices_seen_;
+    slices_seen_ = slices;
+    if (reads) {
+        return;
+    }
     std::uint8_t byte = 0;
     for (unsigned i = 0; i < kBytesPerTick && board_.byte_link.try_scan(byte); ++i) {
         machine_.notice(byte);
