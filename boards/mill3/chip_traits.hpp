@@ -107,7 +107,7 @@ struct ChipTraits {
         board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
                                  reset_amid_motion());
         start_watchdog<Chip>();
-        // Only while servo ticks come: without them nothing stops what goes on.
+        // Only while servo ticks come: without them no stop acts.
         std::uint32_t fed_at = application.machine().motion().ticks() - 1;
         for (;;) {
             const std::uint32_t ticks = application.machine().motion().ticks();

@@ -101,7 +101,7 @@ bool Machine::poll() noexcept
 void Machine::end_slice() noexcept
 {
     const bool cut = reset_wanted_ || door_wanted_;
-    motion_.stops().want(cut || hold_wanted_, cut);
+    motion_.stops().want(cut || hold_wanted_, cut, reset_wanted_);
     motion_.stops().confirm();
 }
 

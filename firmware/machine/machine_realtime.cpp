@@ -103,6 +103,10 @@ bool Machine::handle_events() noexcept
         reset();
         return true;
     }
+    if (motion_.halted() && !motion_.stops().halts()) {
+        raise(Alarm::kAbortInMotion);  // by what was no reset after all
+        return true;
+    }
     if (status_wanted_) {
         status_wanted_ = false;
         report_status();
@@ -145,7 +149,7 @@ bool Machine::protect() noexcept
     const Alarm alarm = protector();
     const bool new_one =
         !reset_needed_ || (alarm == Alarm::kEmergencyStop && alarm_ != Alarm::kEmergencyStop);
-    motion_.stops().handle(Stops::kHalting);
+    motion_.stops().handle(Stops::kProtecting);
     if (alarm == Alarm::kNone || !new_one) {
         return false;
     }

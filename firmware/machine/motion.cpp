@@ -137,6 +137,7 @@ void Motion::abandon() noexcept
     open_ = false;
     unwatch();
     limit_hit_.store(false, std::memory_order_relaxed);
+    halted_.store(false, std::memory_order_relaxed);
     gate_shut_.store(false, std::memory_order_release);
 }
 
@@ -198,7 +199,8 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
 {
     if (!gate_shut_.load(std::memory_order_acquire)) {
         sample(raw_inputs);
-        if (!limit_hit_.load(std::memory_order_relaxed) && !stops_.halts()) {
+        if (!limit_hit_.load(std::memory_order_relaxed) &&
+            !halted_.load(std::memory_order_relaxed)) {
             set_point_ = interpolator_.tick();
         }
     }
@@ -219,6 +221,9 @@ void Motion::sample(std::uint16_t raw_inputs) noexcept
     inputs_.sample(static_cast<std::uint16_t>((raw_inputs ^ inverted_inputs_) & used_inputs_));
     stops_.take_inputs(inputs_.raw(), inputs_.steady());
     interpolator_.brake(stops_.brakes());
+    if (stops_.halts() && !interpolator_.at_rest()) {
+        halted_.store(true, std::memory_order_release);
+    }
     if (guarding_.load(std::memory_order_relaxed) && (inputs_.steady() & kLimitInputs) != 0) {
         limit_hit_.store(true, std::memory_order_release);
     }

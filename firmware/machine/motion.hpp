@@ -91,6 +91,8 @@ public:
     void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
     // Whether that happened; there is no motion until abandon().
     bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
+    // Whether a stop has ended motion at once; there is none until abandon(), either.
+    bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
 
     const InputFilter& inputs() const noexcept { return inputs_; }
     // What stops motion in the tick, whatever the main loop does.
@@ -139,6 +141,7 @@ private:
     std::atomic<bool> contacted_later_{false};
     std::atomic<bool> guarding_{false};
     std::atomic<bool> limit_hit_{false};
+    std::atomic<bool> halted_{false};
     std::atomic<bool> gate_shut_{false};
     std::atomic<bool> stands_still_{false};  // no pulses either: their position is being changed
     std::atomic<std::uint32_t> ticks_{0};

@@ -22,11 +22,11 @@ void Stops::take_byte(std::uint8_t byte, bool checked) noexcept
         return;
     }
     const auto command = static_cast<RealtimeCommand>(byte);
-    const bool cuts =
-        command == RealtimeCommand::kReset || command == RealtimeCommand::kSafetyDoor;
+    const bool cuts = command == RealtimeCommand::kReset || command == RealtimeCommand::kSafetyDoor;
     if (cuts || command == RealtimeCommand::kFeedHold) {
         const std::uint32_t count = bytes_.load(std::memory_order_relaxed) + 1;
         cutting_byte_ = cuts ? count : cutting_byte_;
+        reset_byte_ = command == RealtimeCommand::kReset ? count : reset_byte_;
         bytes_.store(count, std::memory_order_relaxed);
     }
 }

@@ -1,7 +1,7 @@
 // Stops: what stops the machine in the servo tick, whatever the main loop is doing.
 //
 // The tick notes what comes: an input that protects, or a byte that the main loop has not read yet. From
-// then on motion brakes or halts and the outputs are cut. The main loop changes the state and tells
+// then on motion brakes or halts and the outputs are cut. The main loop changes the state and answers
 // the sender when it can. The tick lets go once the main loop has acted and its own outputs are in
 // force: confirm().
 //
@@ -18,10 +18,12 @@ namespace cusp::machine {
 
 class Stops {
 public:
-    // Halt at once: a drive that has failed or a person in danger outweighs the position.
-    static constexpr std::uint16_t kHalting = kEmergencyStop | kMotorFault;
+    // An alarm for as long as one is on.
+    static constexpr std::uint16_t kProtecting = kEmergencyStop | kMotorFault;
+    // Halt at once: that no step follows outweighs the position, as for a reset in Grbl.
+    static constexpr std::uint16_t kHalting = kProtecting | kResetButton;
     // Cut spindle and coolant.
-    static constexpr std::uint16_t kCutting = kHalting | kDoor | kResetButton;
+    static constexpr std::uint16_t kCutting = kHalting | kDoor;
     // Brake, from the first sample on: a glitch costs some speed, no line of the program.
     static constexpr std::uint16_t kBraking = kCutting | kHoldButton;
     // All that the main loop handles.
@@ -40,11 +42,15 @@ public:
                wants_brake_.load(std::memory_order_relaxed);
     }
     // Steps end now; the position may be lost.
-    bool halts() const noexcept { return (pending() & kHalting) != 0; }
+    bool halts() const noexcept
+    {
+        return (pending() & kHalting) != 0 || byte_pending(reset_byte_) ||
+               wants_halt_.load(std::memory_order_relaxed);
+    }
     // Spindle and coolant are off.
     bool cuts_outputs() const noexcept
     {
-        return (pending() & kCutting) != 0 || cutting_byte_pending() ||
+        return (pending() & kCutting) != 0 || byte_pending(cutting_byte_) ||
                wants_cut_.load(std::memory_order_relaxed);
     }
     // The drives are off, too.
@@ -68,8 +74,9 @@ public:
     // ... and this with its value once the link was found empty.
     void read_up_to(std::uint32_t bytes) noexcept { read_ = bytes; }
     // What the machine has read and not yet acted upon.
-    void want(bool brake, bool cut) noexcept
+    void want(bool brake, bool cut, bool halt) noexcept
     {
+        wants_halt_.store(halt, std::memory_order_relaxed);
         wants_brake_.store(brake, std::memory_order_relaxed);
         wants_cut_.store(cut, std::memory_order_relaxed);
     }
@@ -82,22 +89,24 @@ private:
         return bytes_.load(std::memory_order_relaxed) !=
                bytes_handled_.load(std::memory_order_relaxed);
     }
-    bool cutting_byte_pending() const noexcept
+    bool byte_pending(std::uint32_t number) const noexcept
     {
-        return static_cast<std::int32_t>(cutting_byte_ -
-                                         bytes_handled_.load(std::memory_order_relaxed)) > 0;
+        return static_cast<std::int32_t>(number - bytes_handled_.load(std::memory_order_relaxed)) >
+               0;
     }
 
     // The tick's.
     std::atomic<std::uint16_t> came_{0};  // a bit changes when its input comes on
     std::atomic<std::uint32_t> bytes_{0};
     std::uint32_t cutting_byte_{0};  // the last of them that cuts
+    std::uint32_t reset_byte_{0};    // the last that is a reset
     std::uint16_t before_{0};
     bool begins_{false};  // an input is on that does not count yet
     protocol::RealtimeFilter filter_;
     // The main loop's.
     std::atomic<std::uint16_t> handled_{0};  // a bit changes when its input is let go
     std::atomic<std::uint32_t> bytes_handled_{0};
+    std::atomic<bool> wants_halt_{false};
     std::atomic<bool> wants_brake_{false};
     std::atomic<bool> wants_cut_{false};
     std::uint16_t acted_{0};

@@ -36,8 +36,7 @@ bool RealtimeFilter::accept(std::uint8_t byte) noexcept
     if (byte == '?') {
         return true;
     }
-    repetitions_ =
-        byte == last_ ? static_cast<std::uint8_t>(repetitions_ + 1) : std::uint8_t{1};
+    repetitions_ = byte == last_ ? static_cast<std::uint8_t>(repetitions_ + 1) : std::uint8_t{1};
     last_ = byte;
     if (repetitions_ < kRepetitions) {
         return false;

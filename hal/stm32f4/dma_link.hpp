@@ -41,7 +41,8 @@ private:
     static constexpr auto kTurn = static_cast<std::int32_t>(kReceiveSize);
     static constexpr std::uint32_t kSendSize = 512;
 
-    static constexpr std::uint32_t kLost = 1U << 3U | 1U << 2U | 1U << 1U;  // overrun, noise, framing
+    static constexpr std::uint32_t kLost =
+        1U << 3U | 1U << 2U | 1U << 1U;  // overrun, noise, framing
     static constexpr std::uint32_t kReceiver = 1U << 2U;
     static constexpr std::uint32_t kTransmitter = 1U << 3U;
     static constexpr std::uint32_t kReceiveInterrupt = 1U << 5U;

@@ -280,6 +280,16 @@ void ChipUnderTest::go_on()
     watchdog_->freeze(false);
 }
 
+void ChipUnderTest::hang_main_loop()
+{
+    while (!core_->in_thread()) {
+        run(kMicrosecond);
+    }
+    core_->hang();
+}
+
+void ChipUnderTest::stop_pace() { timers_.at(kind_.has_timer8 ? "TIM8" : "TIM1")->freeze(true); }
+
 void ChipUnderTest::power_cycle()
 {
     for (MemoryArea& area : circuit_.memories) {

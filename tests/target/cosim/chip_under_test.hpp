@@ -58,6 +58,11 @@ public:
     // The core executes nothing more; `debugger`: as a debugger halts it, which DBGMCU knows of.
     void stop_core(bool debugger);
     void go_on();
+    // The main loop goes round in circles; interrupts are served. Amid whatever it does in
+    // a few microseconds.
+    void hang_main_loop();
+    // The timer that asks for the pulses stands still: no frame ends any more.
+    void stop_pace();
     // Without power for a while: the memory is lost, the flash stays.
     void power_cycle();
     unsigned resets() const { return resets_; }

@@ -199,6 +199,21 @@ void CoreModel::run()
     sleeping_ = !stopped_;
 }
 
+// A long block: the engine is asked for events once a block.
+void CoreModel::hang()
+{
+    constexpr std::uint32_t kRest = 200;  // NOPs
+    constexpr std::uint16_t kNop = 0xBF00;
+    constexpr std::uint16_t kBranchBack = 0xE000U | (0x7FFU & (0U - (kRest + 2)));
+    const std::size_t at = flash_.size() - kPage;
+    for (std::uint32_t i = 0; i <= kRest; ++i) {
+        const std::uint16_t word = i < kRest ? kNop : kBranchBack;
+        std::memcpy(&flash_[at + 2UL * i], &word, sizeof word);
+    }
+    set_register(UC_ARM_REG_PC, (kFlashStart + static_cast<std::uint32_t>(at)) | 1U);
+    sleeping_ = false;
+}
+
 unsigned CoreModel::priority_of(unsigned exception) const
 {
     if (exception < 4) {

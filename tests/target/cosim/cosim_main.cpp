@@ -51,6 +51,7 @@ private:
     void send(std::istream& words);
     void pin(std::istream& words);
     void core(std::istream& words);
+    void serial(std::istream& words);
     void power(std::istream& words);
     void golden(std::istream& words);
     void tell_pins() const;
@@ -121,15 +122,31 @@ void Console::pin(std::istream& words)
     chip_.port(pin.port).drive(pin.number, level == "open" ? -1 : level == "1" ? 1 : 0);
 }
 
-// core stop|halt|go: locked up, held by a debugger, on again
+// core stop|halt|go|hang: locked up, held by a debugger, on again; the main loop in circles
 void Console::core(std::istream& words)
 {
     std::string what;
     words >> what;
     if (what == "go") {
         chip_.go_on();
+    } else if (what == "hang") {
+        chip_.hang_main_loop();
     } else {
         chip_.stop_core(what == "halt");
+    }
+}
+
+// serial mute|reads|overrun|damage: of the other end, or of a byte
+void Console::serial(std::istream& words)
+{
+    std::string what;
+    words >> what;
+    if (what == "overrun") {
+        chip_.serial().overrun();
+    } else if (what == "damage") {
+        chip_.serial().damage();
+    } else {
+        chip_.serial().set_mute(what == "mute");
     }
 }
 
@@ -243,6 +260,10 @@ void Console::perform(const std::string& line)
         pin(words);
     } else if (command == "core") {
         core(words);
+    } else if (command == "serial") {
+        serial(words);
+    } else if (command == "pace") {
+        chip_.stop_pace();
     } else if (command == "power") {
         power(words);
     } else if (command == "golden") {

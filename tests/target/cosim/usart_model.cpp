@@ -30,6 +30,7 @@ void UsartModel::reset()
     brr_ = cr1_ = cr2_ = cr3_ = 0;
     holds_ = false;
     flags_read_ = false;
+    stuck_ = false;
     shift_due_ = kNever;
     plan();
     update_line();
@@ -91,6 +92,12 @@ void UsartModel::happen()
     }
     if (shift_due_ <= circuit_.now) {
         shift_due_ = kNever;
+        stuck_ = mute_;
+        if (stuck_) {
+            plan();
+            update_line();
+            return;
+        }
         if (receiver_) {
             receiver_(rate_fits() ? static_cast<char>(shifted_) : '\xFF');
         }
@@ -103,6 +110,33 @@ void UsartModel::happen()
     }
     plan();
     update_line();
+}
+
+void UsartModel::set_mute(bool on)
+{
+    mute_ = on;
+    if (!on && stuck_) {
+        stuck_ = false;
+        shift_due_ = circuit_.now;
+    }
+    plan();
+}
+
+void UsartModel::overrun()
+{
+    sr_ |= kOverrun;
+    ++lost_;
+    update_line();
+}
+
+void UsartModel::damage()
+{
+    received_ = 0;
+    sr_ |= kReceived | kFraming;
+    update_line();
+    if ((cr3_ >> 6U & 1U) != 0) {
+        static_cast<void>(wiring_.ask_receive_dma());
+    }
 }
 
 void UsartModel::arrive()
@@ -195,7 +229,7 @@ void UsartModel::write(std::uint32_t offset, std::uint32_t value)
             if ((sr_ & kEmpty) == 0) {
                 circuit_.violate(name_ + ": a byte is written over the one before");
             }
-            if (shift_due_ == kNever) {
+            if (shift_due_ == kNever && !stuck_) {
                 take_to_shift(static_cast<std::uint8_t>(value));
             } else {
                 holds_ = true;

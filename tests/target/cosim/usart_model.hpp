@@ -35,9 +35,15 @@ public:
     void set_receiver(std::function<void(char)> receiver) { receiver_ = std::move(receiver); }
     std::size_t waiting() const { return incoming_.size(); }
     // Whether no byte is on its way, to the chip or from it.
-    bool quiet() const { return incoming_.empty() && shift_due_ == kNever; }
+    bool quiet() const { return incoming_.empty() && shift_due_ == kNever && !stuck_; }
     std::uint64_t lost() const { return lost_; }
     void unplug() { incoming_.clear(); }
+    // The other end takes no more bytes: the one on its way stays in the port.
+    void set_mute(bool on);
+    // A byte came before the last one was fetched: it is lost, and the flag stays until it is read away.
+    void overrun();
+    // A damaged byte arrives, as when the cable is pulled.
+    void damage();
 
 private:
     Picoseconds byte_time() const;
@@ -62,6 +68,8 @@ private:
     std::deque<std::uint8_t> incoming_;
     std::uint32_t sender_baud_{115200};
     bool instant_{false};
+    bool mute_{false};
+    bool stuck_{false};  // a byte in the port that the other end does not take
     bool asking_{false};
     std::uint64_t lost_{0};
 };

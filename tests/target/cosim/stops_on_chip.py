@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Stops that nothing delays, each under each obstacle, timed at the pins of the board's shipping image.
+
+usage: stops_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [--table] [-k PATTERN]
+
+An input, or the reset byte, comes amid a move with spindle and coolant on while the link is mute, flooded or
+unplugged, or the main loop hangs. Times are counted from the input, or from the end of the byte.
+--table prints what was measured.
+"""
+import argparse
+import sys
+import unittest
+
+from chip import Chip
+
+options = None
+SETTINGS = "$0=2\n$100=800.000\n$110=9000.000\n$120=5000.000\n$800=1000000.000\n"
+SPEED, RATE = 150.0, 800  # mm/s, steps/mm
+ACCELERATION, JERK = 5000.0, 1e6
+BYTE_MS = 10 / 115.2
+INPUTS = ("emergency stop", "motor fault", "door", "reset")
+HALTING = ("emergency stop", "motor fault", "reset", "reset byte")
+OBSTACLES = ("nothing", "mute", "flood", "hang", "unplugged")
+# ms from the input to the last edge, where that is possible, and to the outputs' end.
+WITHIN = 10.0
+# ms to the first edge that is late, where the set points brake from the tick that samples the input on: two
+# frames are in flight, pulses are a tick behind, and jerk is limited.
+BRAKES_WITHIN = 6.0
+# ms that the filters of path and axes are behind.
+FILTERS = 13.0
+
+
+def chip(**more):
+    return Chip(options.cosim, options.image, options.board, **more)
+
+
+def begin(machine, speed):
+    machine.boot()
+    for line in SETTINGS.split():
+        machine.ask(line)
+    machine.ask("M3 S12000")
+    machine.ask("M8")
+    machine.ask(f"G91 G1 X100 F{60 * speed}")
+    machine.run(100)
+    machine.changes()
+    machine.run(20)
+
+
+def hinder(machine, obstacle):
+    """Puts the obstacle in the way; what is still to be sent before a byte of ours arrives."""
+    if obstacle == "mute":
+        machine.command("serial mute")
+        machine.send("?" * 60)
+        machine.run(20)
+    elif obstacle == "flood":
+        machine.send("?" * 600)
+        machine.run(20)
+    elif obstacle == "hang":
+        machine.run(0.3)
+        machine.command("core hang")
+        machine.run(5)
+    elif obstacle == "unplugged":
+        machine.send("G1 X")
+        machine.run(2)
+        machine.command("serial damage")
+        machine.run(5)
+
+
+def stop(machine, what):
+    """The stop comes; its time, ns."""
+    state = machine.state()
+    if what != "reset byte":
+        machine.pin(machine.pins[what], "open")
+        return state["now"] * 1000
+    machine.send("\x18")
+    return state["now"] * 1000 + int((state["unsent"] + 1) * BYTE_MS * 1e6)
+
+
+def measure(what, obstacle, speed):
+    """ms to the first late edge, to the last edge, and to each output's end; mm after the stop; what is heard."""
+    with chip(may_violate=("over the one before",)) as machine:
+        begin(machine, speed)
+        hinder(machine, obstacle)
+        at = stop(machine, what)
+        heard = machine.run((at / 1e6 - machine.state()["now"] / 1e3) + 200)
+        changes = machine.changes()
+        rising = [time for time, level in machine.edges_of("X step", changes) if level == 1]
+        before = [time for time in rising if time < at][-1500:]
+        period = (before[-1] - before[0]) / (len(before) - 1)
+        late = [time for index, time in enumerate(rising[rising.index(before[-1]) + 1:], 1)
+                if time - before[-1] - index * period > 2500]
+        # The edge that is not there is late, too.
+        first_late = min([*late, rising[-1] + period])
+        ends = {}
+        for name in ("spindle on", "flood"):
+            edges = machine.edges_of(name, changes)
+            off = [time for time, level in edges if level == 0 and time >= at]
+            ends[name] = (off[0] - at) / 1e6 if off and edges[-1][1] == 0 else None
+        pulses = machine.answered("spindle")
+        ends["spindle pulses"] = 0 if not any(pulses.values()) else None
+        if what == "emergency stop":
+            for pin in machine.enables:
+                edges = machine.edges_of(pin, changes)
+                off = [time for time, level in edges if level == 1 and time >= at]
+                ends[f"drives at {pin}"] = (off[0] - at) / 1e6 if off else None
+        return ((first_late - at) / 1e6, (rising[-1] - at) / 1e6, ends,
+                sum(1 for time in rising if time >= at) / RATE, heard)
+
+
+class Stops(unittest.TestCase):
+    def check_one(self, what, obstacle):
+        brakes, last, ends, distance, _ = measure(what, obstacle, SPEED)
+        off = max(WITHIN + 1 if end is None else end for end in ends.values())
+        if options.table:
+            print(f"\n| {what} | {obstacle} | {brakes:.1f} | {last:.1f} | {off:.1f} |", flush=True)
+        for name, end in ends.items():
+            self.assertIsNotNone(end, f"{name} stays on")
+            self.assertLessEqual(end, WITHIN, name)
+        if what in HALTING:
+            self.assertLessEqual(last, WITHIN)
+        else:  # no longer than the limits need
+            self.assertLessEqual(brakes, BRAKES_WITHIN)
+            needed = SPEED * ((SPEED / ACCELERATION + ACCELERATION / JERK) / 2 + FILTERS / 1000)
+            self.assertLessEqual(distance, needed)
+
+    def test_each_input_under_each_obstacle(self):
+        for what in INPUTS:
+            for obstacle in OBSTACLES:
+                with self.subTest(what=what, obstacle=obstacle):
+                    self.check_one(what, obstacle)
+
+    def test_the_reset_byte_under_each_obstacle(self):
+        for obstacle in OBSTACLES[:-1]:
+            with self.subTest(obstacle=obstacle):
+                self.check_one("reset byte", obstacle)
+
+    def test_the_sender_hears_of_it_once_it_reads(self):
+        for what, told in (("emergency stop", "ALARM:10"), ("motor fault", "ALARM:17"), ("door", "Check Door"),
+                           ("reset byte", "Grbl 1.1h")):
+            with self.subTest(what), chip(may_violate=("over the one before",)) as machine:
+                begin(machine, SPEED)
+                hinder(machine, "mute")
+                stop(machine, what)
+                self.assertEqual(machine.run(300), "")
+                machine.command("serial reads")
+                self.assertIn(told, machine.run(1000))
+                self.assertIn(machine.status()[0], ("Alarm", "Door", "Idle"))
+                self.assertEqual(machine.levels()[machine.pins["spindle on"]], 0)
+
+    def test_a_glitch_of_an_input_costs_no_motion(self):
+        with chip() as machine:
+            begin(machine, SPEED)
+            for what in ("door", "reset", "emergency stop"):
+                machine.pin(machine.pins[what], "open")
+                machine.run(1.2)
+                machine.pin(machine.pins[what], 0)
+                machine.run(20)
+                self.assertEqual(machine.levels()[machine.pins["spindle on"]], 1)
+            self.assertEqual(machine.wait_for("Idle")[1][0], 100.0)
+
+    def test_a_press_that_ends_before_the_sender_reads_is_kept(self):
+        with chip(may_violate=("over the one before",)) as machine:
+            begin(machine, SPEED)
+            hinder(machine, "mute")
+            stop(machine, "emergency stop")
+            machine.run(20)
+            machine.pin(machine.pins["emergency stop"], 0)
+            machine.run(200)
+            self.assertEqual(machine.levels()[machine.pins["spindle on"]], 0)
+            machine.command("serial reads")
+            self.assertIn("ALARM:10", machine.run(1000))
+
+
+class Links(unittest.TestCase):
+    def test_an_overrun_costs_no_motion_and_is_told(self):
+        with chip() as machine:
+            begin(machine, SPEED)
+            machine.command("serial overrun")
+            heard = machine.run(50)
+            machine.changes()
+            heard += machine.run(20)
+            self.assertGreater(machine.steps(machine.changes()), 0.9 * 20e-3 * SPEED * RATE)
+            machine.send("G4 P0\n")
+            heard += machine.run(100)
+            self.assertIn("Serial overrun", heard)
+            self.assertNotIn("ALARM", heard)
+            self.assertEqual(machine.wait_for("Idle")[1][0], 100.0)
+
+    def test_damaged_bytes_cost_no_motion(self):
+        with chip() as machine:
+            begin(machine, SPEED)
+            for _ in range(5):
+                machine.command("serial damage")
+                machine.run(1)
+            self.assertNotIn("ALARM", machine.run(50))
+            self.assertEqual(machine.wait_for("Idle")[1][0], 100.0)
+
+
+class Watchdog(unittest.TestCase):
+    def resets_within(self, machine, milliseconds, text=""):
+        for _ in range(milliseconds // 200):
+            machine.send(text)
+            machine.run(200)
+            if machine.state()["resets"] > 0:
+                return True
+        return False
+
+    def test_frames_that_stop_coming_lead_to_a_reset_though_a_sender_polls(self):
+        with chip() as machine:
+            machine.boot()
+            machine.command("pace")
+            self.assertTrue(self.resets_within(machine, 6000, "?"))
+
+    def test_a_main_loop_that_hangs_leads_to_a_reset(self):
+        with chip() as machine:
+            machine.boot()
+            machine.command("core hang")
+            self.assertTrue(self.resets_within(machine, 6000))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cosim", required=True)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--image", required=True)
+    parser.add_argument("--cusp")
+    parser.add_argument("--table", action="store_true")
+    options, rest = parser.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *rest])
