@@ -61,7 +61,7 @@ public:
     // The main loop goes round in circles; interrupts are served. Amid whatever it does in
     // a few microseconds.
     void hang_main_loop();
-    // The timer that asks for the pulses stands still: no frame ends any more.
+    // The timer that asks for the pulses is frozen: no frame ends any more.
     void stop_pace();
     // Without power for a while: the memory is lost, the flash stays.
     void power_cycle();
