@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/finishing/passes_in_stock.hpp"
 #include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -17,6 +18,7 @@ using finishing::GougeFreePathFitter;
 using finishing::LinkedPasses;
 using finishing::LinkRules;
 using finishing::make_tolerance_band;
+using finishing::passes_in_stock;
 using finishing::Points;
 using finishing::SurfacePass;
 using job::Job;
@@ -38,6 +40,7 @@ using toolpath::ToolShape;
 
 namespace {
 
+constexpr double kSameTop = 1e-3;    // mm between the tops of stock and part
 constexpr double kOverStock = 1.0;   // mm above the stock at which rapids end
 constexpr double kLeastSize = 1e-6;  // mm
 constexpr double kLeastRise = 1e-6;  // z of a normal
@@ -288,9 +291,10 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     rules.one_way = operation_.traversal == Traversal::kOneWay;
     PlannedOperation planned;
     OperationStats& stats = planned.stats;
+    stats.strategy = operation_.strategy;
+    keep_in_stock(rules.stay_down, stats);
     stats.passes = static_cast<int>(passes_.size());
     LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
-    stats.strategy = operation_.strategy;
     stats.levels = 1;
     stats.cl_points = linked.points;
     stats.retracts = linked.retracts;
@@ -310,6 +314,24 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
         fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",
                     stats.gouge_bound_mm, stats.scallop_bound_mm)};
     return planned;
+}
+
+// Where the part rises over the stock, the job is wrong: nothing is left out on its word.
+void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
+{
+    const double limit = job_.stock_top + kSameTop;
+    if (model_->box_high().z > limit && model_->highest() > limit) {
+        return;
+    }
+    std::vector<SurfacePass> low = passes_in_stock(passes_, job_.stock_top, linked);
+    if (!low.empty()) {
+        passes_ = std::move(low);
+    } else {
+        stats.warnings.push_back(fmt::format(
+            "no place of the surfaces is below the stock's top, z = {:.6g} mm: the finish removes "
+            "nothing; where the stock is higher, give its height (top in [stock], --stock-top)",
+            job_.stock_top));
+    }
 }
 
 void report_left_beside_edges(OperationStats& stats, double beside_edges, double scallop_bound)

@@ -72,6 +72,7 @@ private:
     void check_tool() const;
     void check_form() const;
     void check_surfaces();
+    void keep_in_stock(double linked, toolpath::OperationStats& stats);
     finishing::Points path_of(const finishing::SurfacePass& pass) const;
 
     const job::Job& job_;

@@ -306,6 +306,9 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
             operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
         }
     }
+    if (mesh) {
+        parts_.close_mesh(operation.floor_files, operation.mesh);
+    }
     if (operation.floor.empty() && operation.mesh.empty()) {
         table.refuse("floor", "is missing: files with the surfaces to cut");
     }

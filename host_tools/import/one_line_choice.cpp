@@ -90,9 +90,12 @@ void OneLineChooser::choose_numbers()
                                                   : "adaptive_isocurve";
     choice_.tolerance =
         request_.tolerance.value_or(std::min(defaults_.tolerance, *request_.scallop / 2));
-    choice_.feed = request_.feed.value_or(three_digits(
-        std::min(defaults_.feed, defaults_.feed_of_diameter * least_diameter(choice_.tools))));
-    choice_.plunge_feed = request_.plunge_feed.value_or(three_digits(choice_.feed / 4));
+    for (const NamedTool& tool : choice_.tools) {
+        const double feed = request_.feed.value_or(
+            three_digits(std::min(defaults_.feed, defaults_.feed_of_diameter * tool.diameter)));
+        choice_.feeds.push_back(feed);
+        choice_.plunge_feeds.push_back(request_.plunge_feed.value_or(three_digits(feed / 4)));
+    }
     choice_.spindle = request_.spindle.value_or(kSpindle);
     choice_.clearance = request_.clearance.value_or(defaults_.clearance);
 }

@@ -17,8 +17,8 @@ struct OneLineChoice {
     std::vector<NamedTool> tools;
     std::string strategy;
     double tolerance{};
-    double feed{};
-    double plunge_feed{};
+    std::vector<double> feeds;  // a minute, of each tool
+    std::vector<double> plunge_feeds;
     double spindle{};  // rpm
     double clearance{};
     PartExtent part;

@@ -47,6 +47,7 @@ public:
 private:
     std::string placing_toml() const;
     std::string operation_toml() const;
+    std::string said_of_tools(const std::vector<double>& values) const;
     std::string said_feeds() const;
     std::string said_roughing() const;
 
@@ -121,15 +122,36 @@ std::string OneLineWriter::toml() const
         if (choice_.tools[i].corner_radius > 0) {
             out += fmt::format("corner_radius = {}\n", choice_.tools[i].corner_radius);
         }
+        if (choice_.feeds[i] != choice_.feeds.back()) {
+            out += fmt::format("feed = {}\nplunge_feed = {}\n", choice_.feeds[i],
+                               choice_.plunge_feeds[i]);
+        }
     }
-    out += fmt::format("\n[cutting]\nfeed = {}\nplunge_feed = {}\nspindle = {}\n", choice_.feed,
-                       choice_.plunge_feed, choice_.spindle);
+    out += fmt::format("\n[cutting]\nfeed = {}\nplunge_feed = {}\nspindle = {}\n",
+                       choice_.feeds.back(), choice_.plunge_feeds.back(), choice_.spindle);
     out += fmt::format("\n[stock]\ntop = {}\n", choice_.top);
     if (!is_pocket() && choice_.bottom < choice_.top) {
         out += fmt::format("bottom = {}\n", choice_.bottom);
     }
     return out + fmt::format("clearance = {}\n", choice_.clearance) + placing_toml() +
            operation_toml();
+}
+
+// One number where it is the same for all tools, else one for each, in their order.
+std::string OneLineWriter::said_of_tools(const std::vector<double>& values) const
+{
+    const auto differs = [&](double value) {
+        return value != values.front();
+    };
+    if (std::none_of(values.begin(), values.end(), differs)) {
+        return fmt::format("{:.6g}", values.front());
+    }
+    std::vector<std::string> each;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        each.push_back(
+            fmt::format("{:.6g} ({})", values[i], words_of(choice_.tools[i], request_.inch)));
+    }
+    return fmt::format("{}", fmt::join(each, ", "));
 }
 
 std::string OneLineWriter::said_feeds() const
@@ -143,8 +165,9 @@ std::string OneLineWriter::said_feeds() const
     note(request_.feed, "--feed");
     note(request_.plunge_feed, "--plunge-feed");
     note(request_.spindle, "--spindle");
-    std::string out = fmt::format("feed {:.6g} {}/min, plunge feed {:.6g}, spindle {:.6g} rpm",
-                                  choice_.feed, choice_.unit, choice_.plunge_feed, choice_.spindle);
+    std::string out = fmt::format("feed {} {}/min, plunge feed {}, spindle {:.6g} rpm",
+                                  said_of_tools(choice_.feeds), choice_.unit,
+                                  said_of_tools(choice_.plunge_feeds), choice_.spindle);
     if (!chosen.empty()) {
         out += fmt::format(": defaults; set them for your material by {}", fmt::join(chosen, " "));
     }

@@ -7,6 +7,7 @@
 
 #include "host_tools/import/drawn_shapes.hpp"
 #include "host_tools/import/mesh_file.hpp"
+#include "host_tools/import/mesh_holes.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -89,6 +90,11 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
         found->second = read_mesh(file, millimetres, &notes_, placed(file));
     }
     return found->second;
+}
+
+void PartFiles::close_mesh(const std::vector<std::string>& files, Triangles& mesh)
+{
+    cover_holes(fmt::format("{}", fmt::join(files, ", ")), mesh, notes_);
 }
 
 const std::vector<FileLoop>& PartFiles::loops(const std::string& file,

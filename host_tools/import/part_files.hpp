@@ -30,6 +30,8 @@ public:
                                                 double millimetres,
                                                 double mesh_tolerance);
     const Triangles& mesh(const std::string& file, double millimetres);
+    // Closes the holes of the mesh that all these files make, and notes it (mesh_holes.hpp).
+    void close_mesh(const std::vector<std::string>& files, Triangles& mesh);
     // gaps  as in `read_loops`
     const std::vector<FileLoop>& loops(const std::string& file,
                                        double millimetres,

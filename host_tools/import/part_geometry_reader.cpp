@@ -9,6 +9,7 @@
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/loop_nesting.hpp"
 #include "host_tools/import/mesh_file.hpp"
+#include "host_tools/import/mesh_holes.hpp"
 #include "host_tools/import/part_extent.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -137,6 +138,9 @@ void take_mesh(PartGeometry& part, const std::string& file, double millimetres)
     part.unit = facets.unit.empty() ? unit_of(millimetres, true) : PartUnit{facets.unit, 0, false};
     part.triangles = std::move(facets.triangles);
     part.degenerate = facets.degenerate;
+    for (const MeshHole& hole : holes_from_above(part.triangles)) {
+        part.holes_above.push_back({hole.middle, hole.size});
+    }
     take_extent(part, extent_of_triangles(part.triangles));
 }
 

@@ -13,6 +13,7 @@
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/loop_nesting.hpp"
 #include "host_tools/import/mesh_file.hpp"
+#include "host_tools/import/mesh_holes.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
@@ -148,8 +149,10 @@ std::vector<Surface> read_surfaces(const std::string& file,
         }
     } else if (is_mesh_file(file)) {
         std::vector<std::string> unread;
-        surfaces = mesh_surfaces(file, read_facets(file, millimetres, placed), mesh_tolerance,
-                                 notes != nullptr ? *notes : unread);
+        std::vector<std::string>& said = notes != nullptr ? *notes : unread;
+        Facets facets = read_facets(file, millimetres, placed);
+        cover_holes(file, facets.triangles, said);
+        surfaces = mesh_surfaces(file, facets, mesh_tolerance, said);
     } else {
         throw InputError(fmt::format("{}: surfaces are read from {}, not from \"{}\"", file,
                                      kPartEndings, path_ending(file)));

@@ -60,6 +60,12 @@ struct PartLayer {
     LoopNesting loops;
 };
 
+// Of a mesh, seen from above: its box, mm.
+struct OpenHole {
+    Vec3d middle;
+    Vec3d size;
+};
+
 // One of `layers`, `surfaces` and `triangles` is filled.
 struct PartGeometry {
     std::string file;    // as given, "#layer" included
@@ -79,7 +85,8 @@ struct PartGeometry {
     std::vector<std::string> notes;  // on what was wrong in the file and was mended
 
     std::vector<std::array<Vec3d, 3>> triangles;
-    std::size_t degenerate{};  // facets without area, left out
+    std::size_t degenerate{};           // facets without area, left out
+    std::vector<OpenHole> holes_above;  // that planners close; the largest first
 };
 
 }  // namespace cusp::job

@@ -91,6 +91,11 @@ void add_mesh(const PartInfo& info, Json& out)
     if (mesh.hole_at) {
         out["hole_at_mm"] = point(*mesh.hole_at);
     }
+    out["holes_above"] = Json::array();
+    for (const job::OpenHole& hole : info.part.holes_above) {
+        out["holes_above"].push_back(
+            {{"middle_mm", point(hole.middle)}, {"size_mm", point(hole.size)}});
+    }
     out["non_manifold_edges"] = mesh.non_manifold_edges;
     if (mesh.non_manifold_at) {
         out["non_manifold_at_mm"] = point(*mesh.non_manifold_at);

@@ -159,6 +159,15 @@ void add_mesh(const PartInfo& info, Lines& lines)
     } else {
         lines.add("holes", "none");
     }
+    const std::vector<job::OpenHole>& above = info.part.holes_above;
+    for (std::size_t k = 0; k < above.size() && k < kMostListed; ++k) {
+        const job::OpenHole& hole = above[k];
+        lines.add("", fmt::format("open above, {} x {} mm {}: plan closes it", number(hole.size.x),
+                                  number(hole.size.y), place(hole.middle)));
+    }
+    if (above.size() > kMostListed) {
+        lines.add("", fmt::format("and {} more open above", above.size() - kMostListed));
+    }
     if (mesh.non_manifold_edges > 0) {
         lines.add("faults", count(mesh.non_manifold_edges, "edge", "edges") +
                                 " with more than two facets, one " + place(*mesh.non_manifold_at));

@@ -103,6 +103,21 @@ class OneLine(unittest.TestCase):
         self.assertIn("\nG0 Z10\n", program)
         self.verified()
 
+    def test_each_tool_has_a_feed_of_its_own(self):
+        program, said = self.program("ramp.json", "--tool", "flat:6", "ball:3", "--scallop", 0.05)
+        self.assertIn("feed 1200 (flat 6 mm), 600 (ball 3 mm) mm/min, "
+                      "plunge feed 300 (flat 6 mm), 150 (ball 3 mm)", said)
+        rough, finish = program.split("T2", 1)
+        self.assertIn("F1200", rough)
+        self.assertNotIn("F600", rough)
+        self.assertIn("F600", finish)
+        self.assertNotIn("F1200", finish)
+        program, said = self.program("ramp.json", "--tool", "flat:6", "ball:3", "--scallop", 0.05,
+                                     "--feed", 900)
+        self.assertIn("feed 900 mm/min, plunge feed 225", said)
+        self.assertEqual({"F900", "F225"}, {word for line in moves_of(program)
+                                            for word in line.split() if word.startswith("F")})
+
     def test_two_tools_rough_and_finish_whichever_way_they_are_given(self):
         program, said = self.program("ramp.json", "--tool", "flat:8", "ball:6", "--scallop", 0.05)
         self.assertIn("roughing: flat 8 mm, layers of at most 4 mm", said)
