@@ -93,6 +93,16 @@ FAULTS_OF_PORTS = {
                                          "stream_flag_clear(Chip::dma2(), 1).write("),
 }
 
+# What keeps a stop from being delayed; stops_on_chip.py judges. `--stops` plants these, on any board.
+APP = "firmware/app/app.hpp"
+FAULTS_OF_STOPS = {
+    "bytes not seen by the tick": (APP, "        machine_.notice(byte);\n", ""),
+    "outputs left to the main loop": (APP, "    if (cut) {\n", "    if (cut && false) {\n"),
+    "drives left to the main loop": (APP, "levels.drives_enabled && !drives_cut", "levels.drives_enabled"),
+    "an overrun that is not read away": (LINK, "static_cast<void>(Port::usart().dr.read());", ""),
+    "a watchdog fed without ticks": ("boards/mill3/chip_traits.hpp", "if (ticks != fed_at)", "if (true)"),
+}
+
 
 class Builder:
     """Compiles and links the board's image with a changed header."""
@@ -171,10 +181,20 @@ def find(options, image):
     return None
 
 
+def find_in_stops(options, image):
+    """What stops_on_chip.py says of an image; None where it finds nothing."""
+    script = pathlib.Path(__file__).with_name("stops_on_chip.py")
+    done = subprocess.run([sys.executable, str(script), "--cosim", options.cosim, "--board", options.board,
+                           "--image", str(image)], capture_output=True, text=True)
+    failed = re.findall(r"^(?:FAIL|ERROR): (\w+)", done.stderr, re.M)
+    return None if done.returncode == 0 else f"{len(failed)} failures: {', '.join(sorted(set(failed)))}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("cosim", "cusp", "board", "image"):
         parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--stops", action="store_true", help="the faults that delay a stop")
     parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -186,15 +206,17 @@ def main():
         options.chip_seconds = options.seconds = 0.0
         options.most_ticks = 20000  # ten times what it takes
         missed = []
+        look = find_in_stops if options.stops else find
         try:
             builder = Builder(options.image, folder)
-            said = find(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
+            said = look(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
             faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
+            faults = FAULTS_OF_STOPS if options.stops else faults
             faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
-                said = find(options, builder.make(file, old, new))
+                said = look(options, builder.make(file, old, new))
                 print(f"{fault}: {said or 'NOT FOUND'}", flush=True)
                 missed += [] if said else [fault]
         except (OSError, subprocess.CalledProcessError, StopIteration) as error:
