@@ -28,7 +28,7 @@ struct Spindle {
 
 // Offsets or stored positions have changed: `Interpreter::parameters()` holds the new ones.
 struct ParametersChanged {
-    bool keep;          // through a power cycle: all but G92, G92.1, G43, G43.1 and G49
+    bool keep;          // through a power cycle: all but G52, G92, G92.1, G43, G43.1 and G49
     std::uint8_t tool;  // with a new length, by G10 L1, L10 and L11; 0: none
 };
 
@@ -43,6 +43,9 @@ struct ToolChange {
     std::uint32_t line;  // for reports
 };
 
+// A, B and C words that move nothing were ignored; once in a program.
+struct RotaryIgnored {};
+
 // M2 and M30. The modal state is already back at its defaults; spindle and coolant stop.
 struct ProgramEnd {};
 
@@ -54,6 +57,7 @@ using Action = std::variant<path::Move,
                             ParametersChanged,
                             Pause,
                             ToolChange,
+                            RotaryIgnored,
                             ProgramEnd>;
 
 }  // namespace cusp::gcode

@@ -57,6 +57,7 @@ constexpr std::uint8_t as_value(ToolLength length) noexcept
 
 // Sorted by number. The entry of G5.3, kEndOfCurve, has Motion::kNone: it ends a curve.
 constexpr std::uint16_t kEndOfCurve = 530;
+constexpr std::uint16_t kNoMotion = 8000;  // G80
 constexpr Entry kEntries[] = {
     {0, Group::kMotion, AxisUse::kMotion, as_value(Motion::kRapid)},
     {100, Group::kMotion, AxisUse::kMotion, as_value(Motion::kLine)},
@@ -84,6 +85,7 @@ constexpr Entry kEntries[] = {
     {4300, Group::kToolLength, AxisUse::kNone, as_value(ToolLength::kFromTable)},
     {4310, Group::kToolLength, AxisUse::kToolLength, as_value(ToolLength::kDynamic)},
     {4900, Group::kToolLength, AxisUse::kNone, as_value(ToolLength::kCancel)},
+    {5200, Group::kNonModal, AxisUse::kNonModal, as_value(NonModal::kSetLocalOffset)},
     {5300, Group::kNonModal, AxisUse::kNone, as_value(NonModal::kMachineCoordinates)},
     {5400, Group::kCoordinateSystem, AxisUse::kNone, 0},
     {5500, Group::kCoordinateSystem, AxisUse::kNone, 1},
@@ -97,11 +99,16 @@ constexpr Entry kEntries[] = {
     {6100, Group::kPathControl, AxisUse::kNone, 1},
     {6110, Group::kPathControl, AxisUse::kNone, 1},
     {6400, Group::kPathControl, AxisUse::kNone, 0},
-    {8000, Group::kMotion, AxisUse::kNone, as_value(Motion::kNone)},
+    {7300, Group::kMotion, AxisUse::kMotion, as_value(Motion::kDrillChipBreaking)},
+    {kNoMotion, Group::kMotion, AxisUse::kNone, as_value(Motion::kNone)},
     {8100, Group::kMotion, AxisUse::kMotion, as_value(Motion::kDrill)},
     {8200, Group::kMotion, AxisUse::kMotion, as_value(Motion::kDrillWithDwell)},
     {8300, Group::kMotion, AxisUse::kMotion, as_value(Motion::kDrillPecking)},
+    {8500, Group::kMotion, AxisUse::kMotion, as_value(Motion::kBore)},
+    {8600, Group::kMotion, AxisUse::kMotion, as_value(Motion::kBoreStopping)},
+    {8900, Group::kMotion, AxisUse::kMotion, as_value(Motion::kBoreWithDwell)},
     {9000, Group::kDistance, AxisUse::kNone, 0},
+    {9010, Group::kArcDistance, AxisUse::kNone, 1},
     {9100, Group::kDistance, AxisUse::kNone, 1},
     {9110, Group::kArcDistance, AxisUse::kNone, 0},
     {9200, Group::kNonModal, AxisUse::kNonModal, as_value(NonModal::kSetCoordinateOffset)},
@@ -167,6 +174,8 @@ void apply(Command& command, const Entry& entry) noexcept
             command.modal.default_tolerance = !flag;
             break;
         case Group::kArcDistance:
+            command.modal.absolute_centres = flag;
+            break;
         case Group::kCutterRadius:
         case Group::kStop:
         case Group::kToolChange:
@@ -196,9 +205,16 @@ Status apply_g(Command& command, Code code) noexcept
             return status;
         }
     }
-    if (const Status status = claim_group(command, entry->group); !status) {
+    const bool cancels = entry->hundredths == kNoMotion;
+    if (cancels && command.names(Group::kMotion) && !command.ends_curve) {
+        return kDone;
+    }
+    if (command.cancels && entry->group == Group::kMotion && entry->hundredths != kEndOfCurve) {
+        command.cancels = false;
+    } else if (const Status status = claim_group(command, entry->group); !status) {
         return status;
     }
+    command.cancels = command.cancels || cancels;
     apply(command, *entry);
     return kDone;
 }
@@ -281,7 +297,7 @@ Status apply_m(Command& command, Code code) noexcept
 constexpr LetterSet kValueLetters = letter('F') | letter('H') | letter('I') | letter('J') |
                                     letter('K') | letter('L') | letter('N') | letter('P') |
                                     letter('Q') | letter('R') | letter('S') | letter('T') |
-                                    kAxisLetters;
+                                    kAxisLetters | kRotaryLetters;
 constexpr LetterSet kNeverNegative =
     letter('F') | letter('H') | letter('L') | letter('N') | letter('P') | letter('S') | letter('T');
 
@@ -407,6 +423,10 @@ Status read_command(std::string_view line, const ModalState& modal, Command& com
 {
     command = Command{};
     command.modal = modal;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (line.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+        line.remove_prefix(kByteOrderMark.size());
+    }
     Characters characters{line};
     bool first = true;
     while (characters.skip()) {

@@ -25,6 +25,7 @@ enum class NonModal : std::uint8_t {
     kStoreSecondHome,        // G30.1
     kMachineCoordinates,     // G53
     kSetCoordinateOffset,    // G92
+    kSetLocalOffset,         // G52
     kClearCoordinateOffset,  // G92.1, G92.2
 };
 
@@ -42,6 +43,7 @@ constexpr unsigned letter_index(char letter) noexcept
 constexpr LetterSet letter(char upper_case) noexcept { return 1U << letter_index(upper_case); }
 
 inline constexpr LetterSet kAxisLetters = letter('X') | letter('Y') | letter('Z');
+inline constexpr LetterSet kRotaryLetters = letter('A') | letter('B') | letter('C');
 
 // The modal groups of G and M words, one bit each: a line names each group at most once.
 enum class Group : std::uint8_t {
@@ -71,6 +73,7 @@ struct Command {
     ToolLength tool_length{ToolLength::kUnchanged};
     ProgramFlow flow{ProgramFlow::kRunning};
     Coolant coolant{Coolant::kOff};  // where the line names it
+    bool cancels{false};             // G80
     bool ends_curve{false};          // G5.3
     std::uint32_t groups{0};         // one bit a Group
     LetterSet words{0};              // value words present
@@ -94,13 +97,14 @@ struct Command {
 
 // Reads the words of a line; `modal` is the state before it.
 //
-// Comments in ( ) and after ;, spaces and '/' are skipped; a line that begins with % is blank, and
-// so is a program number alone, O1001 or :1001.
+// Comments in ( ) and after ;, spaces, '/' and a byte order mark before all are skipped; a line that
+// begins with % is blank, and so is a program number alone, O1001 or :1001.
 // Errors, in the order of the words:
 //   kExpectedCommandLetter, kBadNumberFormat       not a letter and a number
 //   kGcodeUnsupportedCommand                       a letter, G or M number that is not known
 //   kGcodeCommandValueNotInteger                   a G or M number with a decimal it does not have
-//   kGcodeModalGroupViolation                      two words of a group
+//   kGcodeModalGroupViolation                      two words of a group; G80 beside another motion is
+//                                                  no second one and has no effect (LinuxCNC)
 //   kGcodeAxisCommandConflict                      two commands that use axis words
 //   kGcodeWordRepeated, kNegativeValue             value words
 //   kGcodeMaxValueExceeded                         more than 12 digits before the point

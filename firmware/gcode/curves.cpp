@@ -159,6 +159,7 @@ Status Interpreter::continue_curve(LineContext& line) noexcept
         return status;
     }
     position_ = line.end;
+    commit_rotary(line.command);
     plan_pieces(line);
     if (!curve_.is_open()) {
         modal_.motion = Motion::kNone;

@@ -36,7 +36,7 @@ double to_double(Decimal decimal) noexcept;
 // Whether it is a whole number from 0 to `maximum`.
 bool is_whole(Decimal decimal, std::int64_t maximum) noexcept;
 
-// The whole part. Precondition: is_whole().
+// The number without its decimals, towards 0.
 std::int64_t whole_part(Decimal decimal) noexcept;
 
 // nm + millionths / 10^6 nanometres; 0 <= millionths < 10^6.

@@ -31,7 +31,6 @@ void DrillCycle::begin_hole() noexcept
         hole_[axis] = hole_[axis] + words_.step[axis];
     }
     depth_nm_ = words_.clearance_nm;
-    phase_ = Phase::kRise;
 }
 
 Position DrillCycle::at_height(std::int64_t nm) const noexcept
@@ -51,57 +50,93 @@ bool DrillCycle::move_to(Position target, path::MoveKind kind, Action& action) n
     return true;
 }
 
-// Performs the current phase and selects the next; false if the phase has nothing to do.
+// Performs the current phase; false if it has nothing to do.
 bool DrillCycle::perform(Action& action) noexcept
 {
     constexpr auto kRapid = path::MoveKind::kRapid;
-    const std::int64_t height = at_[words_.height_axis];
+    constexpr auto kCut = path::MoveKind::kFeed;
     switch (phase_) {
         case Phase::kRise:
-            phase_ = Phase::kOver;
-            return move_to(at_height(std::max(height, words_.clearance_nm)), kRapid, action);
+            return move_to(at_height(words_.first_nm), kRapid, action);
         case Phase::kOver: {
-            phase_ = Phase::kApproach;
             Position over = hole_.rounded();
-            over[words_.height_axis] = height;
+            over[words_.height_axis] = words_.over_nm;
             return move_to(over, kRapid, action);
         }
         case Phase::kApproach:
-            phase_ = Phase::kFeed;
+        case Phase::kClear:
             return move_to(at_height(words_.clearance_nm), kRapid, action);
         case Phase::kFeed:
             depth_nm_ = words_.peck_nm > 0 ? std::max(depth_nm_ - words_.peck_nm, words_.bottom_nm)
                                            : words_.bottom_nm;
-            phase_ = depth_nm_ > words_.bottom_nm ? Phase::kClear : Phase::kDwell;
-            return move_to(at_height(depth_nm_), path::MoveKind::kFeed, action);
-        case Phase::kClear:
-            phase_ = Phase::kPlunge;
-            return move_to(at_height(words_.clearance_nm), kRapid, action);
+            return move_to(at_height(depth_nm_), kCut, action);
         case Phase::kPlunge:
-            phase_ = Phase::kFeed;
-            return move_to(at_height(std::min(depth_nm_ + kPeckClearanceNm, height)), kRapid,
-                           action);
+            return move_to(at_height(std::min(depth_nm_ + kPeckClearanceNm, words_.clearance_nm)),
+                           kRapid, action);
         case Phase::kDwell:
-            phase_ = Phase::kReturn;
-            if (words_.dwell_seconds < 0) {
+            action = Dwell{words_.dwell_seconds};
+            return words_.dwell_seconds >= 0;
+        case Phase::kStop:
+            action = Spindle{SpindleMode::kOff, words_.spindle.speed};
+            return words_.cycle == Motion::kBoreStopping;
+        case Phase::kFeedOut:
+            if (words_.cycle != Motion::kBore && words_.cycle != Motion::kBoreWithDwell) {
                 return false;
             }
-            action = Dwell{words_.dwell_seconds};
-            return true;
+            return move_to(
+                at_height(words_.cycle == Motion::kBore ? words_.clearance_nm : words_.return_nm),
+                kCut, action);
         case Phase::kReturn:
+            return move_to(at_height(words_.return_nm), kRapid, action);
+        case Phase::kStart:
             break;
     }
-    const bool moved = move_to(at_height(words_.return_nm), kRapid, action);
+    words_.first_nm = words_.return_nm;
+    words_.over_nm = words_.return_nm;
     --left_;
     begin_hole();
-    return moved;
+    action = words_.spindle;
+    return words_.cycle == Motion::kBoreStopping;
+}
+
+DrillCycle::Phase DrillCycle::following() const noexcept
+{
+    switch (phase_) {
+        case Phase::kRise:
+            return Phase::kOver;
+        case Phase::kOver:
+            return Phase::kApproach;
+        case Phase::kApproach:
+        case Phase::kPlunge:
+            return Phase::kFeed;
+        case Phase::kFeed:
+            if (depth_nm_ <= words_.bottom_nm) {
+                return Phase::kDwell;
+            }
+            return words_.cycle == Motion::kDrillChipBreaking ? Phase::kPlunge : Phase::kClear;
+        case Phase::kClear:
+            return Phase::kPlunge;
+        case Phase::kDwell:
+            return Phase::kStop;
+        case Phase::kStop:
+            return Phase::kFeedOut;
+        case Phase::kFeedOut:
+            return Phase::kReturn;
+        case Phase::kReturn:
+            return Phase::kStart;
+        case Phase::kStart:
+            break;
+    }
+    return Phase::kRise;
 }
 
 bool DrillCycle::next(Action& action) noexcept
 {
-    // At most eight phases of a hole can have nothing to do; the feed of a peck is always a move.
+    // At most eleven phases of a hole can have nothing to do; the feed of a peck is always a move.
     while (left_ > 0) {
-        if (perform(action)) {
+        const bool done = perform(action);
+        phase_ = following();
+        if (done) {
             return true;
         }
     }

@@ -1,4 +1,4 @@
-// G81, G82 and G83: the moves of drilling cycles, one at a time.
+// G73, G81 to G83, G85, G86 and G89: the moves of drilling and boring cycles, one at a time.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,19 @@ struct DrillWords {
     std::int64_t clearance_nm;  // R
     std::int64_t bottom_nm;     // <= clearance_nm
     std::int64_t return_nm;     // where each hole ends: >= clearance_nm
-    std::int64_t peck_nm;       // > 0 with G83; 0: straight to the bottom
+    std::int64_t first_nm;      // where the tool goes before it leaves its place
+    std::int64_t over_nm;       // where it arrives over the first hole
+    std::int64_t peck_nm;       // > 0 with G73 and G83; 0: straight to the bottom
     double dwell_seconds;       // < 0: none
-    std::uint32_t repeats;      // >= 1
+    Motion cycle;
+    Spindle spindle;        // G86: started again after each hole
+    std::uint32_t repeats;  // >= 1
 };
 
-// For each hole: rapid over it, rapid to R, feed to the bottom (G83: in pecks, with a rapid to R
-// and back to a little above the last depth between them), dwell (G82), rapid out.
+// For each hole: rapid over it, rapid to R, feed to the bottom, dwell (G82, G86, G89), out. Between
+// pecks a rapid to R and back to a little above the last depth (G83), or up by that little alone
+// (G73). Out: at the feed to R (G85), or all the way (G89); with the spindle at rest, which starts
+// again above (G86); else at the rapid.
 class DrillCycle {
 public:
     DrillCycle() = default;
@@ -42,14 +48,18 @@ private:
         kApproach,
         kFeed,
         kDwell,
+        kStop,
         kClear,
         kPlunge,
-        kReturn
+        kFeedOut,
+        kReturn,
+        kStart
     };
 
     bool move_to(Position target, path::MoveKind kind, Action& action) noexcept;
     Position at_height(std::int64_t nm) const noexcept;
     bool perform(Action& action) noexcept;
+    Phase following() const noexcept;
     void begin_hole() noexcept;
 
     DrillWords words_{};

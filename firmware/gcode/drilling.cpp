@@ -1,4 +1,4 @@
-// Converts the words of G81, G82 and G83 to machine coordinates.
+// Converts the words of drilling and boring cycles to machine coordinates.
 #include <algorithm>
 
 #include "firmware/gcode/line_context.hpp"
@@ -30,40 +30,40 @@ Status remember(LineContext& line, char upper_case, ExactLength& kept) noexcept
         }
         command.use(upper_case);
         kept = *value;
-        line.drill.known |= letter(upper_case);
+        line.drill->known |= letter(upper_case);
     }
-    return (line.drill.known & letter(upper_case)) != 0 ? Status{kDone}
-                                                        : Status{Error::kGcodeValueWordMissing};
+    return (line.drill->known & letter(upper_case)) != 0 ? Status{kDone}
+                                                         : Status{Error::kGcodeValueWordMissing};
 }
 
 Status read_dwell(LineContext& line, DrillWords& words) noexcept
 {
     Command& command = line.command;
     words.dwell_seconds = -1;
-    if (command.modal.motion != Motion::kDrillWithDwell) {
+    if (!dwells(command.modal.motion)) {
         return kDone;
     }
     if (command.has('P')) {
-        line.drill.dwell_seconds = to_double(command.value('P'));
-        line.drill.known |= letter('P');
+        line.drill->dwell_seconds = to_double(command.value('P'));
+        line.drill->known |= letter('P');
         command.use('P');
     }
-    if ((line.drill.known & letter('P')) == 0) {
+    if ((line.drill->known & letter('P')) == 0) {
         return Error::kGcodeValueWordMissing;
     }
-    words.dwell_seconds = line.drill.dwell_seconds;
+    words.dwell_seconds = line.drill->dwell_seconds;
     return kDone;
 }
 
 Status read_peck(LineContext& line, DrillWords& words) noexcept
 {
-    if (line.command.modal.motion != Motion::kDrillPecking) {
+    if (!pecks(line.command.modal.motion)) {
         return kDone;
     }
-    if (const Status status = remember(line, 'Q', line.drill.peck); !status) {
+    if (const Status status = remember(line, 'Q', line.drill->peck); !status) {
         return status;
     }
-    words.peck_nm = line.drill.peck.rounded();
+    words.peck_nm = line.drill->peck.rounded();
     return words.peck_nm > 0 ? Status{kDone} : Status{Error::kGcodeInvalidTarget};
 }
 
@@ -101,32 +101,64 @@ void read_holes(LineContext& line, DrillWords& words) noexcept
     }
 }
 
+// The initial level, in machine coordinates: where the tool was before the first of the cycles.
+ExactLength initial_level(LineContext& line, unsigned axis, std::int64_t origin) noexcept
+{
+    DrillMemory& drill = *line.drill;
+    if (drill.level_axis != axis) {
+        drill.level_axis = static_cast<std::uint8_t>(axis);
+        drill.level = line.start[axis] + ExactLength{-origin, 0};
+    }
+    return ExactLength{origin, 0} + drill.level;
+}
+
+// Where the tool travels: up to R first, then across, with G98 up to the initial level on the way unless
+// it is above R already. LinuxCNC's does so too, but goes up to R on the way across where R is below
+// the initial level.
+void read_travel(const LineContext& line, std::int64_t level, DrillWords& words) noexcept
+{
+    const std::int64_t clearance = words.clearance_nm;
+    const std::int64_t here = line.start[words.height_axis].rounded();
+    const bool low = line.command.modal.return_to_clearance;
+    words.first_nm = level < clearance ? clearance : std::max(here, clearance);
+    words.over_nm = low || here > clearance ? words.first_nm : std::max(words.first_nm, level);
+    words.return_nm = low ? clearance : std::max(level, clearance);
+}
+
 Status read_heights(LineContext& line, DrillWords& words) noexcept
 {
     const unsigned axis = words.height_axis;
-    if (const Status status = remember(line, 'R', line.drill.clearance); !status) {
+    if (const Status status = remember(line, 'R', line.drill->clearance); !status) {
         return status;
     }
-    if (const Status status = remember(line, axis_letter(axis), line.drill.bottom); !status) {
+    if (const Status status = remember(line, axis_letter(axis), line.drill->bottom); !status) {
         return status;
     }
-    // In G91 R counts from the present height and the depth from R (LinuxCNC).
+    // In G91 R counts from the initial level and the depth from R (LinuxCNC).
     const bool incremental = line.command.modal.incremental;
     const ExactLength origin{work_offset(line.command.modal, line.parameters)[axis], 0};
-    const ExactLength clearance = (incremental ? line.start[axis] : origin) + line.drill.clearance;
-    const ExactLength bottom = (incremental ? clearance : origin) + line.drill.bottom;
+    const ExactLength level = initial_level(line, axis, origin.nm);
+    const ExactLength clearance = (incremental ? level : origin) + line.drill->clearance;
+    const ExactLength bottom = (incremental ? clearance : origin) + line.drill->bottom;
     words.clearance_nm = clearance.rounded();
     words.bottom_nm = bottom.rounded();
-    const std::int64_t here = line.start[axis].rounded();
-    words.return_nm = line.command.modal.return_to_clearance ? words.clearance_nm
-                                                             : std::max(here, words.clearance_nm);
-    const bool within =
-        words.clearance_nm <= kMaxCoordinateNm && words.bottom_nm >= -kMaxCoordinateNm;
+    read_travel(line, level.rounded(), words);
+    const bool within = words.clearance_nm <= kMaxCoordinateNm &&
+                        words.over_nm <= kMaxCoordinateNm && words.bottom_nm >= -kMaxCoordinateNm;
     if (!within) {
         return Error::kGcodeMaxValueExceeded;
     }
     return words.bottom_nm <= words.clearance_nm ? Status{kDone}
                                                  : Status{Error::kGcodeInvalidTarget};
+}
+
+// G86 stops the spindle in the hole, so that it must turn.
+Status read_spindle(const ModalState& modal, DrillWords& words) noexcept
+{
+    words.spindle = {modal.spindle, modal.spindle_speed};
+    return modal.motion == Motion::kBoreStopping && modal.spindle == SpindleMode::kOff
+               ? Status{Error::kGcodeInvalidTarget}
+               : Status{kDone};
 }
 
 }  // namespace
@@ -142,7 +174,11 @@ Status plan_drilling(LineContext& line, MotionPlan& plan) noexcept
     }
     DrillWords words{};
     words.height_axis = normal_axis(command.modal.plane);
-    Status status = read_dwell(line, words);
+    words.cycle = command.modal.motion;
+    Status status = read_spindle(command.modal, words);
+    if (status) {
+        status = read_dwell(line, words);
+    }
     if (status) {
         status = read_peck(line, words);
     }

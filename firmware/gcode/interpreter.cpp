@@ -18,11 +18,13 @@ Status check_number(LineContext& line) noexcept
     if (!command.has('N')) {
         return kDone;
     }
-    if (!is_whole(command.value('N'), kMaxLineNumber)) {
+    // N10.5 is line 10, as in Grbl and LinuxCNC.
+    const std::int64_t number = whole_part(command.value('N'));
+    if (number > kMaxLineNumber) {
         return Error::kGcodeInvalidLineNumber;
     }
     command.use('N');
-    line.number = static_cast<std::uint32_t>(whole_part(command.value('N')));
+    line.number = static_cast<std::uint32_t>(number);
     return kDone;
 }
 
@@ -47,6 +49,9 @@ Status check_tool_and_spindle(LineContext& line) noexcept
         }
         command.modal.tool = static_cast<std::uint8_t>(whole_part(tool));
         command.use('T');
+    }
+    if (command.names(Group::kToolChange)) {
+        command.modal.in_spindle = command.modal.tool;
     }
     return kDone;
 }
@@ -77,14 +82,14 @@ bool motion_takes_p(const Command& command) noexcept
     }
     const Motion motion = command.modal.motion;
     return command.axis_use == AxisUse::kMotion && motion != Motion::kRapid &&
-           motion != Motion::kLine && motion != Motion::kDrill && motion != Motion::kDrillPecking;
+           motion != Motion::kLine && (!is_cycle(motion) || dwells(motion));
 }
 
 // Whether a Q word of the line belongs to another command than G64.
 bool motion_takes_q(const Command& command) noexcept
 {
-    return command.axis_use == AxisUse::kMotion && (command.modal.motion == Motion::kDrillPecking ||
-                                                    command.modal.motion == Motion::kNurbs);
+    return command.axis_use == AxisUse::kMotion &&
+           (pecks(command.modal.motion) || command.modal.motion == Motion::kNurbs);
 }
 
 Status check_path_control(LineContext& line) noexcept
@@ -151,6 +156,13 @@ void plan_switches(const LineContext& line, const ModalState& before, MotionPlan
     }
 }
 
+// Whether a line has a centre and no end: a full circle, also without G2 or G3.
+bool is_circle(const Command& command) noexcept
+{
+    constexpr LetterSet kOffsets = letter('I') | letter('J') | letter('K');
+    return is_arc(command.modal.motion) && (command.words & kOffsets) != 0;
+}
+
 bool is_jog_group(const Command& command) noexcept
 {
     constexpr auto bit = [](Group group) {
@@ -169,7 +181,6 @@ LineContext Interpreter::begin(std::uint32_t number) const noexcept
 {
     LineContext line{};
     line.parameters = parameters_;
-    line.drill = drill_;
     line.start = position_;
     line.end = position_;
     line.default_tolerance = default_tolerance_;
@@ -203,10 +214,16 @@ Status Interpreter::run(LineContext& line) noexcept
     if (const Status status = check_number(line); !status) {
         return status;
     }
+    if ((command.words & kRotaryLetters) != 0) {
+        rotary_after_ = rotary_;
+        if (const Status status = check_rotary(command, rotary_after_, plan_); !status) {
+            return status;
+        }
+    }
     if (in_curve()) {
         return continue_curve(line);
     }
-    if (command.axes() != 0 && command.axis_use == AxisUse::kNone) {
+    if (command.axis_use == AxisUse::kNone && (command.axes() != 0 || is_circle(command))) {
         command.axis_use = AxisUse::kMotion;
     }
     if (const Status status = check(line); !status) {
@@ -248,8 +265,8 @@ Status Interpreter::check(LineContext& line) noexcept
             return status;
         }
     }
-    if (command.modal.motion != modal_.motion) {
-        line.drill = {};
+    if (is_cycle(command.modal.motion)) {
+        remember_cycle(line);
     }
     if (const Status status = plan_motion(line, plan_); !status) {
         return status;
@@ -284,16 +301,42 @@ Status Interpreter::check_tool_change(const LineContext& line) const noexcept
     return depends ? Status{Error::kGcodeAxisCommandConflict} : Status{kDone};
 }
 
+// Another cycle has words of its own, and the same initial level.
+void Interpreter::remember_cycle(LineContext& line) noexcept
+{
+    drill_after_ = drill_;
+    if (line.command.modal.motion != modal_.motion) {
+        drill_after_.known = 0;
+    }
+    line.drill = &drill_after_;
+}
+
+void Interpreter::commit_rotary(const Command& command) noexcept
+{
+    if ((command.words & kRotaryLetters) != 0) {
+        rotary_ = rotary_after_;
+    }
+}
+
 void Interpreter::commit(const LineContext& line) noexcept
 {
     plan_switches(line, modal_, plan_);
     plan_flow(line.command, plan_);
     const Motion before = modal_.motion;
     modal_ = line.command.modal;
+    commit_rotary(line.command);
+    if (line.command.axis_use == AxisUse::kMotion && modal_.motion != Motion::kRapid) {
+        rotary_.known |= kRotaryLetters;
+    }
     if (plan_.has(MotionPlan::Step::kParameters)) {
         parameters_ = line.parameters;
     }
-    drill_ = line.drill;
+    if (is_cycle(modal_.motion)) {
+        drill_ = drill_after_;
+    } else {
+        drill_.known = 0;
+        drill_.level_axis = kAxisCount;
+    }
     if (modal_.motion != before &&
         (modal_.motion == Motion::kUniformNurbs || modal_.motion == Motion::kNurbs)) {
         open_curve(line);
@@ -314,6 +357,7 @@ void Interpreter::end_program() noexcept
         modal_.inverse_time = false;
         modal_.feed = 0;
     }
+    modal_.absolute_centres = false;
     modal_.return_to_clearance = false;
     modal_.exact_path = false;
     modal_.default_tolerance = true;
@@ -322,6 +366,7 @@ void Interpreter::end_program() noexcept
     modal_.flood = false;
     modal_.mist = false;
     drill_ = {};
+    rotary_ = {};
 }
 
 void Interpreter::set_coolant(bool flood, bool mist) noexcept
@@ -349,6 +394,9 @@ Status Interpreter::run_jog(LineContext& line) noexcept
     Command& command = line.command;
     if (in_curve() || !is_jog_group(command)) {
         return Error::kInvalidJogCommand;
+    }
+    if ((command.words & kRotaryLetters) != 0) {
+        return Error::kGcodeUnsupportedCommand;
     }
     if (const Status status = check_number(line); !status) {
         return status;
@@ -405,10 +453,13 @@ void Interpreter::take_tool_length(std::int64_t length_nm) noexcept
 void Interpreter::reset() noexcept
 {
     discard();
+    const std::uint8_t in_spindle = modal_.in_spindle;
     modal_ = ModalState{};
+    modal_.in_spindle = in_spindle;
     parameters_.coordinate_offset = {};
     parameters_.tool_length_offset_nm = 0;
     drill_ = {};
+    rotary_ = {};
 }
 
 float Interpreter::path_tolerance() const noexcept

@@ -65,7 +65,8 @@ public:
     Position position() const noexcept { return position_.rounded(); }
 
     // As at power-up: modal state at its defaults, G92 and the tool length offset cleared, an open
-    // NURBS and unfetched actions forgotten. Position and stored parameters stay.
+    // NURBS and unfetched actions forgotten. Position, stored parameters and the tool in the spindle
+    // stay.
     void reset() noexcept;
 
     // The path tolerance of $11, mm, in force at power-up, after M2 and M30 and with G64 alone.
@@ -98,6 +99,8 @@ private:
     Status run(LineContext& line) noexcept;
     Status check(LineContext& line) noexcept;
     Status check_tool_change(const LineContext& line) const noexcept;
+    void remember_cycle(LineContext& line) noexcept;
+    void commit_rotary(const Command& command) noexcept;
     Status run_jog(LineContext& line) noexcept;
     void commit(const LineContext& line) noexcept;
     void end_program() noexcept;
@@ -115,6 +118,9 @@ private:
     Parameters parameters_;
     ExactPosition position_;
     DrillMemory drill_;
+    DrillMemory drill_after_;  // the line, where it is of a cycle
+    RotaryAxes rotary_;
+    RotaryAxes rotary_after_;  // the line, where it has words of them
     float default_tolerance_{0.010F};
     ToolChangeRule tool_change_rule_{ToolChangeRule::kFree};
     MotionPlan plan_;

@@ -28,7 +28,32 @@ enum class Motion : std::uint8_t {
     kDrill,                // G81
     kDrillWithDwell,       // G82
     kDrillPecking,         // G83
+    kDrillChipBreaking,    // G73
+    kBore,                 // G85: out at the feed
+    kBoreStopping,         // G86: out with the spindle at rest
+    kBoreWithDwell,        // G89
 };
+
+constexpr bool is_arc(Motion motion) noexcept
+{
+    return motion == Motion::kArcClockwise || motion == Motion::kArcCounterClockwise;
+}
+
+// G73, G81 to G83, G85, G86 and G89.
+constexpr bool is_cycle(Motion motion) noexcept { return motion >= Motion::kDrill; }
+
+// Whether a cycle has a P word, the dwell at the bottom.
+constexpr bool dwells(Motion motion) noexcept
+{
+    return motion == Motion::kDrillWithDwell || motion == Motion::kBoreStopping ||
+           motion == Motion::kBoreWithDwell;
+}
+
+// Whether a cycle has a Q word, the depth of a peck.
+constexpr bool pecks(Motion motion) noexcept
+{
+    return motion == Motion::kDrillPecking || motion == Motion::kDrillChipBreaking;
+}
 
 enum class SpindleMode : std::uint8_t { kOff, kClockwise, kCounterClockwise };  // M5 M3 M4
 
@@ -41,17 +66,19 @@ struct ModalState {
     bool inches{false};               // G20
     bool incremental{false};          // G91
     bool inverse_time{false};         // G93
-    bool return_to_clearance{false};  // G99: drilling cycles return to R, not to the start's height
+    bool absolute_centres{false};     // G90.1: I J K are coordinates
+    bool return_to_clearance{false};  // G99: cycles return to R, not to the height before the first
     bool exact_path{false};           // G61
     bool default_tolerance{true};     // G64 alone: the tolerance of $11
     std::uint8_t coordinate_system{0};  // 0 is G54, 8 is G59.3
     SpindleMode spindle{SpindleMode::kOff};
-    bool flood{false};        // M8
-    bool mist{false};         // M7
-    std::uint8_t tool{0};     // T
-    float path_tolerance{0};  // mm, of G64 P; meaningful where neither flag above is set
-    float feed{0};            // mm/min; 1/min with G93; 0 where none was given yet
-    float spindle_speed{0};   // rpm
+    bool flood{false};           // M8
+    bool mist{false};            // M7
+    std::uint8_t tool{0};        // T
+    std::uint8_t in_spindle{0};  // T of the last M6
+    float path_tolerance{0};     // mm, of G64 P; meaningful where neither flag above is set
+    float feed{0};               // mm/min; 1/min with G93; 0 where none was given yet
+    float spindle_speed{0};      // rpm
 };
 
 inline constexpr unsigned kCoordinateSystems = 9;
@@ -64,7 +91,7 @@ struct Parameters {
     std::array<Position, kCoordinateSystems> work_offsets{};  // G54 to G59.3
     Position home{};                                          // G28
     Position second_home{};                                   // G30
-    Position coordinate_offset{};                             // G92
+    Position coordinate_offset{};                             // G92, G52
     std::int64_t tool_length_offset_nm{0};                    // G43, G43.1, along Z
     ToolTable tools;                                          // G10 L1
 };

@@ -74,6 +74,9 @@ bool MotionPlan::next(nurbs::PieceStream& curve, Action& action) noexcept
         }
         steps_ &= ~bit;
         switch (step) {
+            case Step::kRotaryIgnored:
+                action = RotaryIgnored{};
+                return true;
             case Step::kToolChange:
                 action = tool_change;
                 return true;

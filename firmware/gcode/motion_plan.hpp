@@ -29,6 +29,7 @@ using MotionSource = std::variant<std::monostate, Moves, Probe, DrillCycle, Curv
 class MotionPlan {
 public:
     enum class Step : std::uint8_t {
+        kRotaryIgnored,
         kToolChange,
         kSpindle,
         kCoolant,

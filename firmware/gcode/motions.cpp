@@ -17,37 +17,46 @@ bool is_within_reach(const ExactLength& length) noexcept
     return length.nm <= kMaxCoordinateNm && length.nm >= -kMaxCoordinateNm;
 }
 
-struct PlaneLetters {
-    char first;
-    char second;
-    char first_offset;
-    char second_offset;
+constexpr LetterSet kCentreLetters = letter('I') | letter('J') | letter('K');
+
+constexpr char centre_letter(unsigned axis) noexcept { return static_cast<char>('I' + axis); }
+
+// The axes of a plane, in the order in which arcs turn.
+struct PlaneAxes {
+    unsigned first;
+    unsigned second;
 };
 
-PlaneLetters letters_of(path::Plane plane) noexcept
+PlaneAxes axes_of(path::Plane plane) noexcept
 {
     switch (plane) {
         case path::Plane::kZX:
-            return {'Z', 'X', 'K', 'I'};
+            return {2, 0};
         case path::Plane::kYZ:
-            return {'Y', 'Z', 'J', 'K'};
+            return {1, 2};
         case path::Plane::kXY:
             break;
     }
-    return {'X', 'Y', 'I', 'J'};
+    return {0, 1};
 }
 
-Result<std::int64_t> offset_of(Command& command, char upper_case) noexcept
+// The centre from the start, along an axis of the plane: its word is an offset, or with G90.1 a
+// coordinate.
+Result<std::int64_t> centre_of(const LineContext& line, unsigned axis) noexcept
 {
-    if (!command.has(upper_case)) {
+    const Command& command = line.command;
+    if (!command.has(centre_letter(axis))) {
         return std::int64_t{0};
     }
-    const Result<ExactLength> value = length_of(command, upper_case);
+    const Result<ExactLength> value = length_of(command, centre_letter(axis));
     if (!value) {
         return value.error();
     }
-    command.use(upper_case);
-    return value->rounded();
+    if (!command.modal.absolute_centres) {
+        return value->rounded();
+    }
+    const ExactLength origin{work_offset(command.modal, line.parameters)[axis], 0};
+    return (origin + *value).rounded() - line.start[axis].rounded();
 }
 
 Status read_turns(Command& command, path::ArcWords& words) noexcept
@@ -69,49 +78,71 @@ Status read_turns(Command& command, path::ArcWords& words) noexcept
     return kDone;
 }
 
-Result<path::ArcWords> read_centre(Command& command,
-                                   path::ArcWords words,
-                                   const PlaneLetters& letters) noexcept
+Result<path::ArcWords> read_radius(Command& command, path::ArcWords words) noexcept
 {
-    if (command.has('R')) {
-        const Result<std::int64_t> radius = offset_of(command, 'R');
-        return radius ? path::with_radius(words, *radius) : Result<path::ArcWords>{radius.error()};
+    const Result<ExactLength> radius = length_of(command, 'R');
+    if (!radius) {
+        return radius.error();
     }
-    if (!command.has(letters.first_offset) && !command.has(letters.second_offset)) {
+    command.use('R');
+    return path::with_radius(words, radius->rounded());
+}
+
+Result<path::ArcWords> read_centre(LineContext& line, path::ArcWords words, PlaneAxes axes) noexcept
+{
+    Command& command = line.command;
+    const bool first_given = command.has(centre_letter(axes.first));
+    const bool second_given = command.has(centre_letter(axes.second));
+    const bool absolute = command.modal.absolute_centres;
+    if (absolute ? !(first_given && second_given) : !(first_given || second_given)) {
         return Error::kGcodeNoOffsetsInPlane;
     }
-    const Result<std::int64_t> first = offset_of(command, letters.first_offset);
+    const Result<std::int64_t> first = centre_of(line, axes.first);
     if (!first) {
         return first.error();
     }
-    const Result<std::int64_t> second = offset_of(command, letters.second_offset);
+    const Result<std::int64_t> second = centre_of(line, axes.second);
     if (!second) {
         return second.error();
     }
+    // The word of the third axis, FreeCAD's K0, is ignored, as by Grbl.
+    command.unused &= ~kCentreLetters;
     words.first_offset_nm = *first;
     words.second_offset_nm = *second;
     return words;
 }
 
+// A centre without an end in the plane is a full circle.
+Status check_end(const Command& command, PlaneAxes axes) noexcept
+{
+    if (command.has(axis_letter(axes.first)) || command.has(axis_letter(axes.second))) {
+        return kDone;
+    }
+    const bool circle = !command.has('R') && (command.has(centre_letter(axes.first)) ||
+                                              command.has(centre_letter(axes.second)));
+    return circle                ? Status{kDone}
+           : command.axes() == 0 ? Status{Error::kGcodeNoAxisWords}
+                                 : Status{Error::kGcodeNoAxisWordsInPlane};
+}
+
 Status plan_arc(LineContext& line, MotionPlan& plan) noexcept
 {
     Command& command = line.command;
-    const PlaneLetters letters = letters_of(command.modal.plane);
-    if (command.axes() == 0) {
-        return Error::kGcodeNoAxisWords;
-    }
-    if (!command.has(letters.first) && !command.has(letters.second)) {
-        return Error::kGcodeNoAxisWordsInPlane;
+    const PlaneAxes axes = axes_of(command.modal.plane);
+    if (const Status status = check_end(command, axes); !status) {
+        return status;
     }
     path::ArcWords words{};
     words.start = line.start.rounded();
     words.end = line.end.rounded();
     words.plane = command.modal.plane;
     words.clockwise = command.modal.motion == Motion::kArcClockwise;
+    words.inches = command.modal.inches;
     if (const Status status = read_turns(command, words); !status) {
         return status;
     }
-    const Result<path::ArcWords> centred = read_centre(command, words, letters);
+    const Result<path::ArcWords> centred =
+        command.has('R') ? read_radius(command, words) : read_centre(line, words, axes);
     if (!centred) {
         return centred.error();
     }
@@ -119,7 +150,7 @@ Status plan_arc(LineContext& line, MotionPlan& plan) noexcept
     if (!arc) {
         return arc.error();
     }
-    path::Move move = move_pattern(line.command.modal, line, path::MoveKind::kFeed);
+    path::Move move = move_pattern(command.modal, line, path::MoveKind::kFeed);
     move.path = *arc;
     move.start = words.start;
     move.end = words.end;
@@ -158,8 +189,9 @@ void plan_home(LineContext& line, const Position& home, MotionPlan& plan) noexce
     move.start = line.start.rounded();
     move.end = line.end.rounded();
     const Position through = move.end;
+    const bool all = (command.words & (kAxisLetters | kRotaryLetters)) == 0;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (command.axes() == 0 || command.has(axis_letter(axis))) {
+        if (all || command.has(axis_letter(axis))) {
             line.end[axis] = {home[axis], 0};
         }
     }
@@ -191,6 +223,10 @@ Status plan_motion_mode(LineContext& line, MotionPlan& plan) noexcept
         case Motion::kDrill:
         case Motion::kDrillWithDwell:
         case Motion::kDrillPecking:
+        case Motion::kDrillChipBreaking:
+        case Motion::kBore:
+        case Motion::kBoreStopping:
+        case Motion::kBoreWithDwell:
             return plan_drilling(line, plan);
         case Motion::kUniformNurbs:
         case Motion::kNurbs:

@@ -16,6 +16,14 @@ std::int64_t tool_length(const LineContext& line, unsigned axis) noexcept
     return axis == 2 ? line.parameters.tool_length_offset_nm : 0;
 }
 
+// Whether a line names an axis, a rotary one too.
+bool names_axes(const Command& command) noexcept
+{
+    return (command.words & (kAxisLetters | kRotaryLetters)) != 0;
+}
+
+bool is_same(Decimal a, Decimal b) noexcept { return to_double(a) == to_double(b); }
+
 // The meaning of G10's L word.
 enum class G10Value : std::uint8_t {
     kToolLength = 1,
@@ -111,8 +119,8 @@ Status set_work_offset(LineContext& line, G10Value how, MotionPlan& plan) noexce
 
 Status set_offset(LineContext& line, MotionPlan& plan) noexcept
 {
-    const Command& command = line.command;
-    if (command.axes() == 0) {
+    Command& command = line.command;
+    if (!names_axes(command) && !command.has('R')) {
         return Error::kGcodeNoAxisWords;
     }
     if (!command.has('P') || !command.has('L')) {
@@ -126,19 +134,28 @@ Status set_offset(LineContext& line, MotionPlan& plan) noexcept
     if (!of_tool && !is_whole(command.value('P'), kCoordinateSystems)) {
         return Error::kGcodeUnsupportedCoordSys;
     }
-    if ((!of_tool && how != G10Value::kOffset && how != G10Value::kOffsetHere) ||
-        command.has('R')) {
+    if (!of_tool && how != G10Value::kOffset && how != G10Value::kOffsetHere) {
         return Error::kGcodeUnsupportedCommand;
+    }
+    // R turns a coordinate system: by nothing, or not here.
+    if (command.has('R')) {
+        if (how != G10Value::kOffset || !command.value('R').is_zero()) {
+            return Error::kGcodeUnsupportedCommand;
+        }
+        command.use('R');
     }
     return of_tool ? set_table_entry(line, how, plan) : set_work_offset(line, how, plan);
 }
 
+// G92: the tool is at the words. G52: the words are the offset itself; one offset serves both, as in
+// LinuxCNC.
 Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
 {
     const Command& command = line.command;
-    if (command.axes() == 0) {
+    if (!names_axes(command)) {
         return Error::kGcodeNoAxisWords;
     }
+    const bool local = command.non_modal == NonModal::kSetLocalOffset;
     const Position here = line.start.rounded();
     const Position& work = line.parameters.work_offsets[command.modal.coordinate_system];
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -150,25 +167,26 @@ Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
             return value.error();
         }
         line.parameters.coordinate_offset[axis] =
-            here[axis] - work[axis] - tool_length(line, axis) - value->rounded();
+            local ? value->rounded()
+                  : here[axis] - work[axis] - tool_length(line, axis) - value->rounded();
     }
     keep(plan, false);
     return kDone;
 }
 
-// G43 H: while the table is empty every length is 0. After the first entry, tools without an
-// entry are refused.
+// G43, with H or of the tool in the spindle: while the table is empty every length is 0. After the
+// first entry, tools without an entry are refused.
 Result<std::int64_t> length_from_table(Command& command, const ToolTable& tools) noexcept
 {
-    if (!command.has('H')) {
-        return Error::kGcodeValueWordMissing;
-    }
     constexpr std::int64_t kMaxTool = 255;
-    if (!is_whole(command.value('H'), kMaxTool)) {
-        return Error::kGcodeMaxValueExceeded;
+    unsigned tool = command.modal.in_spindle;
+    if (command.has('H')) {
+        if (!is_whole(command.value('H'), kMaxTool)) {
+            return Error::kGcodeMaxValueExceeded;
+        }
+        command.use('H');
+        tool = static_cast<unsigned>(whole_part(command.value('H')));
     }
-    command.use('H');
-    const auto tool = static_cast<unsigned>(whole_part(command.value('H')));
     if (tools.empty() || tool == 0) {
         return std::int64_t{0};
     }
@@ -206,6 +224,33 @@ Status set_tool_length(LineContext& line, MotionPlan& plan) noexcept
 
 }  // namespace
 
+Status check_rotary(Command& command, RotaryAxes& rotary, MotionPlan& plan) noexcept
+{
+    // Words that are no positions: of offsets, and steps.
+    const bool relative = command.modal.incremental || command.non_modal == NonModal::kSetOffset ||
+                          command.non_modal == NonModal::kSetLocalOffset;
+    for (unsigned i = 0; i < rotary.at.size(); ++i) {
+        const char axis = static_cast<char>('A' + i);
+        if (!command.has(axis)) {
+            continue;
+        }
+        const Decimal word = command.value(axis);
+        if (!relative && (rotary.known & letter(axis)) == 0) {
+            rotary.at[i] = word;
+            rotary.known |= letter(axis);
+        }
+        if (!is_same(word, relative ? Decimal{} : rotary.at[i])) {
+            return Error::kGcodeUnsupportedCommand;
+        }
+        command.use(axis);
+    }
+    if (!rotary.noted) {
+        rotary.noted = true;
+        plan.add(MotionPlan::Step::kRotaryIgnored);
+    }
+    return kDone;
+}
+
 Status plan_offsets(LineContext& line, MotionPlan& plan) noexcept
 {
     if (line.command.tool_length != ToolLength::kUnchanged) {
@@ -217,6 +262,7 @@ Status plan_offsets(LineContext& line, MotionPlan& plan) noexcept
         case NonModal::kSetOffset:
             return set_offset(line, plan);
         case NonModal::kSetCoordinateOffset:
+        case NonModal::kSetLocalOffset:
             return set_coordinate_offset(line, plan);
         case NonModal::kClearCoordinateOffset:
             line.parameters.coordinate_offset = {};

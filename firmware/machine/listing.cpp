@@ -137,6 +137,14 @@ std::string_view word_of(gcode::Motion motion) noexcept
             return "G82";
         case Motion::kDrillPecking:
             return "G83";
+        case Motion::kDrillChipBreaking:
+            return "G73";
+        case Motion::kBore:
+            return "G85";
+        case Motion::kBoreStopping:
+            return "G86";
+        case Motion::kBoreWithDwell:
+            return "G89";
     }
     return "";
 }

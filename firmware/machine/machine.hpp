@@ -215,6 +215,7 @@ private:
     // machine_tool_change.cpp
     gcode::ToolChangeRule tool_change_rule() const noexcept;
     bool perform(const gcode::ToolChange& change) noexcept;
+    bool perform(const gcode::RotaryIgnored& ignored) noexcept;
     void start_tool_change(const gcode::ToolChange& change, ToolChangeMode mode) noexcept;
     bool step_tool_change() noexcept;
     void ask_for_tool(unsigned tool) noexcept;

@@ -255,6 +255,12 @@ bool Machine::perform(const gcode::Pause& pause) noexcept
     return true;
 }
 
+bool Machine::perform(const gcode::RotaryIgnored& /*ignored*/) noexcept
+{
+    message("A B C stand still: ignored");
+    return true;
+}
+
 bool Machine::perform(const gcode::ProgramEnd& /*end*/) noexcept
 {
     if (state_ != State::kCheck) {

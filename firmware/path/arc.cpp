@@ -29,8 +29,12 @@ constexpr PlaneAxes axes_of(Plane plane) noexcept
     return {0, 1, 2};
 }
 
-constexpr double kMaxRadiusDifference = 0.5;     // mm: refused beyond, whatever the radius
-constexpr double kFreeRadiusDifference = 0.005;  // mm: accepted, whatever the radius
+// LinuxCNC's rule, 2 sqrt(2) of the last digit of 2 decimals in millimetres and 3 in inches: such a
+// difference is accepted whatever the radius; 100 of them are refused whatever the radius.
+constexpr double kRadiusTolerance = 0.028284271247461903;        // mm
+constexpr double kRadiusToleranceOfInches = 0.0718420489685532;  // mm
+constexpr double kRefusedTolerances = 100;
+constexpr double kChordTolerance = 0.005;  // mm: of the diameter that a radius word gives
 constexpr double kRadiusDifferenceRatio = 0.001;
 
 double millimetres(std::int64_t nm) noexcept
@@ -38,11 +42,12 @@ double millimetres(std::int64_t nm) noexcept
     return static_cast<double>(nm) / kNanometresPerMillimetre;
 }
 
-bool radii_agree(double start, double end) noexcept
+bool radii_agree(double start, double end, bool inches) noexcept
 {
     const double difference = std::fabs(end - start);
-    return difference <= kFreeRadiusDifference ||
-           (difference <= kMaxRadiusDifference && difference <= kRadiusDifferenceRatio * start);
+    const double tolerance = inches ? kRadiusToleranceOfInches : kRadiusTolerance;
+    return difference <= tolerance || (difference <= kRefusedTolerances * tolerance &&
+                                       difference <= kRadiusDifferenceRatio * std::max(start, end));
 }
 
 // Angle from the start radius to the end radius in the sense of motion: in (0, 2 pi], the full turn
@@ -121,7 +126,7 @@ double arc_length(const Arc& arc) noexcept
     if (arc.radius_change == 0) {
         return speed(0);
     }
-    // The radius changes by 0.1 %, or by 5 um on a tiny arc.
+    // The radius changes by 0.1 %, or by 0.03 mm, in inches 0.07 mm, on a small arc.
     constexpr unsigned kIntervals = 8;
     return integral(kIntervals, speed);
 }
@@ -138,7 +143,8 @@ Result<Arc> make_arc(const ArcWords& words) noexcept
     const double y1 = millimetres(travel[axes.second] - words.second_offset_nm);
     const double radius = std::sqrt(x0 * x0 + y0 * y0);
     const double end_radius = std::sqrt(x1 * x1 + y1 * y1);
-    if (words.turns < 1 || radius <= 0 || end_radius <= 0 || !radii_agree(radius, end_radius)) {
+    if (words.turns < 1 || radius <= 0 || end_radius <= 0 ||
+        !radii_agree(radius, end_radius, words.inches)) {
         return Error::kGcodeInvalidTarget;
     }
     const double turn = words.clockwise ? -1.0 : 1.0;
@@ -169,7 +175,7 @@ Result<ArcWords> with_radius(ArcWords words, std::int64_t radius_nm) noexcept
         return Error::kGcodeInvalidTarget;
     }
     const double radius = std::fabs(static_cast<double>(radius_nm));
-    constexpr double kFreeNm = kFreeRadiusDifference * kNanometresPerMillimetre;
+    constexpr double kFreeNm = kChordTolerance * kNanometresPerMillimetre;
     if (radius + kFreeNm < 0.5 * chord) {
         return Error::kGcodeArcRadiusError;
     }

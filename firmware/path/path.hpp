@@ -64,14 +64,17 @@ struct ArcWords {
     std::int64_t first_offset_nm;   // start to centre along the plane's first axis (I, K, J)
     std::int64_t second_offset_nm;  // along its second (J, I, K)
     std::int32_t turns;  // P word: 1 for the plain arc; a full circle where start and end agree
+    bool inches{false};  // the program's unit: it chooses the tolerance of the radii
 };
 
 // Makes an arc of centre offsets.
 //
 // Errors:
-//   kGcodeInvalidTarget  the radii at start and end differ by more than 0.005 mm and 0.1 %, or by
-//                        more than 0.5 mm, or one of them is 0. Within that the radius goes
-//                        linearly in angle from one to the other.
+//   kGcodeInvalidTarget  the radii at start and end differ by more than the tolerance and 0.1 % of the
+//                        greater, or by more than 100 tolerances, or one of them is 0. Within that
+//                        the radius goes linearly in angle from one to the other. The tolerance is
+//                        0.0283 mm, with `inches` 0.00283 inch: two ends, each off by as much in x
+//                        and y as a last digit of 2 decimals, in inches 3, may be (LinuxCNC).
 Result<Arc> make_arc(const ArcWords& words) noexcept;
 
 // The centre offsets of a radius word: fills the offsets of `words`.

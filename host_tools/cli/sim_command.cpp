@@ -109,6 +109,10 @@ void print_result(const SimulationResult& result, const MachineLimits& limits)
         fmt::print("; {} change{} of tool\n", result.tool_changes,
                    result.tool_changes == 1 ? "" : "s");
     }
+    if (result.rotary_line > 0) {
+        fmt::print("ignored    A, B and C words, from line {} on: they turn nothing\n",
+                   result.rotary_line);
+    }
     for (const std::uint64_t line : result.pause_lines) {
         fmt::print("pause      line {}: resumed at once\n", line);
     }

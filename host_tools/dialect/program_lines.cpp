@@ -20,7 +20,25 @@ bool is_control(char character)
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
+// The place after a point and the digits behind it; `place` where there is no point.
+std::size_t after_decimals(std::string_view line, std::size_t place)
+{
+    if (place >= line.size() || line[place] != '.') {
+        return place;
+    }
+    do {
+        ++place;
+    } while (place < line.size() && is_digit(line[place]));
+    return place;
+}
+
 }  // namespace
+
+std::string_view without_byte_order_mark(std::string_view line)
+{
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    return line.substr(0, kMark.size()) == kMark ? line.substr(kMark.size()) : line;
+}
 
 std::string numbered_line(std::string_view line, std::uint64_t number)
 {
@@ -38,11 +56,15 @@ std::string numbered_line(std::string_view line, std::uint64_t number)
         while (i + 1 + digits < line.size() && is_digit(line[i + 1 + digits])) {
             ++digits;
         }
-        const std::size_t end = i + 1 + digits;
-        if (digits == 0 || digits > kMostDigits || (end < line.size() && line[end] == '.')) {
+        const std::size_t whole_end = i + 1 + digits;
+        if (digits == 0 || digits > kMostDigits) {
             return as_it_is;
         }
-        i += digits;
+        const std::size_t end = after_decimals(line, whole_end);
+        if (end < line.size() && line[end] == '.') {
+            return as_it_is;
+        }
+        i = end - 1;
     }
     std::string numbered = "N" + std::to_string(number) + words;
     return numbered.size() <= kLongestSent ? numbered : as_it_is;
@@ -50,6 +72,7 @@ std::string numbered_line(std::string_view line, std::uint64_t number)
 
 std::string bare_line(std::string_view line)
 {
+    line = without_byte_order_mark(line);
     const std::size_t first = line.find_first_not_of(" \t");
     if (first != std::string_view::npos && line[first] == '$') {
         std::string command{line.substr(first)};
@@ -103,6 +126,7 @@ bool EndLine::at(std::string_view line)
     const auto blank = [](char c) {
         return c == ' ' || is_control(c);
     };
+    line = without_byte_order_mark(line);
     const auto* const first = std::find_if_not(line.begin(), line.end(), blank);
     if (first == line.end()) {
         return false;

@@ -10,8 +10,11 @@
 
 namespace cusp::dialect {
 
-// The line without comments, blanks, control characters and tape markers (%); $ commands keep their
-// blanks.
+// The line without the mark that some editors put before a UTF-8 text.
+std::string_view without_byte_order_mark(std::string_view line);
+
+// The line without comments, blanks, control characters, byte order mark and tape markers (%); $
+// commands keep their blanks.
 std::string bare_line(std::string_view line);
 
 // The first byte that a controller takes out of a line at once: ?, ! and ~ ask, hold and resume, and

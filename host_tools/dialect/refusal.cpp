@@ -10,6 +10,7 @@
 #include "firmware/gcode/command.hpp"
 #include "firmware/gcode/interpreter.hpp"
 #include "host_tools/dialect/answer.hpp"
+#include "host_tools/dialect/program_lines.hpp"
 
 namespace cusp::dialect {
 namespace {
@@ -28,7 +29,7 @@ std::vector<std::size_t> word_places(std::string_view line)
 {
     std::vector<std::size_t> places;
     bool in_number = false;
-    std::size_t place = 0;
+    std::size_t place = line.size() - without_byte_order_mark(line).size();
     for (; place < line.size() && line[place] != ';'; ++place) {
         const char c = line[place];
         if (c == '(') {
@@ -105,20 +106,70 @@ bool may_be_unused(int code, char letter)
     return code == kUnsupported ? letter == 'L' || letter == 'R' : letter != 'G' && letter != 'M';
 }
 
-// The word without which the error changes; empty where there is none.
+// The word without which the line is right, or else the error is another one; empty where there is none.
 WordPlace word_to_blame(int code, std::string_view line, const std::vector<std::size_t>& places)
 {
     if (error_of(line) != code) {
         return {};
     }
-    for (std::size_t word = 0; word + 1 < places.size(); ++word) {
+    WordPlace found{};
+    for (std::size_t word = places.size() - 1; word-- > 0;) {
         std::string without{line.substr(0, places[word])};
         without += line.substr(places[word + 1]);
-        if (may_be_unused(code, capital(line[places[word]])) && error_of(without) != code) {
-            return word_at(line, places, word);
+        if (!may_be_unused(code, capital(line[places[word]]))) {
+            continue;
+        }
+        const int left = error_of(without);
+        // Without the R of G10 L2 words may be missing, but not because of it.
+        const bool turns = code == kUnsupported && capital(line[places[word]]) == 'R';
+        if (left != code) {
+            found = word_at(line, places, word);
+        }
+        if (left == 0 || (left != code && turns)) {
+            return found;
         }
     }
-    return {};
+    return found;
+}
+
+// The word of a rotary axis that moves it, as far as the line alone says: the first that is not 0.
+WordPlace rotary_word(std::string_view line, const std::vector<std::size_t>& places)
+{
+    WordPlace found{};
+    for (std::size_t word = 0; word + 1 < places.size(); ++word) {
+        const char letter = capital(line[places[word]]);
+        if (letter != 'A' && letter != 'B' && letter != 'C') {
+            continue;
+        }
+        const WordPlace place = word_at(line, places, word);
+        const std::string_view number = line.substr(place.begin + 1, place.end - place.begin - 1);
+        if (number.find_first_of("123456789") != std::string_view::npos) {
+            return place;
+        }
+        if (found.end == 0) {
+            found = place;
+        }
+    }
+    return found;
+}
+
+// A word up to the end of the parameter or expression that is its number, as in X#1 or X[#1 + 2].
+WordPlace with_expression(std::string_view line, WordPlace place)
+{
+    std::size_t end = line.find_first_not_of(" \t", place.end);
+    if (end == std::string_view::npos || (line[end] != '#' && line[end] != '[')) {
+        return place;
+    }
+    int depth = 0;
+    for (; end < line.size(); ++end) {
+        const char c = line[end];
+        const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+        if (depth == 0 && (letter || c == ';' || c == '(')) {
+            break;
+        }
+        depth += c == '[' || c == '<' ? 1 : c == ']' || c == '>' ? -1 : 0;
+    }
+    return {place.begin, place.begin + trimmed(line.substr(place.begin, end - place.begin)).size()};
 }
 
 struct Meaning {
@@ -128,6 +179,8 @@ struct Meaning {
 
 // Words of other dialects that occur in programs. A word precedes its letter alone.
 constexpr std::array kMeanings{
+    Meaning{"G5", "cubic splines: NURBS are G5.2 and G6.2"},
+    Meaning{"G5.1", "quadratic splines: NURBS are G5.2 and G6.2"},
     Meaning{"G7", "diameters are a lathe's"},
     Meaning{"G8", "radii are a lathe's"},
     Meaning{"G12", "circular pockets are Fanuc's and Mach3's"},
@@ -144,16 +197,11 @@ constexpr std::array kMeanings{
     Meaning{"G69", "rotation: let the CAM system turn the path"},
     Meaning{"G70", "inches are G20 here"},
     Meaning{"G71", "millimetres are G21 here"},
-    Meaning{"G73", "of the drilling cycles there are G81, G82 and G83"},
     Meaning{"G74", "tapping needs a spindle with an encoder"},
     Meaning{"G76", "threading needs a spindle with an encoder"},
     Meaning{"G84", "tapping needs a spindle with an encoder"},
-    Meaning{"G85", "of the drilling cycles there are G81, G82 and G83"},
-    Meaning{"G86", "of the drilling cycles there are G81, G82 and G83"},
-    Meaning{"G87", "of the drilling cycles there are G81, G82 and G83"},
-    Meaning{"G88", "of the drilling cycles there are G81, G82 and G83"},
-    Meaning{"G89", "of the drilling cycles there are G81, G82 and G83"},
-    Meaning{"G90.1", "arc centres are always from the start of the arc (G91.1)"},
+    Meaning{"G87", "back boring: the boring cycles are G85, G86 and G89"},
+    Meaning{"G88", "boring by hand: the boring cycles are G85, G86 and G89"},
     Meaning{"G92.3", "an offset that G92.2 has removed is not stored; write G92 again"},
     Meaning{"G95", "feed per revolution needs a spindle with an encoder; G94 is feed per minute"},
     Meaning{"G96", "constant surface speed is a lathe's; G97 is revolutions per minute"},
@@ -168,13 +216,14 @@ constexpr std::array kMeanings{
     Meaning{"M106", "fans are a 3-D printer's; M8 is coolant"},
     Meaning{"M107", "fans are a 3-D printer's; M9 ends coolant"},
     Meaning{"M109", "heating is a 3-D printer's"},
-    Meaning{"A", "there is no rotary axis: the axes are X, Y and Z"},
-    Meaning{"B", "there is no rotary axis: the axes are X, Y and Z"},
-    Meaning{"C", "there is no rotary axis: the axes are X, Y and Z"},
+    Meaning{"A", "there is no rotary axis: only words that turn none are ignored"},
+    Meaning{"B", "there is no rotary axis: only words that turn none are ignored"},
+    Meaning{"C", "there is no rotary axis: only words that turn none are ignored"},
     Meaning{"D", "cutter compensation: let the CAM system offset the path"},
     Meaning{"E", "E drives the extruder of a 3-D printer"},
     Meaning{"O",
             "O-words are LinuxCNC's subprograms and loops: let the CAM system write the moves out"},
+    Meaning{"R", "coordinate systems are not turned: of G10 L2 there is R0"},
     Meaning{"U", "there is no second axis along x: the axes are X, Y and Z"},
     Meaning{"V", "there is no second axis along y: the axes are X, Y and Z"},
     Meaning{"W", "there is no second axis along z: the axes are X, Y and Z"},
@@ -200,8 +249,12 @@ std::string meaning_of(std::string_view word)
         return "";
     }
     const std::string plain = plain_word(word);
+    // A parameter or an expression counts wherever it is.
+    const std::size_t expression = plain.find_first_of("#[");
+    const std::size_t first = expression == std::string::npos ? 0 : expression;
     for (const Meaning& meaning : kMeanings) {
-        if (plain == meaning.word || (meaning.word.size() == 1 && plain[0] == meaning.word[0])) {
+        if (plain == meaning.word ||
+            (meaning.word.size() == 1 && plain[first] == meaning.word[0])) {
             return ": " + std::string{meaning.text};
         }
     }
@@ -241,15 +294,17 @@ WordPlace refused_word(int code, std::string_view line)
         if (!status) {
             // An O word followed by another word is not a program number.
             const std::size_t wrong = std::min(program_number, word);
-            return static_cast<int>(status.error()) == code ? word_at(line, places, wrong)
-                                                            : WordPlace{};
+            return static_cast<int>(status.error()) == code
+                       ? with_expression(line, word_at(line, places, wrong))
+                       : WordPlace{};
         }
         if (capital(line[places[word]]) == 'O') {
             program_number = word;
         }
     }
     const bool by_value = code == kUnsupported || code == kUnusedWords;
-    return by_value ? word_to_blame(code, line, places) : WordPlace{};
+    const WordPlace blamed = by_value ? word_to_blame(code, line, places) : WordPlace{};
+    return blamed.end == 0 && code == kUnsupported ? rotary_word(line, places) : blamed;
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <set>
+#include <variant>
+
+#include "firmware/gcode/command.hpp"
 
 namespace cusp::dialect {
 namespace {
@@ -23,6 +26,8 @@ constexpr int kNoAxisWords = 26;
 constexpr int kLineNumber = 27;
 constexpr int kMissing = 28;
 constexpr int kNoSuchSystem = 29;
+constexpr int kNoAxisInPlane = 32;
+constexpr int kBadArc = 33;
 constexpr int kUnused = 36;
 constexpr int kTooLarge = 38;
 }  // namespace error
@@ -254,7 +259,7 @@ private:
 
     StockGrblRefusal whole_line() const
     {
-        if (n_ > kMostNumbered) {
+        if (std::floor(n_) > kMostNumbered) {
             return {error::kLineNumber, ""};
         }
         if (writes_data_) {
@@ -288,8 +293,70 @@ private:
     double other_{};
 };
 
+gcode::LetterSet axes_of(path::Plane plane)
+{
+    using gcode::letter;
+    switch (plane) {
+        case path::Plane::kZX:
+            return letter('Z') | letter('X');
+        case path::Plane::kYZ:
+            return letter('Y') | letter('Z');
+        case path::Plane::kXY:
+            break;
+    }
+    return letter('X') | letter('Y');
+}
+
+// Grbl's check of an arc by its centre, in mm whatever the program's unit.
+bool radii_agree(const path::Arc& arc)
+{
+    constexpr double kFree = 0.005;
+    constexpr double kMost = 0.5;
+    constexpr double kShare = 0.001;
+    const double difference = std::fabs(arc.radius_change);
+    return difference <= kFree || (difference <= kMost && difference <= kShare * arc.radius);
+}
+
+int error_of_arc(std::string_view line, const gcode::Interpreter& before)
+{
+    gcode::Command command;
+    const bool read = static_cast<bool>(gcode::read_command(line, before.modal(), command));
+    const bool other =
+        command.axis_use != gcode::AxisUse::kNone && command.axis_use != gcode::AxisUse::kMotion;
+    if (!read || other || !gcode::is_arc(command.modal.motion)) {
+        return 0;
+    }
+    if (command.axes() == 0) {
+        constexpr gcode::LetterSet kCentre =
+            gcode::letter('I') | gcode::letter('J') | gcode::letter('K') | gcode::letter('R');
+        return command.names(gcode::Group::kMotion) ? error::kNoAxisWords
+               : (command.words & kCentre) != 0     ? error::kUnused
+                                                    : 0;
+    }
+    if ((command.axes() & axes_of(command.modal.plane)) == 0) {
+        return error::kNoAxisInPlane;
+    }
+    gcode::Interpreter copy = before;
+    gcode::Action action;
+    bool agree = true;
+    if (copy.execute(line, 0)) {
+        while (copy.next(action)) {
+            const auto* move = std::get_if<path::Move>(&action);
+            const auto* arc = move != nullptr ? std::get_if<path::Arc>(&move->path) : nullptr;
+            agree = agree && (arc == nullptr || command.has('R') || radii_agree(*arc));
+        }
+    }
+    return agree ? 0 : error::kBadArc;
+}
+
 }  // namespace
 
 StockGrblRefusal stock_grbl_refusal(std::string_view line) { return GrblLine{}.read(stored(line)); }
+
+StockGrblRefusal stock_grbl_refusal(std::string_view line, const gcode::Interpreter& before)
+{
+    const StockGrblRefusal of_words = stock_grbl_refusal(line);
+    return of_words.code != 0 ? of_words : StockGrblRefusal{error_of_arc(line, before), ""};
+}
 
 }  // namespace cusp::dialect

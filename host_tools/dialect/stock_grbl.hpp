@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "firmware/gcode/interpreter.hpp"
+
 namespace cusp::dialect {
 
 struct StockGrblRefusal {
@@ -19,9 +21,14 @@ struct StockGrblRefusal {
 
 // Whether Grbl's reader refuses the line for its words: letters, numbers, groups, repeated and
 // unused words, its own limits. What depends on the state of the machine, such as a feed that is
-// not set or an arc that does not close, is refused with the same numbers by our own interpreter.
+// not set, is refused with the same numbers by our own interpreter.
 //
 //   line  as the program has it
 StockGrblRefusal stock_grbl_refusal(std::string_view line);
+
+// The same with arcs, for which Grbl wants axis words and radii that agree more closely than ours.
+//
+//   before  state and position before the line, which has fetched all of its actions
+StockGrblRefusal stock_grbl_refusal(std::string_view line, const gcode::Interpreter& before);
 
 }  // namespace cusp::dialect

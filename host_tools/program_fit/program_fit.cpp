@@ -190,7 +190,9 @@ void Fitter::read(std::string_view text)
 bool Fitter::try_plain(const PlainLine& line, Position before, const ModalState& modal_before)
 {
     const ModalState& modal = interpreter_.modal();
-    if (modal.motion != Motion::kLine || modal.inverse_time || actions_.size() > 1) {
+    // Fitted arcs have their centres by offsets: with G90.1 lines stay lines.
+    if (modal.motion != Motion::kLine || modal.inverse_time || modal.absolute_centres ||
+        actions_.size() > 1) {
         return false;
     }
     const auto* move = actions_.empty() ? nullptr : std::get_if<path::Move>(&actions_[0]);

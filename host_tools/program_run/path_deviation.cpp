@@ -167,11 +167,42 @@ void PathDeviation::add_move(const path::Move& move)
     if (length <= 0.0) {
         return;
     }
+    const auto* arc = std::get_if<path::Arc>(&move.path);
+    if (arc != nullptr && arc->sweep > 2.0 * kPi) {
+        add_turns(move, *arc);
+    } else {
+        add_stretch(move, length);
+    }
+    greatest_tolerance_ = std::max(greatest_tolerance_, static_cast<double>(move.tolerance));
+}
+
+void PathDeviation::add_stretch(const path::Move& move, double length)
+{
     const Vec3d chord = to_millimetres(move.end - move.start);
     const bool straight = std::holds_alternative<path::Line>(move.path);
     stretches_.push_back({move, end_, end_ + length, straight, chord, dot(chord, chord)});
     end_ += length;
-    greatest_tolerance_ = std::max(greatest_tolerance_, static_cast<double>(move.tolerance));
+}
+
+// The turns of a flat arc lie on each other: half turns tell by the length travelled which one it is.
+void PathDeviation::add_turns(const path::Move& move, const path::Arc& arc)
+{
+    const auto parts = static_cast<int>(std::ceil(arc.sweep / kPi));
+    for (int i = 0; i < parts; ++i) {
+        const double begin = static_cast<double>(i) / parts;
+        const double turned = begin * arc.sweep;
+        path::Arc part = arc;
+        part.centre = arc.centre + arc.axial * begin;
+        part.u = arc.u * std::cos(turned) + arc.v * std::sin(turned);
+        part.v = arc.v * std::cos(turned) - arc.u * std::sin(turned);
+        part.axial = arc.axial / parts;
+        part.radius = arc.radius + begin * arc.radius_change;
+        part.radius_change = arc.radius_change / parts;
+        part.sweep = arc.sweep / parts;
+        path::Move half = move;
+        half.path = part;
+        add_stretch(half, path::length(half));
+    }
 }
 
 void PathDeviation::restart()

@@ -48,6 +48,8 @@ private:
         Vec3d chord;
         double chord_square;
     };
+    void add_stretch(const path::Move& move, double length);
+    void add_turns(const path::Move& move, const path::Arc& arc);
     static PathPlace nearest_on(const Stretch& stretch, Position point);
     double reach(Position set_point) const;
     void find_first_near(double place);

@@ -220,6 +220,9 @@ private:
             const std::string numbered = dialect::numbered_line(words, source_.line_number());
             effects_ = instruments_->read(numbered, source_.line_number());
             no_more_lines_ = effects_.ends_program;
+            if (effects_.ignores_rotary) {
+                result_.rotary_line = source_.line_number();
+            }
             if (effects_.pauses) {
                 note_pause();
             }
@@ -243,7 +246,8 @@ private:
 
     bool refused_by_stock_grbl(const std::string& line)
     {
-        const dialect::StockGrblRefusal found = dialect::stock_grbl_refusal(line);
+        const dialect::StockGrblRefusal found =
+            dialect::stock_grbl_refusal(line, instruments_->shadow().interpreter());
         if (found.code == 0) {
             return false;
         }

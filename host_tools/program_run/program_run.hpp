@@ -102,6 +102,7 @@ struct RunResult {
     std::uint64_t pauses{0};
     std::vector<ToolTime> tools;  // in the order of their first use
     std::uint64_t tool_changes{0};
+    std::uint64_t rotary_line{0};  // the first with A, B or C words, which are ignored; 0: none
     std::uint32_t edges_crc32{0};  // see EdgeChecksum; 0 where edges are not summed
     bool stopped{false};
 

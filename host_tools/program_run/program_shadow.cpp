@@ -40,6 +40,8 @@ void ProgramShadow::take(const gcode::Action& action, LineEffects& effects)
         pass(&probe->move);
         effects.moves_by_itself = true;
     }
+    effects.ignores_rotary =
+        effects.ignores_rotary || std::holds_alternative<gcode::RotaryIgnored>(action);
     effects.ends_program =
         effects.ends_program || std::holds_alternative<gcode::ProgramEnd>(action);
     effects.changes_tool =

@@ -22,8 +22,9 @@ struct ProgramMoveCounts {
 // Effects of a line other than moves.
 struct LineEffects {
     bool ends_program{false};
-    bool pauses{false};        // M0, M1, M6
-    bool changes_tool{false};  // M6
+    bool pauses{false};          // M0, M1, M6
+    bool changes_tool{false};    // M6
+    bool ignores_rotary{false};  // A, B and C words that stand still, for the first time
     // The end position is known only after the controller's answer: a probe, a $ command.
     bool moves_by_itself{false};
 };
@@ -61,6 +62,8 @@ public:
 
     // Inside a NURBS block.
     bool in_nurbs() const;
+
+    const gcode::Interpreter& interpreter() const { return interpreter_; }
 
     const ProgramMoveCounts& moves() const { return moves_; }
 

@@ -49,7 +49,7 @@ bool can_begin(const Before& before, std::string_view words)
 {
     const ModalState& modal = before.modal;
     const bool plain = !modal.incremental && !modal.inverse_time && !modal.return_to_clearance &&
-                       !before.has_offset;
+                       !modal.absolute_centres && !before.has_offset;
     const bool keeps_motion = modal.motion == Motion::kRapid || modal.motion == Motion::kLine;
     const bool in_curve = modal.motion == Motion::kUniformNurbs || modal.motion == Motion::kNurbs;
     return plain && !in_curve && (keeps_motion || has_motion_word(words));

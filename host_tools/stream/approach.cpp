@@ -83,6 +83,9 @@ void restore_modal(const ModalState& modal, std::vector<std::string>& lines)
     if (modal.return_to_clearance) {
         lines.push_back("G99");
     }
+    if (modal.absolute_centres) {
+        lines.push_back("G90.1");
+    }
     lines.push_back(modal.inverse_time ? "G93" : "G94");
     lines.push_back(modal.incremental ? "G91" : "G90");
     lines.push_back(modal.inches ? "G20" : "G21");

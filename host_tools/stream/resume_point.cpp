@@ -20,12 +20,6 @@ namespace {
 
 using gcode::Motion;
 
-bool is_drilling(Motion motion)
-{
-    return motion == Motion::kDrill || motion == Motion::kDrillWithDwell ||
-           motion == Motion::kDrillPecking;
-}
-
 bool is_curve(Motion motion) { return motion == Motion::kUniformNurbs || motion == Motion::kNurbs; }
 
 // Whether a line can be the first after this state.
@@ -39,8 +33,8 @@ bool can_be_first(const gcode::ModalState& before, const std::string& text)
     const bool plain = before.motion == Motion::kRapid || before.motion == Motion::kLine ||
                        before.motion == Motion::kNone;
     const bool names_motion = command.names(gcode::Group::kMotion);
-    return plain ||
-           (names_motion && !(is_drilling(before.motion) && is_drilling(command.modal.motion)));
+    return plain || (names_motion &&
+                     !(gcode::is_cycle(before.motion) && gcode::is_cycle(command.modal.motion)));
 }
 
 class Reading {

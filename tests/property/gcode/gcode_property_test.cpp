@@ -19,14 +19,15 @@ public:
     std::string next()
     {
         const std::vector<const char*> starts = {
-            "G0",  "G1",    "G2",   "G3",   "G91",  "G90", "G20", "G21",   "G17",
-            "G18", "G19",   "G5.2", "G5.3", "G6.2", "G81", "G82", "G83",   "G80",
-            "G10", "G92",   "G28",  "G93",  "G94",  "G64", "G61", "G38.3", "G53",
-            "G55", "G43.1", "G49",  "M3",   "M30",  "G99", "G4",  ""};
+            "G0",  "G1",    "G2",   "G3",    "G91",   "G90", "G20",   "G21",     "G17",
+            "G18", "G19",   "G5.2", "G5.3",  "G6.2",  "G81", "G82",   "G83",     "G80",
+            "G10", "G92",   "G28",  "G93",   "G94",   "G64", "G61",   "G38.3",   "G53",
+            "G55", "G43.1", "G49",  "M3",    "M30",   "G99", "G4",    "G73",     "G85",
+            "G86", "G89",   "G52",  "G90.1", "G91.1", "G43", "G80G0", "M3S9G86", ""};
         std::string line = starts[random_() % starts.size()];
         const unsigned words = static_cast<unsigned>(random_() % 5);
         for (unsigned i = 0; i < words; ++i) {
-            const std::string letters = "XYZXYZXYZFFIJKRPQLNST";
+            const std::string letters = "XYZXYZXYZXYZFFIJKRPQLNSTAB";
             line += letters[random_() % letters.size()];
             line += number();
         }

@@ -17,12 +17,17 @@ TEST(ProgramLines, HaveNoCommentsAndBlanks)
     STRCMP_EQUAL("$J=G91 X1 F100", bare_line("$J=G91 X1 F100").c_str());
     STRCMP_EQUAL("", bare_line("%").c_str());
     STRCMP_EQUAL("", bare_line("(only)").c_str());
+    STRCMP_EQUAL("", bare_line("\xEF\xBB\xBF%").c_str());
+    STRCMP_EQUAL("", bare_line("\xEF\xBB\xBF").c_str());
+    STRCMP_EQUAL("G21", bare_line("\xEF\xBB\xBFG21").c_str());
 }
 
 TEST(ProgramLines, CarryTheNumberOfTheFilesLine)
 {
     STRCMP_EQUAL("N7G1X1", numbered_line("G1X1", 7).c_str());
     STRCMP_EQUAL("N7G1X1", numbered_line("N120G1X1", 7).c_str());
+    STRCMP_EQUAL("N7G1X1.5", numbered_line("N10.5G1X1.5", 7).c_str());
+    STRCMP_EQUAL("N7G1", numbered_line("N10.G1", 7).c_str());
     STRCMP_EQUAL("$H", numbered_line("$H", 7).c_str());
 }
 
@@ -31,7 +36,7 @@ TEST(ProgramLines, LeaveBadLineNumbersToTheController)
     STRCMP_EQUAL("NG1X1", numbered_line("NG1X1", 7).c_str());
     STRCMP_EQUAL("N12345678G1", numbered_line("N12345678G1", 7).c_str());
     STRCMP_EQUAL("N-1G1", numbered_line("N-1G1", 7).c_str());
-    STRCMP_EQUAL("N1.5G1", numbered_line("N1.5G1", 7).c_str());
+    STRCMP_EQUAL("N1.5.2G1", numbered_line("N1.5.2G1", 7).c_str());
 }
 
 TEST(ProgramLines, AreNeverMadeTooLong)

@@ -45,6 +45,24 @@ TEST(Refusals, NamesAWordThatNothingUses)
 {
     check_word("P5", 36, "G1 X1 P5");
     check_word("L3", 20, "G10 L3 P1 X0");
+    check_word("R5", 20, "G10 L2 P1 X0 R5");
+    check_word("A5", 20, "G1 X2 A5");
+    check_word("B6.5", 20, "G0 X2 A0 B6.5 F100");
+}
+
+TEST(Refusals, NamesTheParameterOrExpressionInPlaceOfANumber)
+{
+    check_word("X#1", 2, "G1 X#1 Y2");
+    check_word("X [#1 + 2]", 2, "G1 X [#1 + 2] F5");
+    check_word("Z#<depth>", 2, "G0 Z#<depth>(deep)");
+    STRCMP_CONTAINS("parameters are LinuxCNC", refusal(2, "G0 X1 Y#1").text.c_str());
+    STRCMP_CONTAINS("expressions are LinuxCNC", refusal(2, "G0 X[1+2]").text.c_str());
+    STRCMP_CONTAINS("O100 in", refusal(20, "O100 sub").text.c_str());
+    STRCMP_CONTAINS("tapping", refusal(20, "G84 X1 Z-1 R1").text.c_str());
+    STRCMP_CONTAINS("cubic splines", refusal(20, "G5 X1 I1 J1 P1 Q1").text.c_str());
+    STRCMP_CONTAINS("quadratic splines", refusal(20, "G5.1 X1 I1 J1").text.c_str());
+    STRCMP_CONTAINS("not turned", refusal(20, "G10 L2 P1 R30").text.c_str());
+    check_word("G33", 20, "\xEF\xBB\xBFG33 Z1 K1");
 }
 
 TEST(Refusals, NamesNoWordWhereNoneIsAtFault)

@@ -123,3 +123,31 @@ TEST(StockGrbl, TakesLinesOf79CharactersWithoutBlanksAndComments)
     CHECK_EQUAL(0, error_of(line + " (comment)"));
     CHECK_EQUAL(11, error_of(line + "0"));
 }
+
+TEST(StockGrbl, WantsAxisWordsAndCloserRadiiOfArcs)
+{
+    cusp::gcode::Interpreter before;
+    const auto run = [&before](const char* line) {
+        CHECK_TEXT(static_cast<bool>(before.execute(line, 0)), line);
+        before.discard();
+    };
+    const auto code = [&before](const char* line) {
+        return stock_grbl_refusal(line, before).code;
+    };
+    run("G21 G90 G1 F100");
+    CHECK_EQUAL(26, code("G2 I5"));
+    CHECK_EQUAL(32, code("G2 I5 Z-1"));
+    CHECK_EQUAL(0, code("G18 G2 K5 Z0"));
+    CHECK_EQUAL(0, code("G2 X10 I5 K0"));
+    CHECK_EQUAL(0, code("G2 X10 I5 K7"));
+    CHECK_EQUAL(33, code("G2 X10.02 I5"));
+    CHECK_EQUAL(0, code("G2 X10.004 I5"));
+    CHECK_EQUAL(20, code("G90.1 G2 X10 I5 J0"));
+    CHECK_EQUAL(0, code("N10.5 G2 X10 I5"));
+    CHECK_EQUAL(21, code("G0 G80 X1"));
+    run("G2 X10 I5");
+    CHECK_EQUAL(36, code("I5"));
+    CHECK_EQUAL(0, code("X10 I5"));
+    run("G20");
+    CHECK_EQUAL(33, code("G2 X0.9957 I0.30"));
+}

@@ -5,6 +5,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
 #include "tests/unit/gcode/gcode_runner.hpp"
 
 using namespace cusp;
@@ -269,7 +270,7 @@ TEST(Interpreter, RefusesBadWords)
     refuse(20, "G5.1 X1");
     refuse(20, "G41");
     refuse(20, "M50");
-    refuse(20, "A1");
+    refuse(20, "E1");
     refuse(20, "X1E3");
     refuse(20, "G38.9 X1");
     refuse(20, "G61.2");
@@ -280,7 +281,7 @@ TEST(Interpreter, RefusesBadWords)
     refuse(20, ":");
     refuse(20, "G96 S100");
     refuse(20, "G92.3");
-    refuse(20, "G90.1");
+    refuse(20, "G90.2");
     refuse(23, "G1.5 X1");
     refuse(23, "M3.5");
     refuse(24, "G0 G1 X1");
@@ -299,15 +300,17 @@ TEST(Interpreter, RefusesWhatMotionCannotDo)
 {
     refuse(22, "G1 X1");
     run("F100");
-    refuse(26, "G2 I1");
-    refuse(32, "G2 Z1 I1");
+    refuse(26, "G2");
+    refuse(26, "G2 R1");
+    refuse(26, "G2 K1");
+    refuse(32, "G2 Z1 K1");
     refuse(35, "G2 X1");
     refuse(33, "G2 X10 Y3 I1");
     refuse(33, "G2 X0 Y0 R1");
     refuse(34, "G2 X10 R1");
     refuse(33, "G2 X2 I1 P0");
     refuse(33, "G2 X2 I1 P1.5");
-    refuse(36, "G2 X2 I1 K1");
+    refuse(36, "G2 X2 R1 K1");
     refuse(36, "G2 X2 R1 I1");
     refuse(36, "G0 X1 I1");
     refuse(36, "G1 P5");
@@ -331,7 +334,7 @@ TEST(Interpreter, RefusesBadOffsets)
     refuse(28, "G4");
     refuse(37, "G43.1 X1");
     refuse(37, "G43.1 X1 Z1");
-    refuse(28, "G43");
+    refuse(4, "G43 H-1");
     refuse(24, "G4 P1 G64");
     run("G43 H1");
     LONGS_EQUAL(0, runner.interpreter.parameters().tool_length_offset_nm);
@@ -342,4 +345,111 @@ TEST(Interpreter, RefusesAWholeLineForOneBadWord)
     refuse(36, "G20 G91 M3 S500 F30 G1 X5 K2");
     refuse(38, "G92 X1 T300");
     LONGS_EQUAL(0, runner.interpreter.parameters().coordinate_offset.x);
+}
+
+TEST(Interpreter, IgnoresRotaryWordsThatStandStill)
+{
+    run("G0 A90 B0");
+    CHECK(std::holds_alternative<RotaryIgnored>(runner.actions.back()));
+    run("G1 X1 A90.0 F100");
+    run("G91 X1 A0 B-0");
+    at(2, 0, 0);
+    LONGS_EQUAL(3, runner.actions.size());
+    refuse(20, "G91 A1");
+    refuse(20, "G90 A0");
+    // A feed move has been made with C where it was: at 0.
+    refuse(20, "G90 X3 C5");
+    run("C0 G90 X3");
+    refuse(20, "G10 L2 P1 A90");
+    run("G10 L2 P1 A0");
+    at(3, 0, 0);
+    // G28 A0 moves none of the axes that there are.
+    run("G28 A90");
+    at(3, 0, 0);
+    run("M2");
+    run("A45");
+    LONGS_EQUAL(20, runner.jog("X1 F100 A45"));
+}
+
+TEST(Interpreter, TakesTheLengthOfTheToolInTheSpindle)
+{
+    run("G10 L1 P1 Z10");
+    run("G10 L1 P2 Z20");
+    run("G43");
+    LONGS_EQUAL(0, runner.interpreter.parameters().tool_length_offset_nm);
+    run("T1 M6 G43");
+    LONGS_EQUAL(to_nanometres(10), runner.interpreter.parameters().tool_length_offset_nm);
+    // T alone changes nothing; a reset changes no tool.
+    run("T2 G43");
+    LONGS_EQUAL(to_nanometres(10), runner.interpreter.parameters().tool_length_offset_nm);
+    run("M6");
+    run("G43");
+    LONGS_EQUAL(to_nanometres(20), runner.interpreter.parameters().tool_length_offset_nm);
+    runner.interpreter.reset();
+    run("G43");
+    LONGS_EQUAL(to_nanometres(20), runner.interpreter.parameters().tool_length_offset_nm);
+    run("T3 M6");
+    refuse(38, "G43");
+}
+
+TEST(Interpreter, TakesAByteOrderMarkForABlank)
+{
+    run("\xEF\xBB\xBF%");
+    run("\xEF\xBB\xBFG0 X1");
+    at(1, 0, 0);
+    refuse(1, "G0 \xEF\xBB\xBFX1");
+}
+
+TEST(Interpreter, TurnsCirclesWithoutAxisWordsInEveryPlane)
+{
+    run("G1 F100");
+    for (const char* line : {"G17 G2 I5", "J3", "G18 K2", "I1 P2", "G19 G3 J4", "K-1"}) {
+        run(line);
+        const auto& move = runner.last_move();
+        CHECK(move.start == move.end);
+        const double turns = line[0] == 'I' && line[1] == '1' ? 2 : 1;
+        DOUBLES_EQUAL(turns * 2 * kPi, std::get<path::Arc>(move.path).sweep, 1e-12);
+    }
+    run("G17 G2 I5 Z-1");
+    at(0, 0, -1);
+    DOUBLES_EQUAL(2 * kPi, std::get<path::Arc>(runner.last_move().path).sweep, 1e-12);
+    refuse(32, "G2 Z1 R5");
+    refuse(26, "G2 K1");
+}
+
+TEST(Interpreter, PutsCentresWhereTheyAreSaidToBe)
+{
+    run("G54 G10 L2 P1 X100 Y50 Z-7");
+    run("G0 X5 Y5 Z0");
+    run("G90.1 G2 X15 Y5 I10 J5 F100");
+    DOUBLES_EQUAL(5, std::get<path::Arc>(runner.last_move().path).radius, 1e-9);
+    at(115, 55, -7);
+    // Coordinates also in G91.
+    run("G91 X-10 I10 J5");
+    at(105, 55, -7);
+    run("G90 G18 G2 Z4 X5 K2 I5");
+    DOUBLES_EQUAL(2, std::get<path::Arc>(runner.last_move().path).radius, 1e-9);
+    refuse(35, "X6 K1");
+    run("M2");
+    run("G0 X0 Y0");
+    run("G2 X10 I5");
+    DOUBLES_EQUAL(5, std::get<path::Arc>(runner.last_move().path).radius, 1e-9);
+}
+
+TEST(Interpreter, IgnoresG80BesideAMotion)
+{
+    run("G80 G0 X1");
+    run("X2");
+    run("G1 G80 X3 F100");
+    run("G80 G81 X4 Z-1 R1");
+    run("X5");
+    refuse(31, "G80 X5");
+    refuse(21, "G80 G5.3");
+}
+
+TEST(Interpreter, NumbersLinesByTheWholePartOfN)
+{
+    run("N10.75 G0 X1");
+    LONGS_EQUAL(10, runner.last_move().line);
+    refuse(27, "N10000001.5 X2");
 }

@@ -76,15 +76,25 @@ TEST(Arc, AddsWholeTurns)
 TEST(Arc, RefusesRadiiThatDiffer)
 {
     ArcWords words = quarter(Plane::kXY, false);
-    words.end.y = 10 * kMm + 4900;
-    CHECK(static_cast<bool>(make_arc(words)));
-    words.end.y = 10 * kMm + 10001;
-    CHECK(Error::kGcodeInvalidTarget == make_arc(words).error());
-    // 0.1 % of 1000 mm is 1 mm, but 0.5 mm is the most.
-    words = {{1000 * kMm, 0, 0}, {0, 1000 * kMm + 400000, 0}, Plane::kXY, false, -1000 * kMm, 0, 1};
-    CHECK(static_cast<bool>(make_arc(words)));
-    words.end.y = 1000 * kMm + 600000;
-    CHECK(Error::kGcodeInvalidTarget == make_arc(words).error());
+    const auto refused = [&words](std::int64_t by) {
+        ArcWords off = words;
+        off.end.y += by;
+        const Result<Arc> arc = make_arc(off);
+        return !arc && arc.error() == Error::kGcodeInvalidTarget;
+    };
+    // The limits of LinuxCNC's rs274, found by halving.
+    CHECK(!refused(28280) && !refused(-28280));
+    CHECK(refused(28290) && refused(-28290));
+    words.inches = true;
+    CHECK(!refused(71840) && !refused(-71840));
+    CHECK(refused(71850) && refused(-71850));
+    // 0.1 % of the greater radius, and 100 times as much as on a small one.
+    words = {{1000 * kMm, 0, 0}, {0, 1000 * kMm, 0}, Plane::kXY, false, -1000 * kMm, 0, 1};
+    CHECK(!refused(1'000'500) && !refused(-999'900));
+    CHECK(refused(1'001'500) && refused(-1'000'500));
+    words = {{5000 * kMm, 0, 0}, {0, 5000 * kMm, 0}, Plane::kXY, false, -5000 * kMm, 0, 1};
+    CHECK(!refused(2'828'000) && !refused(-2'828'000));
+    CHECK(refused(2'829'000) && refused(-2'829'000));
 }
 
 TEST(Arc, OfARadiusPassesThroughItsEndAndTurnsTheRightWay)

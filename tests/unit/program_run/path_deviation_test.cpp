@@ -7,6 +7,8 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
+
 namespace {
 
 using namespace cusp;
@@ -117,6 +119,36 @@ TEST(PathDeviation, FollowsThePathAndNotItsNeighbourhood)
     walk({5'000'000, 5'000'000, 0}, {5'000'000, 0, 0});
     DOUBLES_EQUAL(5.0, deviation.greatest(), 1e-9);
     LONGS_EQUAL(3, deviation.line());
+}
+
+TEST(PathDeviation, KnowsWhichTurnOfAFlatArcTheToolIsIn)
+{
+    // Turns lie on each other: by place alone the line after them would be far away.
+    path::ArcWords words{};
+    words.start = {42'000'000, 30'000'000, 0};
+    words.end = words.start;
+    words.clockwise = true;
+    words.second_offset_nm = 8'000'000;
+    for (std::int32_t turns = 1; turns <= 4; ++turns) {
+        words.turns = turns;
+        program_run::PathDeviation deviation;
+        path::Move circles;
+        circles.path = *path::make_arc(words);
+        circles.start = words.start;
+        circles.end = words.end;
+        deviation.add_move(circles);
+        deviation.add_move(line(words.end, {0, 0, 0}, 2));
+        constexpr int kSteps = 400;
+        for (int i = 0; i <= turns * kSteps; ++i) {
+            const double angle = 2 * kPi * i / kSteps;
+            deviation.add_set_point(
+                words.start + to_position({-8 * std::sin(angle), 8 - 8 * std::cos(angle), 0}));
+        }
+        for (int i = 0; i <= kSteps; ++i) {
+            deviation.add_set_point({42'000'000 - 105'000 * i, 30'000'000 - 75'000 * i, 0});
+        }
+        DOUBLES_EQUAL(0.0, deviation.greatest(), 1e-6);
+    }
 }
 
 TEST(PathDeviation, FollowsThereAndBackAgainOnTheSameLine)

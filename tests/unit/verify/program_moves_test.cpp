@@ -57,6 +57,23 @@ TEST(ProgramMoves, SampleArcsOnTheCircle)
     DOUBLES_EQUAL(10, last.y, 1e-9);
 }
 
+TEST(ProgramMoves, FollowEveryCycle)
+{
+    for (const char* cycle : {"G81", "G82 P0", "G83 Q2", "G73 Q2", "G85", "G86 P0", "G89 P0"}) {
+        const Program program = read(std::string{"G0 X0 Y0 Z10\nM3 S1000\nG99 F100\n"} + cycle +
+                                     " X5 Z-3 R1\nX6\nG98 Y7\nG80\nM30\n");
+        double deepest = 0;
+        for (const ProgramMove& move : program.moves) {
+            deepest = std::min(deepest, to_millimetres(move.move.end).z);
+        }
+        DOUBLES_EQUAL_TEXT(-3, deepest, 1e-9, cycle);
+        const Vec3d end = to_millimetres(program.moves.back().move.end);
+        DOUBLES_EQUAL_TEXT(6, end.x, 1e-9, cycle);
+        DOUBLES_EQUAL_TEXT(7, end.y, 1e-9, cycle);
+        DOUBLES_EQUAL_TEXT(10, end.z, 1e-9, cycle);
+    }
+}
+
 TEST(ProgramMoves, NameTheLineThatCannotBeUsed)
 {
     const std::string text = refused("G0 X1\nG1 X2 F100\nM99\n");
