@@ -146,7 +146,8 @@ class Program:
         top, bottom = self.length(2.0), self.length(-1.0)
         hole = self.target({0: self.length(self.chance.uniform(-5, 5)),
                             1: self.length(self.chance.uniform(-5, 5))})
-        cycle = self.chance.choice(("G81", "G82 P0.01", f"G83 Q{self.number(self.length(0.7))}"))
+        peck = f"Q{self.number(self.length(0.7))}"
+        cycle = self.chance.choice(("G81", "G82 P0.01", "G83 " + peck, "G73 " + peck, "G85", "G89 P0.01"))
         self.add("G0", *self.target({2: self.length(4.0)}))
         self.add("G98", cycle, *hole, f"Z{self.number(bottom)}", f"R{self.number(top)}", self.feed())
         self.add("G80")

@@ -9,7 +9,7 @@ G53, comments and line numbers; now and then a line that must be refused. --fold
 and of those in it. Compared are the machine's end, the length of the way, and the first refused line: cusp
 stops at one, as rs274 does. What differs on purpose (docs/gcode.md, LinuxCNC) the random programs leave out.
 Debian: apt-get install --no-install-recommends linuxcnc-uspace.
---plant moves the end of what rs274 reads by 0.01 mm or inch: all programs that are not refused must differ then,
+--plant moves the end of what rs274 reads by 0.01 mm or inch, or lengthens its way by 4: all programs that are not refused must differ then,
 and the exit status is 0 where they do.
 Exit status: 0 all agree, 1 some differ, 2 something can't run, 77 rs274 is not installed.
 """
@@ -28,8 +28,8 @@ AXES, CENTRES = "XYZ", "IJK"
 PLANES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
 SKIPPED = 77
 REFUSED = "refused by both"
-NEAR = 0.002  # mm and, of the length, a share: rs274 prints four decimals of its unit
-RADIUS_NEAR = 0.02  # of an arc, when its radius is worked out from printed numbers
+NEAR = 0.002  # mm, beside what rs274 prints, four decimals of its unit
+SHARE = 3e-4  # of the length: that of cusp is the one from set point to set point
 
 
 class RandomProgram:
@@ -323,9 +323,10 @@ def by_cusp(text, folder, cusp):
 
 
 def planted(text):
-    """A random program that ends 0.01 mm, or inch, beside the right place."""
+    """A random program that ends 0.01 mm, or inch, beside the right place, or goes 4 too far to it."""
     lines = text.splitlines()
-    return "\n".join(lines[:-1] + ["G91 G0 X0.01"] + lines[-1:]) + "\n"
+    more = ["G91 G0 X0.01"] if len(lines) % 2 else ["G91 G0 X2", "X-2"]
+    return "\n".join(lines[:-1] + more + lines[-1:]) + "\n"
 
 
 def difference(text, folder, cusp, change):
@@ -345,7 +346,7 @@ def difference(text, folder, cusp, change):
         return f"ends: rs274 {[round(value, 4) for value in canon.at]}, cusp {end}"
     # Corners are exact (G61): the length is that of the path.
     length = stats["length_mm"]
-    if abs(length - canon.length) > NEAR * (1 + canon.length) + canon.loose:
+    if abs(length - canon.length) > NEAR + SHARE * canon.length + canon.loose:
         return f"lengths: rs274 {canon.length:.4f} mm, cusp {length:.4f}"
     return None
 
