@@ -246,6 +246,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));
     }
+    refuse_rapids(job, plan);
     refuse_contacts(job, plan);
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);

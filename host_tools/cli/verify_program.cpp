@@ -102,6 +102,12 @@ Json stats_of(const Verification& result)
              {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
              {"cut_depth_max_mm", rounded(f.cut_depth_max)},
              {"gouge_max_mm", rounded(f.gouge_max)}};
+    if (f.rapid_cut_at) {
+        const auto& [tip, line, tool] = *f.rapid_cut_at;
+        out["rapid_cut_at_mm"] = {rounded(tip.x), rounded(tip.y), rounded(tip.z)};
+        out["rapid_cut_line"] = line;
+        out["rapid_cut_tool"] = tool;
+    }
     add_tools_to(out, f.tools);
     const auto optional = [&](const char* name, std::optional<double> value) {
         if (value && std::isfinite(*value)) {

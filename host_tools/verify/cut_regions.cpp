@@ -29,12 +29,15 @@ namespace {
 
 constexpr double kBoxChord = 0.01;  // mm
 
-// mm: the widest that a profile clears beside its wall: the tool, the allowance, its leads.
+// mm: the widest that a profile clears beside its wall: the tool, the allowance, its leads. A lead is a quarter of a
+// circle, and its far end the square root of two radii from where it meets the contour: beside convex walls and
+// corners that is how far it may lead away from the wall.
 double widest(const Operation& operation)
 {
     const Prismatic& cut = *operation.prismatic;
     const double radius = operation.tool.radius;
-    const double lead = std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
+    const double lead =
+        std::sqrt(2.0) * std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
     return 2 * radius + operation.allowance + lead + cut.width;
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/verify/bands.hpp"
+#include "host_tools/verify/end_sweeps.hpp"
 #include "host_tools/verify/engagement_trace.hpp"
 #include "host_tools/verify/tool_contact.hpp"
 
@@ -16,159 +16,26 @@ using toolpath::Tool;
 
 namespace {
 
-// The tool's lower side above its tip, by the squared distance from the axis.
-struct Profile {
-    double flat;    // radius of the flat bottom
-    double corner;  // radius of the corner
-    double reach;   // squared radius of the whole tool
-    double rise;    // of a cone, mm a mm outward; 0: none
-    double join;    // mm: from the flat to where the corner ends
-    double joined;  // mm: the height there
-
-    explicit Profile(const Tool& tool, double shrink)
-        : flat{},
-          corner{std::max(0.0, tool.corner_radius - shrink)},
-          reach{},
-          rise{},
-          join{corner},
-          joined{corner}
-    {
-        const double radius = std::max(0.0, tool.radius - shrink);
-        flat = std::max(0.0, radius - corner);
-        reach = radius * radius;
-        if (is_conical(tool)) {
-            flat = std::max(0.0, tool.tip_radius - shrink);
-            rise = 1 / std::tan(tool.tip_angle / 2);
-            join = corner * std::cos(tool.tip_angle / 2);
-            joined = corner * (1 - std::sin(tool.tip_angle / 2));
-        }
-    }
-    double at(double squared) const
-    {
-        const double beyond = std::max(0.0, std::sqrt(squared) - flat);
-        const double round = corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
-        return beyond <= join ? round : joined + rise * (beyond - join);
-    }
-    // A lower bound of at(squared) is steepness() * squared: a ball lies above its parabola.
-    double steepness() const
-    {
-        return flat > 0 || corner <= 0 || rise > 0 ? 0.0 : 1 / (2 * corner);
-    }
-};
-
-// Half of the chord that a line cuts from a circle at a distance from its middle; 0 outside.
-double half_chord(double squared_radius, double distance)
+// Behind the last position of the rapid move that begins at a position.
+std::size_t end_of_move(const ToolPositions& positions, std::size_t k)
 {
-    return std::sqrt(std::max(0.0, squared_radius - distance * distance));
+    std::size_t end = k + 1;
+    while (end < positions.tips.size() && positions.rapid[end] &&
+           (positions.lines.empty() || positions.lines[end] == positions.lines[k])) {
+        ++end;
+    }
+    return end;
 }
 
-// The flat bottom of a tool moving from one position to the next: on a slope its rim cuts lower
-// between the positions too.
-class FlatSweep {
-public:
-    FlatSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
-    {
-        const double x = to.x - from.x;
-        const double y = to.y - from.y;
-        length_ = std::sqrt(x * x + y * y);
-        constexpr double kShortest = 1e-9;
-        if (length_ < kShortest) {
-            length_ = 0.0;
-            from_.z = std::min(from.z, to.z);
-            return;
-        }
-        way_ = {x / length_, y / length_};
-        slope_ = (to.z - from.z) / length_;
+// Keeps the deeper rapid cut; of two alike the one that comes first.
+void take_deeper(const CutFigures& other, CutFigures& figures)
+{
+    if (other.rapid_cut > figures.rapid_cut ||
+        (other.rapid_cut == figures.rapid_cut && other.rapid_position < figures.rapid_position)) {
+        figures.rapid_cut = other.rapid_cut;
+        figures.rapid_position = other.rapid_position;
     }
-
-    // z; kUnbounded where the flat bottom does not pass.
-    double lowest(double x, double y) const
-    {
-        const double dx = x - from_.x;
-        const double dy = y - from_.y;
-        const double along = dx * way_.x + dy * way_.y;
-        const double away = dy * way_.x - dx * way_.y;
-        const double half = std::sqrt(std::max(0.0, square_ - away * away));
-        const double begin = std::max(0.0, along - half);
-        const double end = std::min(length_, along + half);
-        const double height = from_.z + slope_ * (slope_ > 0.0 ? begin : end);
-        return away * away <= square_ && begin <= end ? height : kUnbounded;
-    }
-
-private:
-    Vec3d from_;
-    Vec2d way_{1.0, 0.0};
-    double square_;
-    double length_{};
-    double slope_{0.0};
-};
-
-// A cone, with a flat or a ball at its tip, moving from one position to the next. The height over a point is a convex
-// function of the position, since the tool's profile is one of the distance: the lowest is where its slope is 0.
-class ConeSweep {
-public:
-    ConeSweep(const Tool& tool, Vec3d from, Vec3d to)
-        : from_{from}, profile_{tool, 0}, square_{tool.radius * tool.radius}
-    {
-        constexpr double kShortest = 1e-9;
-        const Vec2d along = in_plan(to) - in_plan(from);
-        length_ = norm(along);
-        if (length_ < kShortest) {
-            length_ = 0;
-            from_.z = std::min(from.z, to.z);
-            return;
-        }
-        way_ = along * (1.0 / length_);
-        slope_ = (to.z - from.z) / length_;
-    }
-
-    // z; kUnbounded where the tool does not pass.
-    double lowest(double x, double y) const
-    {
-        const Vec2d d{x - from_.x, y - from_.y};
-        const double along = dot(d, way_);
-        const double away = d.y * way_.x - d.x * way_.y;
-        const double half = half_chord(square_, away);
-        const double begin = std::max(0.0, along - half);
-        const double end = std::min(length_, along + half);
-        if (away * away > square_ || begin > end) {
-            return kUnbounded;
-        }
-        const double at = std::clamp(along - behind(std::abs(away)), begin, end);
-        const double squared = (along - at) * (along - at) + away * away;
-        return from_.z + slope_ * at + profile_.at(squared);
-    }
-
-private:
-    // mm along the way, from the position that cuts a point lowest to the point: where the profile is as steep as the
-    // way. The first of flat, ball and flank on which it is.
-    double behind(double away) const
-    {
-        if (slope_ == 0.0) {
-            return 0.0;
-        }
-        const double steep = std::abs(slope_);
-        const double side = slope_ > 0 ? 1.0 : -1.0;
-        const double ball = steep * half_chord(profile_.corner * profile_.corner, away) /
-                            std::sqrt(1 + steep * steep);
-        if (profile_.corner > 0 && ball * ball + away * away <= profile_.join * profile_.join) {
-            return side * ball;
-        }
-        if (steep >= profile_.rise) {
-            return side * kUnbounded;
-        }
-        const double q = steep / profile_.rise;
-        const double flank = q * away / std::sqrt(1 - q * q);
-        return side * std::max(flank, half_chord(profile_.flat * profile_.flat, away));
-    }
-
-    Vec3d from_;
-    Profile profile_;
-    double square_;
-    Vec2d way_{1.0, 0.0};
-    double length_{};
-    double slope_{0.0};
-};
+}
 
 }  // namespace
 
@@ -195,9 +62,14 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
     const bool is_cylinder = flat_radius(tool) >= tool.radius && !is_conical(tool);
     CutFigures figures;
+    std::size_t measured = 0;  // rapid positions before this one are
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
+        if (positions.rapid[k] && k >= measured) {
+            measured = end_of_move(positions, k);
+            take_deeper(deepest_of(positions, k, measured, shrink, begin, end), figures);
+        }
         const Vec3d tip = positions.tips[k];
-        if (tip.z >= top_) {
+        if (tip.z >= top_ || !is_looked_at(tool, tip)) {
             continue;
         }
         if (trace != nullptr) {
@@ -218,10 +90,138 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (is_conical(tool) && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_cone(tool, positions.tips[k - 1], tip, begin, end);
         }
-        double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
-        worst = std::max(worst, depth);
+        if (!positions.rapid[k]) {
+            figures.cut_depth = std::max(figures.cut_depth, depth);
+        }
     }
     return figures;
+}
+
+CutFigures MachinedStock::deepest_of(const ToolPositions& positions,
+                                     std::size_t first,
+                                     std::size_t last,
+                                     double shrink,
+                                     std::size_t begin,
+                                     std::size_t end) const
+{
+    CutFigures deepest;
+    for (std::size_t k = first; k < last; ++k) {
+        if (positions.tips[k].z >= top_) {
+            continue;
+        }
+        const double depth = depth_at(positions.tool, positions.tips[k], shrink, begin, end);
+        if (depth > deepest.rapid_cut) {
+            deepest = {depth, k, 0};
+        }
+    }
+    return deepest;
+}
+
+double MachinedStock::depth_at(const Tool& tool,
+                               Vec3d tip,
+                               double shrink,
+                               std::size_t begin,
+                               std::size_t end) const
+{
+    const Profile probe{tool, shrink};
+    double deepest = 0;
+    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
+        for (std::size_t j = grid_.first_row(tip.y - tool.radius);
+             j < grid_.end_row(tip.y + tool.radius); ++j) {
+            const double dx = grid_.x(i, j) - tip.x;
+            const double dy = grid_.y(i, j) - tip.y;
+            const double squared = dx * dx + dy * dy;
+            const double over = heights_[grid_.index(i, j)] - tip.z - shrink;
+            if (over > deepest && squared <= probe.reach) {
+                deepest = std::max(deepest, over - probe.at(squared));
+            }
+        }
+    }
+    if (tool.corner_radius > 0 || is_conical(tool)) {
+        deepest = std::max(deepest, level_around(tip.x, tip.y, begin, end) - tip.z - shrink);
+    }
+    // What the tool was raised by is in stock too.
+    return deepest > kRapidCutAllowed ? deepest + shrink : deepest;
+}
+
+double MachinedStock::level_around(double x, double y, std::size_t begin, std::size_t end) const
+{
+    constexpr double kLevel = 0.01;  // mm
+    double least = kUnbounded;
+    double most = -kUnbounded;
+    const std::size_t last = std::min(end, grid_.end_column(x));
+    for (std::size_t i = std::max(begin, grid_.first_column(x)); i < last; ++i) {
+        for (std::size_t j = grid_.first_row(y); j < grid_.end_row(y); ++j) {
+            if (std::abs(grid_.x(i, j) - x) <= grid_.pitch &&
+                std::abs(grid_.y(i, j) - y) <= grid_.pitch) {
+                least = std::min(least, heights_[grid_.index(i, j)]);
+                most = std::max(most, heights_[grid_.index(i, j)]);
+            }
+        }
+    }
+    return least <= most && most - least <= kLevel ? least : -kUnbounded;
+}
+
+bool MachinedStock::look_at_rapids_alone(const std::vector<ToolPositions>& runs)
+{
+    bool any = false;
+    // Each box of points adds 1 at one corner and takes it away behind the others; sums fill it.
+    std::vector<std::int32_t> corners((grid_.nx + 1) * (grid_.ny + 1), 0);
+    const auto corner = [&](std::size_t i, std::size_t j) -> std::int32_t& {
+        return corners[i * (grid_.ny + 1) + j];
+    };
+    for (const ToolPositions& run : runs) {
+        for (std::size_t k = 0; k < run.tips.size(); ++k) {
+            const Vec3d tip = run.tips[k];
+            if (!run.rapid[k] || tip.z >= top_) {
+                continue;
+            }
+            any = true;
+            const std::size_t i0 = grid_.first_column(tip.x - run.tool.radius);
+            const std::size_t i1 = grid_.end_column(tip.x + run.tool.radius);
+            const std::size_t j0 = grid_.first_row(tip.y - run.tool.radius);
+            const std::size_t j1 = grid_.end_row(tip.y + run.tool.radius);
+            ++corner(i0, j0);
+            --corner(i1, j0);
+            --corner(i0, j1);
+            ++corner(i1, j1);
+        }
+    }
+    looked_at_.assign(any ? corners.size() : 0, 0);
+    for (std::size_t i = 0; any && i < grid_.nx; ++i) {
+        for (std::size_t j = 0; j < grid_.ny; ++j) {
+            if (i > 0) {
+                corner(i, j) += corner(i - 1, j);
+            }
+        }
+    }
+    for (std::size_t i = 0; any && i < grid_.nx; ++i) {
+        std::int32_t boxes = 0;
+        std::uint32_t count = 0;
+        for (std::size_t j = 0; j < grid_.ny; ++j) {
+            boxes += corner(i, j);
+            count += boxes > 0 ? 1U : 0U;
+            looked_at_[(i + 1) * (grid_.ny + 1) + j + 1] =
+                looked_at_[i * (grid_.ny + 1) + j + 1] + count;
+        }
+    }
+    return any;
+}
+
+bool MachinedStock::is_looked_at(const Tool& tool, Vec3d tip) const
+{
+    if (looked_at_.empty()) {
+        return true;
+    }
+    const auto sum = [&](std::size_t i, std::size_t j) {
+        return looked_at_[i * (grid_.ny + 1) + j];
+    };
+    const std::size_t i0 = grid_.first_column(tip.x - tool.radius);
+    const std::size_t i1 = grid_.end_column(tip.x + tool.radius);
+    const std::size_t j0 = grid_.first_row(tip.y - tool.radius);
+    const std::size_t j1 = grid_.end_row(tip.y + tool.radius);
+    return i0 < i1 && j0 < j1 && sum(i1, j1) - sum(i0, j1) - sum(i1, j0) + sum(i0, j0) > 0;
 }
 
 // Over 60 lines: the loops over rows share what holds for a column, and are vectorised with it.
@@ -362,7 +362,7 @@ CutFigures MachinedStock::cut(const ToolPositions& positions,
     });
     CutFigures sum;
     for (const CutFigures& band : bands) {
-        sum.rapid_cut = std::max(sum.rapid_cut, band.rapid_cut);
+        take_deeper(band, sum);
         sum.cut_depth = std::max(sum.cut_depth, band.cut_depth);
     }
     return sum;

@@ -31,8 +31,6 @@ using toolpath::ToolShape;
 
 namespace {
 
-// Rapid moves that cut deeper than slivers and rounding.
-constexpr double kRapidCutAllowed = 0.005;
 // mm: accuracy of the chords of walls and of the height map.
 constexpr double kJudgement = 5e-4;
 // Share of the floor that may be above the scallop bound: the corners between loops.
@@ -267,7 +265,12 @@ void judge(const Job& job, const Scene& scene, Verification& result)
     bound("gouge_max_mm", f.gouge_max, bounds.floor_tolerance + kJudgement);
     bound("ball_gouge_max_mm", f.ball_gouge_max, bounds.floor_tolerance + kJudgement);
     bound("wall_gouge_max_mm", f.wall_gouge_max, bounds.plan_tolerance + kJudgement);
-    bound("rapid_cut_max_mm", f.rapid_cut_max, bounds.rapid_cut);
+    if (f.rapid_cut_at) {
+        result.broken.push_back(fmt::format(
+            "rapid_cut_max_mm {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}, is over {:.4g}",
+            f.rapid_cut_max, f.rapid_cut_at->tool, f.rapid_cut_at->tip.x, f.rapid_cut_at->tip.y,
+            f.rapid_cut_at->tip.z, f.rapid_cut_at->line, bounds.rapid_cut));
+    }
     // planned to the margin, so rounding and the height of rapid moves touch it
     constexpr double kFixtureAllowed = 0.005;
     if (f.fixture_hit_max && !(*f.fixture_hit_max <= kFixtureAllowed)) {
@@ -356,6 +359,10 @@ void cut_stock(const Job& job,
             result.engagement.push_back(trace->finish());
         }
         done += run.tips.size();
+        if (cut.rapid_cut > std::max(figures.rapid_cut_max, kRapidCutAllowed)) {
+            figures.rapid_cut_at = {run.tips[cut.rapid_position], run.lines[cut.rapid_position],
+                                    run.tool.number};
+        }
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
         if (cut.cut_depth > 0) {
