@@ -106,8 +106,10 @@ void refuse_rapids(const Job& job, const Plan& plan)
     if (const auto rapid = verify::deepest_rapid(job, paths)) {
         const PlannedOperation& operation = plan.operations[rapid->path];
         throw InputError(fmt::format(
-            "{}: operation {}, {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would cut {:.4g} mm "
-            "deep into stock that stands there by then, the limit is {:g}: let an operation before it cut that stock "
+            "{}: operation {}, {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would "
+            "cut {:.4g} mm "
+            "deep into stock that is there by then, the limit is {:g}: let an operation before it "
+            "cut that stock "
             "away, or begin this one at its top",
             job.file, operation.operation, operation.stats.strategy, operation.path.tool.number,
             rapid->tip.x, rapid->tip.y, rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));

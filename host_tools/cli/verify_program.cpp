@@ -88,6 +88,15 @@ void add_between_sides_to(Json& out, const std::optional<FloorBetweenSides>& flo
     }
 }
 
+void add_rapid_cut_to(Json& out, const std::optional<verify::RapidCut>& cut)
+{
+    if (cut) {
+        out["rapid_cut_at_mm"] = {rounded(cut->tip.x), rounded(cut->tip.y), rounded(cut->tip.z)};
+        out["rapid_cut_line"] = cut->line;
+        out["rapid_cut_tool"] = cut->tool;
+    }
+}
+
 Json stats_of(const Verification& result)
 {
     const VerifyFigures& f = result.figures;
@@ -102,12 +111,7 @@ Json stats_of(const Verification& result)
              {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
              {"cut_depth_max_mm", rounded(f.cut_depth_max)},
              {"gouge_max_mm", rounded(f.gouge_max)}};
-    if (f.rapid_cut_at) {
-        const auto& [tip, line, tool] = *f.rapid_cut_at;
-        out["rapid_cut_at_mm"] = {rounded(tip.x), rounded(tip.y), rounded(tip.z)};
-        out["rapid_cut_line"] = line;
-        out["rapid_cut_tool"] = tool;
-    }
+    add_rapid_cut_to(out, f.rapid_cut_at);
     add_tools_to(out, f.tools);
     const auto optional = [&](const char* name, std::optional<double> value) {
         if (value && std::isfinite(*value)) {

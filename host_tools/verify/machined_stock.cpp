@@ -117,11 +117,8 @@ CutFigures MachinedStock::deepest_of(const ToolPositions& positions,
     return deepest;
 }
 
-double MachinedStock::depth_at(const Tool& tool,
-                               Vec3d tip,
-                               double shrink,
-                               std::size_t begin,
-                               std::size_t end) const
+double MachinedStock::depth_at(
+    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end) const
 {
     const Profile probe{tool, shrink};
     double deepest = 0;

@@ -18,7 +18,7 @@ class EngagementTrace;
 inline constexpr double kRapidCutAllowed = 0.005;
 
 struct CutFigures {
-    double rapid_cut{};            // mm: deepest cut of a rapid move into stock, along the whole move
+    double rapid_cut{};  // mm: deepest cut of a rapid move into stock, along the whole move
     std::size_t rapid_position{};  // the first where it is that deep
     double cut_depth{};            // mm: deepest cut of a feed move, at one position
 };
@@ -71,7 +71,7 @@ private:
                           double shrink,
                           std::size_t begin,
                           std::size_t end) const;
-    // mm: how deep the tool, reduced by `shrink`, stands in the stock.
+    // mm: how deep the tool, reduced by `shrink`, is in the stock.
     double depth_at(const toolpath::Tool& tool,
                     Vec3d tip,
                     double shrink,

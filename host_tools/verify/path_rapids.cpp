@@ -13,7 +13,7 @@ using toolpath::Toolpath;
 
 std::optional<PathRapid> deepest_rapid(const Job& job, const std::vector<const Toolpath*>& paths)
 {
-    // Stock that is left stands wider than this, and costs an eighth.
+    // Twice verify()'s pitch and spacing: an eighth of its work.
     constexpr double kCoarser = 2;
     const double spacing = kCoarser * position_spacing(job);
     std::vector<ToolPositions> runs;

@@ -1,4 +1,4 @@
-// Planned paths, before they are written: rapid moves against the stock that stands by then.
+// Planned paths, before they are written: rapid moves against the stock that is left by then.
 //
 //     if (const auto rapid = deepest_rapid(job, paths)) { rapid->depth; }  // it would break a tool
 #pragma once

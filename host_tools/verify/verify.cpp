@@ -267,7 +267,8 @@ void judge(const Job& job, const Scene& scene, Verification& result)
     bound("wall_gouge_max_mm", f.wall_gouge_max, bounds.plan_tolerance + kJudgement);
     if (f.rapid_cut_at) {
         result.broken.push_back(fmt::format(
-            "rapid_cut_max_mm {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}, is over {:.4g}",
+            "rapid_cut_max_mm {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}, is over "
+            "{:.4g}",
             f.rapid_cut_max, f.rapid_cut_at->tool, f.rapid_cut_at->tip.x, f.rapid_cut_at->tip.y,
             f.rapid_cut_at->tip.z, f.rapid_cut_at->line, bounds.rapid_cut));
     }

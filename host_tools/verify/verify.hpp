@@ -79,7 +79,7 @@ struct VerifyFigures {
     std::optional<double> ball_gouge_max;  // deepest gouge by a ball, from exact distances
     std::optional<double> wall_gouge_max;  // deepest cut through a boundary or an island
     std::optional<double> wall_left_max;   // beside walls, above the reachable height
-    double rapid_cut_max{};  // along the whole move
+    double rapid_cut_max{};                // along the whole move
     std::optional<RapidCut> rapid_cut_at;  // where it is over the bound
     // The deepest into a fixture grown by its margin, and where; nothing where the job has none.
     std::optional<double> fixture_hit_max;

@@ -361,13 +361,14 @@ TEST(Verify, MeasuresARapidMoveFromItsBeginningToItsEnd)
         const char* moves;
         double depth;
         unsigned line;
-    } cases[] = {{"G0 Z-4.5\n", 4.5, 4},
-                 {"G0 Z1\nG0 X20 Y10 Z-2\n", 2, 5},
-                 {"G0 X10 Y10 Z-3\nG0 Z5\n", 3, 4},
-                 {"G91\nG0 Z-5.5\nG0 Z-1\nG90\n", 1.5, 6},  // from 5
-                 {"G81 X15 Y10 Z-4 R-1.25 F300\nG80\n", 1.25, 4},
-                 {"G53 G0 X9 Y9 Z-0.75\n", 0.75, 4},
-                 {"G20\nG0 Z-0.1\nG21\n", 2.54, 5}};
+    } cases[] = {
+        {"G0 Z-4.5\n", 4.5, 4},
+        {"G0 Z1\nG0 X20 Y10 Z-2\n", 2, 5},
+        {"G0 X10 Y10 Z-3\nG0 Z5\n", 3, 4},
+        {"G91\nG0 Z-5.5\nG0 Z-1\nG90\n", 1, 6},  // half a millimetre below the top, then one more
+        {"G81 X15 Y10 Z-4 R-1.25 F300\nG80\n", 1.25, 4},
+        {"G53 G0 X9 Y9 Z-0.75\n", 0.75, 4},
+        {"G20\nG0 Z-0.1\nG21\n", 2.54, 5}};
     for (const auto& one : cases) {
         std::string program = passes(-5, 1);
         program.insert(program.find("G0 X0 Y0\n") + 9, std::string{one.moves} + "G0 Z5\n");
