@@ -147,8 +147,10 @@ double MachinedStock::level_around(double x, double y, std::size_t begin, std::s
     constexpr double kLevel = 0.01;  // mm
     double least = kUnbounded;
     double most = -kUnbounded;
-    const std::size_t last = std::min(end, grid_.end_column(x));
-    for (std::size_t i = std::max(begin, grid_.first_column(x)); i < last; ++i) {
+    if (grid_.first_column(x) < begin || grid_.end_column(x) > end) {
+        return -kUnbounded;  // other bands are cut at the same time
+    }
+    for (std::size_t i = grid_.first_column(x); i < grid_.end_column(x); ++i) {
         for (std::size_t j = grid_.first_row(y); j < grid_.end_row(y); ++j) {
             if (std::abs(grid_.x(i, j) - x) <= grid_.pitch &&
                 std::abs(grid_.y(i, j) - y) <= grid_.pitch) {
@@ -214,10 +216,12 @@ bool MachinedStock::is_looked_at(const Tool& tool, Vec3d tip) const
     const auto sum = [&](std::size_t i, std::size_t j) {
         return looked_at_[i * (grid_.ny + 1) + j];
     };
-    const std::size_t i0 = grid_.first_column(tip.x - tool.radius);
-    const std::size_t i1 = grid_.end_column(tip.x + tool.radius);
-    const std::size_t j0 = grid_.first_row(tip.y - tool.radius);
-    const std::size_t j1 = grid_.end_row(tip.y + tool.radius);
+    // with the sweep from the position before
+    const double reach = tool.radius + 2 * grid_.pitch;
+    const std::size_t i0 = grid_.first_column(tip.x - reach);
+    const std::size_t i1 = grid_.end_column(tip.x + reach);
+    const std::size_t j0 = grid_.first_row(tip.y - reach);
+    const std::size_t j1 = grid_.end_row(tip.y + reach);
     return i0 < i1 && j0 < j1 && sum(i1, j1) - sum(i0, j1) - sum(i1, j0) + sum(i0, j0) > 0;
 }
 

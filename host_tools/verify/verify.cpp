@@ -31,8 +31,7 @@ using toolpath::ToolShape;
 
 namespace {
 
-// mm: accuracy of the chords of walls and of the height map.
-constexpr double kJudgement = 5e-4;
+constexpr double kJudgement = 5e-4;  // mm: accuracy of the chords of walls and of the height map
 // Share of the floor that may be above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
 
