@@ -88,12 +88,13 @@ void add_between_sides_to(Json& out, const std::optional<FloorBetweenSides>& flo
     }
 }
 
-void add_rapid_cut_to(Json& out, const std::optional<verify::RapidCut>& cut)
+// name  of the figure, which ends in _max_mm
+void add_place_to(Json& out, const std::string& name, const std::optional<verify::FaultPlace>& at)
 {
-    if (cut) {
-        out["rapid_cut_at_mm"] = {rounded(cut->tip.x), rounded(cut->tip.y), rounded(cut->tip.z)};
-        out["rapid_cut_line"] = cut->line;
-        out["rapid_cut_tool"] = cut->tool;
+    if (at) {
+        out[name + "_at_mm"] = {rounded(at->place.x), rounded(at->place.y), rounded(at->place.z)};
+        out[name + "_line"] = at->line;
+        out[name + "_tool"] = at->tool;
     }
 }
 
@@ -111,7 +112,10 @@ Json stats_of(const Verification& result)
              {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
              {"cut_depth_max_mm", rounded(f.cut_depth_max)},
              {"gouge_max_mm", rounded(f.gouge_max)}};
-    add_rapid_cut_to(out, f.rapid_cut_at);
+    add_place_to(out, "rapid_cut", f.rapid_cut_at);
+    add_place_to(out, "gouge", f.gouge_at);
+    add_place_to(out, "ball_gouge", f.ball_gouge_at);
+    add_place_to(out, "wall_gouge", f.wall_gouge_at);
     add_tools_to(out, f.tools);
     const auto optional = [&](const char* name, std::optional<double> value) {
         if (value && std::isfinite(*value)) {

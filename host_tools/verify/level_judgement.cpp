@@ -23,20 +23,21 @@ struct Cuts {
     double wall{};
 };
 
-// The least of what a cut to z at a point breaks: below a floor, or beyond a wall.
-Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top, double floor_tolerance)
+// The least of what a cut to z at a point breaks: below a floor, or beyond a wall. Near a wall that is cut too deep the
+// greater of the two distances counts, not the whole depth.
+Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top)
 {
-    double below = top - z;
-    double beyond = kUnbounded;
+    double least = top - z;
+    Cuts cuts{least, 0};
     for (const RegionAt& region : regions) {
-        if (region.inside >= 0) {
-            below = std::min(below, std::max(0.0, region.floor - z));
-        }
-        if (region.floor - z <= floor_tolerance) {
-            beyond = std::min(beyond, std::max(0.0, -region.inside));
+        const double below = std::max(0.0, region.floor - z);
+        const double beyond = std::max(0.0, -region.inside);
+        if (std::max(below, beyond) < least) {
+            least = std::max(below, beyond);
+            cuts = beyond > below ? Cuts{0, beyond} : Cuts{below, 0};
         }
     }
-    return beyond <= below ? Cuts{0, beyond} : Cuts{below, 0};
+    return cuts;
 }
 
 class LevelJudge {
@@ -69,6 +70,7 @@ private:
     void find_gouges()
     {
         std::vector<Cuts> worst(kBands);
+        std::vector<std::size_t> walls(kBands);  // points of the deepest cuts through walls
         for_each_band(q_.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
             std::vector<RegionAt> here(regions_.size());
             for (std::size_t k = begin * q_.grid.ny; k < end * q_.grid.ny; ++k) {
@@ -81,17 +83,24 @@ private:
                 if (!(q_.cut[k] < q_.job.stock_top)) {
                     continue;
                 }
-                const Cuts cuts = cuts_at(here, q_.cut[k], q_.job.stock_top, q_.floor_tolerance);
+                const Cuts cuts = cuts_at(here, q_.cut[k], q_.job.stock_top);
                 worst[band].gouge = std::max(worst[band].gouge, cuts.gouge);
-                worst[band].wall = std::max(worst[band].wall, cuts.wall);
+                if (cuts.wall > worst[band].wall) {
+                    worst[band].wall = cuts.wall;
+                    walls[band] = k;
+                }
                 maps_.gouge[k] = cuts.gouge;
             }
         });
         figures_.gouge_max = 0;
         figures_.wall_gouge_max = 0;
-        for (const Cuts& cuts : worst) {
-            figures_.gouge_max = std::max(figures_.gouge_max, cuts.gouge);
-            figures_.wall_gouge_max = std::max(*figures_.wall_gouge_max, cuts.wall);
+        for (std::size_t band = 0; band < kBands; ++band) {
+            figures_.gouge_max = std::max(figures_.gouge_max, worst[band].gouge);
+            if (worst[band].wall > std::max(*figures_.wall_gouge_max, q_.plan_tolerance)) {
+                const std::size_t k = walls[band];
+                figures_.wall_gouge_at = {{x(k), y(k), q_.cut[k]}};
+            }
+            figures_.wall_gouge_max = std::max(*figures_.wall_gouge_max, worst[band].wall);
         }
     }
 

@@ -15,6 +15,7 @@
 #include "host_tools/verify/pocket_boundaries.hpp"
 #include "host_tools/verify/stock_grid.hpp"
 #include "host_tools/verify/uncut_stock.hpp"
+#include "host_tools/verify/verdict.hpp"
 
 #include "fmt/format.h"
 
@@ -31,7 +32,6 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kJudgement = 5e-4;  // mm: accuracy of the chords of walls and of the height map
 // Share of the floor that may be above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
 
@@ -175,7 +175,8 @@ std::vector<ToolPositions> positions_of(const Job& job,
 // Depth of gouges by balls, by exact distances.
 std::optional<double> ball_gouge(const Scene& scene,
                                  const std::vector<ToolPositions>& runs,
-                                 double top)
+                                 double top,
+                                 std::optional<FaultPlace>& at)
 {
     const PartModel model{scene.surfaces};
     const PartModel mesh{scene.mesh};
@@ -185,10 +186,15 @@ std::optional<double> ball_gouge(const Scene& scene,
             continue;
         }
         deepest = deepest.value_or(0.0);
-        for (const Vec3d tip : run.tips) {
-            if (tip.z < top) {
-                deepest = std::max({*deepest, -model.distance(run.tool, tip, 0.0).distance,
-                                    -mesh.distance(run.tool, tip, 0.0).distance});
+        for (std::size_t k = 0; k < run.tips.size(); ++k) {
+            const Vec3d tip = run.tips[k];
+            const double depth = tip.z < top
+                                     ? std::max(-model.distance(run.tool, tip, 0.0).distance,
+                                                -mesh.distance(run.tool, tip, 0.0).distance)
+                                     : 0.0;
+            if (depth > *deepest) {
+                deepest = depth;
+                at = {tip, run.lines[k], run.tool.number};
             }
         }
     }
@@ -206,13 +212,20 @@ double most_left(const Scene& scene, const std::vector<Tool>& tools, double spac
            spacing * spacing / (8 * least);
 }
 
-double wall_gouge(const PocketBoundaries& walls, const std::vector<ToolPositions>& runs, double top)
+double wall_gouge(const PocketBoundaries& walls,
+                  const std::vector<ToolPositions>& runs,
+                  double top,
+                  std::optional<FaultPlace>& at)
 {
     double worst = 0;
     for (const ToolPositions& run : runs) {
-        for (const Vec3d tip : run.tips) {
-            if (tip.z < top - 1e-9) {
-                worst = std::max(worst, run.tool.radius - walls.at(tip.x, tip.y));
+        for (std::size_t k = 0; k < run.tips.size(); ++k) {
+            const Vec3d tip = run.tips[k];
+            const double depth =
+                tip.z < top - 1e-9 ? run.tool.radius - walls.at(tip.x, tip.y) : 0.0;
+            if (depth > worst) {
+                worst = depth;
+                at = {tip, run.lines[k], run.tool.number};
             }
         }
     }
@@ -235,71 +248,6 @@ void find_fixture_hits(const Job& job,
                                                          fixture.name, tip.x, tip.y, tip.z);
                 }
             }
-        }
-    }
-}
-
-void judge_contacts(Verification& result)
-{
-    for (const ContactFigures& f : result.figures.contacts) {
-        if (f.depth > 0) {
-            result.broken.push_back(fmt::format(
-                "{} {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}: {} of {:.2f} mm "
-                "would do",
-                name_of_figure(f.part), f.depth, f.tool, f.tip.x, f.tip.y, f.tip.z, f.line,
-                f.part == BodyPart::kHolder ? "a length" : "flutes", f.long_enough));
-        }
-    }
-}
-
-void judge(const Job& job, const Scene& scene, Verification& result)
-{
-    const VerifyFigures& f = result.figures;
-    const VerifyBounds& bounds = result.bounds;
-    const auto bound = [&](const char* name, std::optional<double> value, double limit) {
-        if (value && !(*value <= limit)) {
-            result.broken.push_back(fmt::format("{} {:.4g} is over {:.4g}", name, *value, limit));
-        }
-    };
-    bound("gouge_max_mm", f.gouge_max, bounds.floor_tolerance + kJudgement);
-    bound("ball_gouge_max_mm", f.ball_gouge_max, bounds.floor_tolerance + kJudgement);
-    bound("wall_gouge_max_mm", f.wall_gouge_max, bounds.plan_tolerance + kJudgement);
-    if (f.rapid_cut_at) {
-        result.broken.push_back(fmt::format(
-            "rapid_cut_max_mm {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}, is over "
-            "{:.4g}",
-            f.rapid_cut_max, f.rapid_cut_at->tool, f.rapid_cut_at->tip.x, f.rapid_cut_at->tip.y,
-            f.rapid_cut_at->tip.z, f.rapid_cut_at->line, bounds.rapid_cut));
-    }
-    // planned to the margin, so rounding and the height of rapid moves touch it
-    constexpr double kFixtureAllowed = 0.005;
-    if (f.fixture_hit_max && !(*f.fixture_hit_max <= kFixtureAllowed)) {
-        result.broken.push_back(fmt::format("fixture_hit_max_mm {:.4g}, {}, is over {:.4g}",
-                                            *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
-    }
-    judge_contacts(result);
-    if (f.between_sides && is_too_thin(job, *f.between_sides)) {
-        result.broken.push_back(sentence_of(job, *f.between_sides));
-    }
-    if (f.level_left) {
-        result.broken.push_back(
-            fmt::format("left {:.4g} mm over the level of operation {} ({}) at x {:.3f} y {:.3f}",
-                        f.level_left->height, f.level_left->operation, f.level_left->strategy,
-                        f.level_left->place.x, f.level_left->place.y));
-    }
-    if (f.tabs_standing != f.tabs_wanted) {
-        result.broken.push_back(
-            fmt::format("tabs: {} found, {} expected", f.tabs_standing, f.tabs_wanted));
-    }
-    if (scene.scallop) {
-        bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
-        if (f.thickest_left) {
-            const auto [thickness, at] = *f.thickest_left;
-            result.broken.push_back(
-                fmt::format("left_thickness_mm {:.4g} at x {:.3f} y {:.3f} z {:.3f} is over {:.4g} "
-                            "(scallop and "
-                            "floor_tolerance)",
-                            thickness, at.x, at.y, at.z, *scene.scallop + scene.floor_tolerance));
         }
     }
 }
@@ -407,9 +355,9 @@ void judge_surfaces(const Job& job,
 {
     VerifyFigures& figures = result.figures;
     if (!walls.empty()) {
-        figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
+        figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top, figures.wall_gouge_at);
     }
-    figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
+    figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top, figures.ball_gouge_at);
     FloorMaps maps =
         judge_floor({scene.surfaces, scene.mesh, tools, walls, result.grid, heights, job.stock_top,
                      scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
@@ -427,6 +375,7 @@ void add_levels(const Job& job,
                 Verification& result)
 {
     result.figures.ball_gouge_max.reset();
+    result.figures.wall_gouge_at.reset();
     LevelMaps maps = judge_levels({job, result.grid, heights, scene.floor_tolerance + kJudgement,
                                    scene.plan_tolerance + kJudgement},
                                   result.figures);
@@ -490,7 +439,8 @@ Verification verify(const Job& job,
     }
     find_fixture_hits(job, runs, figures);
     figures.between_sides = floor_between_sides(job, result.grid, stock.heights(), spacing);
-    judge(job, scene, result);
+    find_fault_places(runs, result);
+    judge(job, scene.scallop, result);
     if (settings.engagement) {
         result.positions = std::move(runs);
     }

@@ -42,11 +42,11 @@ struct LevelLeft {
     std::string strategy;
 };
 
-// The deepest cut of a rapid move.
-struct RapidCut {
-    Vec3d tip;
-    std::uint32_t line;
-    int tool;  // its number
+// Where something is wrong, and the move to blame.
+struct FaultPlace {
+    Vec3d place;
+    std::uint32_t line{};  // 0: of no move of the program
+    int tool{};            // its number
 };
 
 // Figures of one tool of the program.
@@ -80,7 +80,11 @@ struct VerifyFigures {
     std::optional<double> wall_gouge_max;  // deepest cut through a boundary or an island
     std::optional<double> wall_left_max;   // beside walls, above the reachable height
     double rapid_cut_max{};                // along the whole move
-    std::optional<RapidCut> rapid_cut_at;  // where it is over the bound
+    // where bounds do not hold:
+    std::optional<FaultPlace> rapid_cut_at;
+    std::optional<FaultPlace> gouge_at;
+    std::optional<FaultPlace> ball_gouge_at;
+    std::optional<FaultPlace> wall_gouge_at;
     // The deepest into a fixture grown by its margin, and where; nothing where the job has none.
     std::optional<double> fixture_hit_max;
     std::string fixture_hit_at;  // fixture and place; empty where there is no hit
