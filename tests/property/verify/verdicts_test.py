@@ -172,6 +172,28 @@ class Plant:
         self.name = "wall_gouge_max_mm"
         return size
 
+    def moved(self):
+        """A point of the outline's last pass, moved into the part."""
+        size = round(self.random.uniform(0.15, 0.8), 2)
+        low = min((at["Z"] for _, at in self.feeds if abs(at["Z"] * self.job.unit + self.job.depth) < 1e-3), default=None)
+        points = [(k, at) for k, at in self.feeds
+                  if at["Z"] == low and re.fullmatch(r"G1( X\S+)?( Y\S+)?", self.lines[k])
+                  and math.hypot(at["X"], at["Y"]) * self.job.unit < 20.5]
+        if len(points) < 12:
+            return 0
+        k, at = points[len(points) // 2]
+        radius = math.hypot(at["X"], at["Y"])
+        inward = self.job.side == "outside"
+        scale = 1 + (-size if inward else size) / self.job.unit / radius
+        back = self.lines[k + 1]
+        words = dict(WORD.findall(back))
+        # the next point keeps its place: words that it left out are given
+        self.lines[k + 1] = back + "".join(f" {a}{at[a]:.5f}" for a in "XY" if a not in words)
+        self.lines[k] = f"G1 X{at['X'] * scale:.5f} Y{at['Y'] * scale:.5f}"
+        self.line = k + 1
+        self.name = "wall_gouge_max_mm" if self.job.shape == "disc" else None  # elsewhere not square to the wall
+        return size
+
     def height(self):
         size = round(self.random.uniform(0.1, 0.6), 2)
         place = next(k for k, line in enumerate(self.lines) if line.startswith("G0"))
@@ -196,15 +218,18 @@ class Plant:
         self.name = "level_left_mm"
         return 2.5
 
-    def tool(self):
+    def tool(self, size=0.5):
+        """In the spindle is a tool whose radius is `size` more than that of the plan."""
         path = self.job.folder / "job.toml"
-        size = 0.5
         wide = self.job.length(self.job.diameter)
         more = self.job.length(self.job.diameter + 2 * size)
         path.write_text(path.read_text().replace(f"diameter = {wide}", f"diameter = {more}", 1))
         self.lines = [re.sub(r"\((tool \d+ flat) diameter [\d.]+", rf"(\1 diameter {more}", line) for line in self.lines]
-        self.name = "wall_gouge_max_mm"
+        self.name = "wall_gouge_max_mm" if size > 0 else None
         return size
+
+    def thin_tool(self):
+        return self.tool(-0.4)
 
 
 def planted(job, folder):
@@ -214,20 +239,23 @@ def planted(job, folder):
     if done.returncode:
         return f"plan: {done.stderr[-300:]}"
     lines = (folder / "p.ngc").read_text().splitlines()
-    for kind in (Plant.rapid, Plant.deeper, Plant.offset, Plant.height, Plant.missing, Plant.tool):
+    for kind in (Plant.rapid, Plant.deeper, Plant.offset, Plant.height, Plant.missing, Plant.tool,
+                 Plant.thin_tool, Plant.moved):
         plant = Plant(job, lines)
         size = kind(plant)
+        if size == 0:
+            continue
         (folder / f"{kind.__name__}.ngc").write_text("\n".join(plant.lines) + "\n")
         status, figures, said = verify(folder, f"{kind.__name__}.ngc")
         (folder / "job.toml").write_text(original)
-        if status == 2 and kind is Plant.tool:
+        if status == 2 and kind in (Plant.tool, Plant.thin_tool):
             continue
         if status != 1:
             return f"{kind.__name__} of {size} mm: status {status}, {said[-200:]}"
         found = figures.get(plant.name, 0)
-        if abs(found - size) > 0.02 + 0.1 * size:
+        if plant.name and abs(found - size) > 0.02 + 0.1 * size:
             return f"{kind.__name__} of {size} mm: {plant.name} {found}; {figures['broken']}"
-        if plant.line and not any(f"line {plant.line}" in text for text in figures["broken"]):
+        if plant.line and not any(f"line {plant.line + more}" in text for text in figures["broken"] for more in (0, 1)):
             return f"{kind.__name__} in line {plant.line}: {figures['broken']}"
         if not all(" x " in text or text.startswith("tabs") for text in figures["broken"]):
             return f"{kind.__name__}: no place in {figures['broken']}"
