@@ -12,6 +12,7 @@ namespace cusp::toolpath {
 namespace {
 
 constexpr int kKnotDigits = 9;
+constexpr int kSizeDecimals = 7;  // of a tool: in inch 3 nm
 
 std::string trimmed(std::string text)
 {
@@ -64,21 +65,31 @@ void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool 
 
 std::string tool_text(const Toolpath& path, double unit, const char* name)
 {
-    const Tool& tool = path.tool;
-    std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, name_of(tool.shape),
-                                   fixed_point(2 * tool.radius / unit, 4), name);
-    if (tool.shape == ToolShape::kBull) {
-        text +=
-            fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
-    }
-    if (is_conical(tool) && tool.corner_radius > 0) {
-        text += fmt::format(" ball radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
-    }
-    if (is_conical(tool)) {
-        text += fmt::format(" tip angle {}", fixed_point(tool.tip_angle * 180 / kPi, 2));
-    }
+    std::string text = tool_sizes(path.tool, unit, name);
     if (!path.tool_name.empty()) {
         text += ": " + path.tool_name;
+    }
+    return text;
+}
+
+std::string tool_sizes(const Tool& tool, double unit, const char* name)
+{
+    const auto size = [&](const char* of, double mm) {
+        return fmt::format(" {} {} {}", of, fixed_point(mm / unit, kSizeDecimals), name);
+    };
+    std::string text = fmt::format("tool {} {}", tool.number, name_of(tool.shape));
+    text += size("diameter", 2 * tool.radius);
+    if (tool.shape == ToolShape::kBull) {
+        text += size("corner radius", tool.corner_radius);
+    }
+    if (is_conical(tool) && tool.corner_radius > 0) {
+        text += size("ball radius", tool.corner_radius);
+    }
+    if (is_conical(tool) && tool.tip_radius > 0) {
+        text += size("tip diameter", 2 * tool.tip_radius);
+    }
+    if (is_conical(tool)) {
+        text += " tip angle " + fixed_point(tool.tip_angle * 180 / kPi, kSizeDecimals);
     }
     return text;
 }

@@ -246,9 +246,17 @@ void ProgramWriter::change_tool(const Toolpath& path)
         end_coolant();
         rpm_ = 0;  // the change stops the spindle
     }
-    const std::string text = tool_text(path, unit_, form_.inch ? "inch" : "mm");
-    const std::string& name = path.tool_name.empty() ? text : path.tool_name;
-    for (const std::string& line : first ? post_.first_tool : post_.next_tool) {
+    const bool named = !path.tool_name.empty();
+    const char* unit = form_.inch ? "inch" : "mm";
+    const std::string text = tool_text(path, unit_, unit);
+    const bool fits = text.size() <= kCommentWidth;
+    const std::string name = named ? path.tool_name : fits ? text : "tool " + std::to_string(tool_);
+    const std::vector<std::string>& lines = first ? post_.first_tool : post_.next_tool;
+    // within a line the comment is short and may lack the sizes
+    if (std::count(lines.begin(), lines.end(), "{comment}") == 0 && (named || !fits)) {
+        put_comment(tool_sizes(path.tool, unit_, unit));
+    }
+    for (const std::string& line : lines) {
         if (line == "{comment}") {
             put_comment(text);
         } else {

@@ -9,7 +9,6 @@
 namespace cusp::toolpath {
 namespace {
 
-constexpr std::size_t kCommentWidth = 72;
 // In last decimals: 1.5 in the plane of an arc, 0.5 square to it, together 1.58.
 constexpr double kMostRounding = 1.6;
 

@@ -5,6 +5,7 @@
 // keys, which are these members.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -59,6 +60,9 @@ double added_rounding(const Post& post, bool inch);
 // The template with every {name} replaced by its value; a name without a value stays.
 std::string filled(std::string line,
                    const std::vector<std::pair<std::string, std::string>>& values);
+
+// Characters of a comment in one line.
+inline constexpr std::size_t kCommentWidth = 72;
 
 // The comment as one line, or as many as a controller's short lines need, each with its end; ""
 // where the form has none. Characters that controllers take for commands are replaced.

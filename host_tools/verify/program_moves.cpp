@@ -171,7 +171,7 @@ public:
 private:
     void take_tool(std::string_view line)
     {
-        const std::optional<Tool> tool = tool_of_comment(line);
+        const std::optional<Tool> tool = comments_.tool_after(line);
         if (!tool) {
             return;
         }
@@ -196,6 +196,7 @@ private:
     Program program_;
     std::uint32_t number_{0};
     int commented_tool_{0};
+    ToolComments comments_;
 };
 
 }  // namespace

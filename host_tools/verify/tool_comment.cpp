@@ -1,6 +1,7 @@
 // Word by word.
 #include "host_tools/verify/tool_comment.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +20,8 @@ using toolpath::ToolShape;
 
 namespace {
 
-std::vector<std::string> words_of_comment(std::string_view line)
+// Without its bracket or semicolon, and without a tool's name.
+std::string text_of_comment(std::string_view line)
 {
     const std::size_t begin = line.find_first_of("(;");
     if (begin == std::string_view::npos) {
@@ -27,6 +29,12 @@ std::vector<std::string> words_of_comment(std::string_view line)
     }
     std::string text{line.substr(begin + 1)};
     text.erase(std::min(text.find_first_of(":)"), text.size()));
+    return text;
+}
+
+std::vector<std::string> words_of_comment(std::string_view line)
+{
+    std::string text = text_of_comment(line);
     for (char& c : text) {
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
@@ -46,11 +54,15 @@ std::optional<double> positive_number(const std::string& word)
     return good ? std::optional{value} : std::nullopt;
 }
 
-// mm, of the words at `at`: "corner radius 1 mm" for the name "radius" at 1
-std::optional<double> length_after(const std::vector<std::string>& words, const char* name)
+// mm: 6 of "diameter 6 mm" for the name "diameter"; of "tip diameter 1 mm" only where the word before
+// is `of`.
+std::optional<double> length_after(const std::vector<std::string>& words,
+                                   const char* name,
+                                   const char* of = nullptr)
 {
-    for (std::size_t i = 0; i + 2 < words.size(); ++i) {
-        const auto value = words[i] == name ? positive_number(words[i + 1]) : std::nullopt;
+    for (std::size_t i = 1; i + 2 < words.size(); ++i) {
+        const bool named = words[i] == name && (words[i - 1] == "tip") == (of != nullptr);
+        const auto value = named ? positive_number(words[i + 1]) : std::nullopt;
         if (value && (words[i + 2] == "mm" || words[i + 2] == "inch")) {
             return *value * (words[i + 2] == "inch" ? kMillimetresPerInch : 1.0);
         }
@@ -113,9 +125,27 @@ std::optional<Tool> tool_of_comment(std::string_view line)
         }
         tool.tip_angle = *angle;
         tool.corner_radius = length_after(words, "radius").value_or(0.0);
-        if (!(tool.corner_radius < tool.radius)) {
+        tool.tip_radius = length_after(words, "diameter", "tip").value_or(0.0) / 2;
+        if (!(std::max(tool.corner_radius, tool.tip_radius) < tool.radius)) {
             return std::nullopt;
         }
+    }
+    return tool;
+}
+
+std::optional<Tool> ToolComments::tool_after(std::string_view line)
+{
+    constexpr std::size_t kLongest = 200;  // characters: longer ones are no comment on a tool
+    const std::vector<std::string> words = words_of_comment(line);
+    const bool begins = !words.empty() && words[0] == "tool";
+    const bool goes_on = !begun_.empty() && !begins && !line.empty() &&
+                         (line[0] == '(' || line[0] == ';') && begun_.size() < kLongest;
+    begun_ = begins    ? "(" + text_of_comment(line)
+             : goes_on ? begun_ + " " + text_of_comment(line)
+                       : std::string{};
+    const std::optional<Tool> tool = begun_.empty() ? std::nullopt : tool_of_comment(begun_);
+    if (tool) {
+        begun_.clear();
     }
     return tool;
 }

@@ -220,7 +220,8 @@ TEST(Post, FramesOfAFanuc)
     post.end = {"M30", "%"};
     const std::string expected =
         "%\nO1000\n(cusp job.toml)\nN10 G17 G21 G90\nN20 G61\nN30 G5.1 Q1\n"
-        "N40 T1 M6 (6mm ball)\nN50 M3 S12000\nN60 G0 G43 Z5. H1\nN70 G0 X1. Y2.\n"
+        "(tool 1 ball diameter 12 mm)\nN40 T1 M6 (6mm ball)\nN50 M3 S12000\nN60 G0 G43 Z5. H1\nN70 "
+        "G0 X1. Y2.\n"
         "N80 G1 Z1. F1200.\nN90 G0 Z5.\nN100 M5\nN110 T2 M6 (tool 2 ball diameter 12 mm)\n"
         "N120 M3 S12000\nN130 G0 G43 Z5. H2\nN140 G0 X1. Y2.\nN150 G1 Z0.\nN160 G0 Z5.\n"
         "N170 G28 G91 Z0.\nN180 M30\n%\n";

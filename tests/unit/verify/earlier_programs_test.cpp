@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "CppUTest/TestHarness.h"
@@ -11,7 +12,9 @@
 #include "firmware/base/inch.hpp"
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/toolpath/gcode_text.hpp"
+#include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/tool.hpp"
+#include "host_tools/verify/program_moves.hpp"
 #include "host_tools/verify/tool_comment.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -49,6 +52,64 @@ TEST(ToolComment, describes_each_tool_as_it_was_written)
                 }
             }
         }
+    }
+}
+
+// A tool of any shape with sizes of any number of digits.
+static Tool random_tool(std::mt19937& random)
+{
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>{low, high}(random);
+    };
+    const ToolShape shapes[]{ToolShape::kBall, ToolShape::kFlat,  ToolShape::kBull,
+                             ToolShape::kVee,  ToolShape::kDrill, ToolShape::kTaper};
+    Tool tool;
+    tool.number = static_cast<int>(uniform(1, 255));
+    tool.shape = shapes[static_cast<std::size_t>(uniform(0, 5.999))];
+    tool.radius = uniform(0.05, 20);
+    if (tool.shape == ToolShape::kBall) {
+        tool.corner_radius = tool.radius;
+    } else if (tool.shape == ToolShape::kBull) {
+        tool.corner_radius = uniform(0.1, 1) * tool.radius;
+    } else if (is_conical(tool)) {
+        tool.tip_angle = uniform(0.05, 3);
+        const double end = uniform(0.01, 0.99) * tool.radius;
+        const bool ball = tool.shape == ToolShape::kTaper && uniform(0, 1) < 0.5;
+        (ball ? tool.corner_radius : tool.tip_radius) = tool.shape == ToolShape::kDrill ? 0 : end;
+    }
+    return tool;
+}
+
+TEST(ToolComment, has_all_sizes_in_every_form_of_program)
+{
+    constexpr unsigned kSeed = 48;
+    constexpr double kSame = 2e-6;  // mm and radians
+    std::mt19937 random{kSeed};
+    std::printf("tools: seed %u\n", kSeed);
+    cusp::test::TemporaryFolder folder;
+    for (int i = 0; i < 300; ++i) {
+        Toolpath path;
+        path.tool = random_tool(random);
+        path.tool_name = i % 3 == 0 ? "one of 6 mm (two flutes)" : "";
+        path.feed = path.plunge_feed = 100;
+        path.moves = {{MoveKind::kRapid, LineTo{{1, 1, 5}}},
+                      {MoveKind::kPlunge, LineTo{{1, 1, 0}}}};
+        ProgramForm form{"test", i % 2 == 0, 5, {}, {}};
+        form.post.comments = i % 5 == 0 ? CommentForm::kSemicolon : CommentForm::kParentheses;
+        if (i % 7 < 3) {
+            form.post.first_tool = {"T{tool} M6 {comment}"};
+        }
+        std::ostringstream out;
+        write_program(out, form, {{path, {}}});
+        const Program program = read_program(folder.with("p.ngc", out.str()), 5);
+        LONGS_EQUAL(1, program.tools.size());
+        const Tool& tool = program.tools.begin()->second;
+        LONGS_EQUAL(path.tool.number, tool.number);
+        CHECK(path.tool.shape == tool.shape);
+        DOUBLES_EQUAL(path.tool.radius, tool.radius, kSame);
+        DOUBLES_EQUAL(path.tool.corner_radius, tool.corner_radius, kSame);
+        DOUBLES_EQUAL(path.tool.tip_radius, tool.tip_radius, kSame);
+        DOUBLES_EQUAL(path.tool.tip_angle, tool.tip_angle, kSame);
     }
 }
 
