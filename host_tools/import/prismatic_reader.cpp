@@ -128,26 +128,33 @@ std::vector<NestedLoop> nested(const std::vector<FileLoop>& loops)
     return out;
 }
 
-void check_holes(const JobTable& table, const Operation& operation, PartFiles& parts)
+// Takes out the holes that the tool doesn't fit into.
+void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
 {
     const Tool& tool = operation.tool;
-    int larger = 0;
-    for (const Hole& hole : operation.prismatic->holes) {
-        if (hole.diameter > 0 && hole.diameter < 2 * tool.radius - kSameDiameter) {
-            table.refuse(
-                "boundary",
-                fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
-                            "tool {} of {:g} mm; diameter chooses holes",
-                            hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius));
-        }
-        larger += hole.diameter > 2 * tool.radius + kSameDiameter ? 1 : 0;
+    Prismatic& cut = *operation.prismatic;
+    const auto fits = [&](const Hole& hole) {
+        return !(hole.diameter > 0 && hole.diameter < 2 * tool.radius - kSameDiameter);
+    };
+    const auto narrower = std::stable_partition(cut.holes.begin(), cut.holes.end(), fits);
+    cut.narrower_holes.assign(narrower, cut.holes.end());
+    cut.holes.erase(narrower, cut.holes.end());
+    if (cut.holes.empty()) {
+        const Hole& hole = cut.narrower_holes.front();
+        table.refuse(
+            "boundary",
+            fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
+                        "tool {} of {:g} mm, as are all; diameter chooses holes",
+                        hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius));
     }
+    const auto larger = std::count_if(cut.holes.begin(), cut.holes.end(), [&](const Hole& hole) {
+        return hole.diameter > 2 * tool.radius + kSameDiameter;
+    });
     if (larger > 0) {
         parts.note(fmt::format(
             "operation {}: drill: {} of {} {} wider than tool {} of {:g} mm: {} its diameter",
-            operation.number, larger, counted(operation.prismatic->holes.size(), "hole"),
-            larger == 1 ? "is" : "are", tool.number, 2 * tool.radius,
-            larger == 1 ? "it gets" : "they get"));
+            operation.number, larger, counted(cut.holes.size(), "hole"), larger == 1 ? "is" : "are",
+            tool.number, 2 * tool.radius, larger == 1 ? "it gets" : "they get"));
     }
 }
 
@@ -275,12 +282,12 @@ void read_drawing(const JobTable& table,
         const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, kLargest});
         cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
                                 cut.diameters.has_value());
+        check_holes(table, operation, parts);
         if (!cut.given_depth && !cut.holes.front().span) {
             table.refuse("depth",
                          "is missing: drill needs how deep it cuts where the holes are "
                          "those of a drawing");
         }
-        check_holes(table, operation, parts);
     } else if (operation.strategy == "engrave") {
         cut.chains = parts.chains(file, unit);
     } else if (!file.empty()) {

@@ -62,9 +62,10 @@ struct Prismatic {
     bool given_depth{};  // by the job; else that of a vee's flank
     // pocket, profile, v_carve, chamfer; face: what is faced, none: the stock
     std::vector<NestedLoop> loops;
-    std::vector<Chain> chains;  // engrave
-    std::vector<Hole> holes;    // drill
-    std::string file;           // that they come from
+    std::vector<Chain> chains;         // engrave
+    std::vector<Hole> holes;           // drill
+    std::vector<Hole> narrower_holes;  // than the drill: left out with a warning
+    std::string file;                  // that they come from
     // profile
     ProfileSide side{ProfileSide::kOutside};
     std::optional<Tabs> tabs;
