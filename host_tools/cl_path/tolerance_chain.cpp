@@ -14,6 +14,10 @@ namespace {
 
 // Allowed deviation between stations, relative to that at stations.
 constexpr double kBetween = 1.15;
+// Radii of arcs, mm.
+constexpr double kSmallest = 0.5;
+constexpr double kSmallestDrawn = 0.005;
+constexpr double kAsDrawn = 0.05;  // of the curvature
 
 // Directions between two unit vectors, less than half a turn counter-clockwise from low to high.
 struct Wedge {
@@ -239,7 +243,10 @@ private:
         const auto angle_of = [&](Vec2d p) {
             return std::atan2(cross(arm, p - centre), dot(arm, p - centre)) * turn;
         };
-        if (radius < 0.5 || radius > 2000.0) {
+        // A smaller one is none of the floor's noise where the plan path itself is that arc.
+        const bool drawn =
+            std::abs(stations_[i + (j - i) / 2].bend * radius * turn - 1.0) < kAsDrawn;
+        if (radius < (drawn ? kSmallestDrawn : kSmallest) || radius > 2000.0) {
             return std::nullopt;
         }
         Rise rise;

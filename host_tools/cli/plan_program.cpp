@@ -26,6 +26,7 @@
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/post.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 #include "host_tools/toolpath/tool_order.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -43,10 +44,12 @@ using job::Operation;
 using job::overlap_warnings;
 using job::PocketRefusal;
 using strategies::plan_operation;
+using toolpath::end_of;
 using toolpath::MachineRates;
 using toolpath::PathMeasure;
 using toolpath::PlannedOperation;
 using toolpath::ProgramForm;
+using toolpath::short_tour;
 
 namespace {
 
@@ -94,9 +97,48 @@ std::vector<PlannedOperation> planned(const Job& job, const Operation& operation
     }
 }
 
+// The operations of one table that follow each other with one tool, pockets of a drawing, lie beside each
+// other: they get a short tour.
+//
+// pockets  of each operation the one that it belongs to: roughing and finish of a pocket stay in order
+void shorten_ways(const std::vector<PlannedOperation>& operations,
+                  const std::vector<std::size_t>& pockets,
+                  std::vector<std::size_t>& order)
+{
+    Vec2d here{0, 0};
+    for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+        std::vector<std::vector<std::size_t>> stops;
+        std::vector<Vec2d> starts;
+        for (end = first; end < order.size(); ++end) {
+            const PlannedOperation& a = operations[order[first]];
+            const PlannedOperation& b = operations[order[end]];
+            if (a.operation != b.operation || a.path.tool.number != b.path.tool.number ||
+                b.path.moves.empty()) {
+                break;
+            }
+            if (stops.empty() || pockets[stops.back().back()] != pockets[order[end]]) {
+                stops.emplace_back();
+                starts.push_back(in_plan(end_of(b.path.moves.front())));
+            }
+            stops.back().push_back(order[end]);
+        }
+        std::size_t place = first;
+        for (const std::size_t k : short_tour(starts, here)) {
+            for (const std::size_t operation : stops[k]) {
+                order[place++] = operation;
+            }
+        }
+        end = std::max(end, first + 1);
+        if (!operations[order[end - 1]].path.moves.empty()) {
+            here = in_plan(end_of(operations[order[end - 1]].path.moves.back()));
+        }
+    }
+}
+
 // Groups the operations by tool and measures them in that order.
 void put_in_order(const Job& job,
                   std::vector<PlannedOperation>& operations,
+                  const std::vector<std::size_t>& pockets,
                   const MachineRates& rates,
                   Plan& plan)
 {
@@ -106,6 +148,7 @@ void put_in_order(const Job& job,
     if (job.group_by_tool) {
         order = tool_order(operations, clearance_z);
     }
+    shorten_ways(operations, pockets, order);
     // the position of the tool is unknown before the first rapid move
     Vec3d at{0, 0, clearance_z};
     for (const std::size_t place : order) {
@@ -120,6 +163,7 @@ Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* s
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
     std::vector<PlannedOperation> operations;
+    std::vector<std::size_t> pockets;  // places in job.operations
     for (std::size_t i = 0; i < job.operations.size(); ++i) {
         const Operation& operation = job.operations[i];
         fmt::print(said, "operation {} of {}: {}\n", i + 1, job.operations.size(),
@@ -151,9 +195,10 @@ Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* s
             add_rounding(job, result);
             result.operation = operation.number;
             operations.push_back(std::move(result));
+            pockets.push_back(i);
         }
     }
-    put_in_order(job, operations, rates, plan);
+    put_in_order(job, operations, pockets, rates, plan);
     return plan;
 }
 

@@ -12,11 +12,13 @@ using cl_path::ClMove;
 using cl_path::ClPath;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
-using toolpath::beginning;
+using toolpath::EntryRun;
 using toolpath::LineTo;
 using toolpath::MoveKind;
 using toolpath::NurbsTo;
 using toolpath::plan_length;
+using toolpath::RunPiece;
+using toolpath::there_and_back;
 using toolpath::ToolMove;
 
 namespace {
@@ -43,23 +45,13 @@ ToolMove tool_move(MoveKind kind, const ClMove& move)
     return {kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}};
 }
 
-// The first part of a pass, in plan half of `way` long, and back to its start.
-std::vector<Vec3d> there_and_back(const std::vector<Vec3d>& pass, double way)
+EntryRun run_of(const ClPath& path)
 {
-    std::vector<Vec3d> round = beginning(pass, 0.5 * way);
-    for (std::size_t i = round.size() - 1; i-- > 0;) {
-        round.push_back(round[i]);
-    }
-    return round;
-}
-
-std::vector<Vec3d> corners_of(const ClPath& path)
-{
-    std::vector<Vec3d> corners{path.start};
+    EntryRun run{path.start, {}};
     for (const ClMove& move : path.moves) {
-        corners.push_back(move.end);
+        run.pieces.push_back({move.end, move.centre, move.turn});
     }
-    return corners;
+    return run;
 }
 
 }  // namespace
@@ -108,21 +100,28 @@ double ClPathWriter::begin_entry(Vec3d start, const EntryHeights& heights)
     return lower;
 }
 
-void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, bool plunges)
+void ClPathWriter::enter_along(const ClPath& path,
+                               const EntryHeights& heights,
+                               double least_turn,
+                               bool plunges)
 {
     const bool vertical = is_over(path.start);
     double z = begin_entry(path.start, heights);
-    std::vector<Vec3d> pass = corners_of(path);
+    EntryRun pass = run_of(path);
     const double way = (z - path.start.z) / kEntrySlope;
-    const bool open = plan_distance(pass.front(), pass.back()) > kSamePoint;
-    if (open || (vertical && way < plan_length(pass))) {
+    const bool open = plan_distance(pass.start, pass.end()) > kSamePoint;
+    const bool narrow = !open && kEntrySlope * plan_length(pass) < least_turn;
+    if (open || (vertical && !narrow && way < plan_length(pass))) {
         pass = there_and_back(pass, way);
     }
     const double round = plan_length(pass);
-    const double lowest =
-        std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
-    const double turns = (z - lowest) / std::max(kEntrySlope * round, 1e-9);
-    const bool steep = turns * static_cast<double>(pass.size()) > kMostPoints;
+    double lowest = pass.start.z;
+    for (const RunPiece& piece : pass.pieces) {
+        lowest = std::min(lowest, piece.end.z);
+    }
+    const double slope = narrow ? least_turn / std::max(round, 1e-9) : kEntrySlope;
+    const double turns = (z - lowest) / std::max(slope * round, 1e-9);
+    const bool steep = turns * static_cast<double>(pass.pieces.size()) > kMostPoints;
     if (plunges || steep) {
         steep_plunges_ += plunges || z - path.start.z < kHardlyDeep ? 0 : 1;
         plunge(path.start);
@@ -130,13 +129,26 @@ void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, 
     }
     for (bool sloped = true; sloped && z > lowest;) {
         sloped = false;
-        for (std::size_t i = 1; i < pass.size(); ++i) {
-            z -= kEntrySlope * plan_distance(pass[i - 1], pass[i]);
+        Vec3d from = pass.start;
+        for (const RunPiece& piece : pass.pieces) {
+            z -= slope * plan_length(from, piece);
             // Corners of the slope keep clear of the pass.
-            const bool over = z > pass[i].z + kSettled;
+            const bool over = z > piece.end.z + kSettled;
             sloped = sloped || over;
-            plunge({pass[i].x, pass[i].y, over ? z : pass[i].z});
+            plunge_along(piece, over ? z : piece.end.z);
+            from = piece.end;
         }
+    }
+}
+
+void ClPathWriter::plunge_along(const RunPiece& piece, double z)
+{
+    const Vec3d end{piece.end.x, piece.end.y, z};
+    if (piece.turn == 0) {
+        plunge(end);
+    } else {
+        writer_.arc(MoveKind::kPlunge,
+                    {end, {piece.centre.x, piece.centre.y, z}, ArcPlane::kXY, piece.turn < 0});
     }
 }
 
@@ -167,7 +179,7 @@ double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
     constexpr double kGentle = 0.1;
     const Vec3d centre = helix.centre;
     std::vector<Vec3d> sides;
-    double highest = centre.z;
+    double highest = -kUnbounded;
     double deepest = kUnbounded;
     for (int i = 1; i <= kHelixSides; ++i) {
         const double angle = 2 * kPi * i / kHelixSides;
@@ -177,7 +189,7 @@ double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
         deepest = std::min(deepest, sides.back().z);
     }
     const double drop = kEntrySlope * helix.radius * 2 * kPi / kHelixSides;
-    double z = std::max(helix.heights.stock_top, highest);
+    double z = std::max({helix.heights.stock_top, highest, centre.z});
     const Vec3d at = writer_.at();
     const Vec3d first{sides.back().x, sides.back().y, std::max(z, at.z)};
     if (is_over(centre)) {
@@ -187,6 +199,10 @@ double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
         writer_.approach(in_plan(first), std::max(helix.heights.rapid, z + kHelixRapidOver));
         plunge({first.x, first.y, z});
     }
+    if (helix.arcs && highest <= deepest) {
+        half_turns(in_plan(centre), deepest, drop * kHelixSides / 2);
+        z = deepest;
+    }
     for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {
         z -= drop;
         plunge_over({sides[i].x, sides[i].y, std::max(z, sides[i].z)}, floor.clearance);
@@ -194,6 +210,19 @@ double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
     const bool gentle = helix.whole || writer_.at().z - centre.z <= kGentle * helix.radius;
     plunge_over({centre.x, centre.y, gentle ? centre.z : writer_.at().z}, floor.clearance);
     return writer_.at().z;
+}
+
+// Around a level place, from where the tool is down to z.
+//
+// most  mm, of a half turn
+void ClPathWriter::half_turns(Vec2d centre, double z, double most)
+{
+    const double depth = writer_.at().z - z;
+    const int count = std::max(1, static_cast<int>(std::ceil(depth / most)));
+    for (int i = 1; i <= count; ++i) {
+        const Vec2d opposite = centre * 2.0 - in_plan(writer_.at());
+        plunge_along({{opposite.x, opposite.y, 0.0}, centre, 1}, z + depth * (count - i) / count);
+    }
 }
 
 void ClPathWriter::follow(MoveKind kind, const ClPath& path)

@@ -39,11 +39,16 @@ public:
     ClPathWriter(const ClPathWriter&) = delete;
     ClPathWriter& operator=(const ClPathWriter&) = delete;
 
-    // Descends to the start of a pass of straight moves. The tool repeats the pass on a gentle
+    // Descends to the start of a pass of lines and arcs. The tool repeats the pass on a gentle
     // slope until all of it is at depth. It goes there and back along the first part of an open or
     // short pass, and plunges with `plunge`. A tool that is already above the start begins from
     // there.
-    void enter_along(const cl_path::ClPath& path, const EntryHeights& heights, bool plunge);
+    //
+    // least_turn  mm: round a narrow closed pass it descends at least that far a turn
+    void enter_along(const cl_path::ClPath& path,
+                     const EntryHeights& heights,
+                     double least_turn,
+                     bool plunge);
 
     // A helix around the start of a pass.
     struct Helix {
@@ -51,6 +56,7 @@ public:
         double radius;  // mm
         bool whole;     // true: ends at the start itself; false: may end above it
         EntryHeights heights;
+        bool arcs;  // over a level floor half turns, else chords
     };
     // The floor below a helix.
     struct HelixFloor {
@@ -89,6 +95,8 @@ private:
     void plunge(Vec3d end) { writer_.line(toolpath::MoveKind::kPlunge, end); }
     double begin_entry(Vec3d start, const EntryHeights& heights);
     void plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& clearance);
+    void plunge_along(const toolpath::RunPiece& piece, double z);
+    void half_turns(Vec2d centre, double z, double most);
     void follow(toolpath::MoveKind kind, const cl_path::ClPath& path);
 
     std::vector<toolpath::ToolMove> moves_;

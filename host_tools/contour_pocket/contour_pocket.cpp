@@ -126,7 +126,8 @@ public:
         report(levels_done_);
         loops_ = static_cast<int>(cleared.passes.size());
         pencil_passes_ = static_cast<int>(pencils.size());
-        if (rough == nullptr && cleared.saved > 0.0) {
+        const bool last_layer = finish_is_last_layer(operation_);
+        if ((rough == nullptr || last_layer) && cleared.saved > 0.0) {
             put_in_partial_loops(cleared);
             pencils = add_pencil_detours(cleared, pencils, walls_,
                                          tolerances_.wall_clearance - tolerances_.plan_tolerance,
@@ -140,10 +141,18 @@ public:
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         settings.repeated = pencil_settings(cleared);
-        if (rough != nullptr) {
+        if (last_layer) {
+            const double above = rough != nullptr ? rough->heights.back() : job_.stock_top;
+            settings.depth_share = 1.0;
+            settings.entry_heights = [above](double pass) {
+                return heights_over(std::max(above, pass));
+            };
+        } else if (rough != nullptr) {
             settings.repeated = beside_roughing(cleared, *rough);
             flatten(cleared, settings);
             end_with_partial_loops(cleared);
+            settings.rapid_to_stock = true;
+            settings.skipped = cut_by_roughing(cleared, settings.repeated, *rough);
             const bool stock_left = operation_.allowance > 0.0 ||
                                     rough->operation.path.tool.number != operation_.tool.number;
             if (stock_left) {
@@ -171,7 +180,9 @@ private:
     {
         ClearingSettings settings;
         settings.wall_clearance = tolerances_.wall_clearance;
-        const double widest = operation_.step_over.value_or(kUnbounded);
+        const double widest = finish_is_last_layer(operation_)
+                                  ? rough_stepover(operation_)
+                                  : operation_.step_over.value_or(kUnbounded);
         settings.stepover = std::min(2.0 * operation_.tool.radius, widest);
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
@@ -295,6 +306,20 @@ private:
             }
         }
         return beside;
+    }
+
+    // Over a level floor a flat mill without allowance leaves nothing to passes away from other stock.
+    std::vector<bool> cut_by_roughing(const ClearedRegion& cleared,
+                                      const std::vector<bool>& beside,
+                                      const RoughResult& rough) const
+    {
+        std::vector<bool> cut(cleared.passes.size(), false);
+        const bool whole = operation_.prismatic && operation_.allowance <= 0.0 &&
+                           rough.operation.path.tool.corner_radius <= 0.0 && !rough.heights.empty();
+        for (std::size_t i = 0; whole && i < cut.size(); ++i) {
+            cut[i] = !beside[i] && cleared.passes[i].final_path.empty();
+        }
+        return cut;
     }
 
     // Depths for passes beside such stock: those of roughing, and more for the finishing tool,

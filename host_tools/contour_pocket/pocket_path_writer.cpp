@@ -30,6 +30,7 @@ using offset::line_edge;
 using offset::Region2d;
 using offset::RegionOffset;
 using offset::reversed;
+using toolpath::kLeastTurn;
 using toolpath::MoveKind;
 
 namespace {
@@ -92,9 +93,9 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     const bool helix = (settings.entry == EntryKind::kHelix && !is_above) ||
                        (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !is_above) ||
                        (settings.entry != EntryKind::kPlunge && round < 0.5 * tool);
-    const bool lines = !path_settings.arcs && !path_settings.nurbs;
-    path_settings.arcs = path_settings.nurbs = false;
-    const ClPath path = lines ? cut.path : project(pass.path, path_settings);
+    const bool curves = path_settings.nurbs;
+    path_settings.nurbs = false;
+    const ClPath path = curves ? project(pass.path, path_settings) : cut.path;
     EntryHeights heights = settings.entry_heights(path.start.z);
     const bool open = is_open(pass);
     if (depth_ != nullptr) {
@@ -102,6 +103,8 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
         // Closed passes have already cut the stock around open ones.
         heights.stock_top = open ? over.stock_top : heights.stock_top;
         heights.raise_over(over);
+        heights.rapid =
+            settings.rapid_to_stock ? std::max(over.rapid, heights.stock_top) : heights.rapid;
     }
     const double around = helix ? stock_top_around(start, radius) : 0.0;
     // A helix extends beyond the pass, into stock that no pass has cut.
@@ -111,7 +114,7 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.stock_top = moves_.enter_by_helix(
-            {path.start, radius, round < radius, heights},
+            {path.start, radius, round < radius, heights, path_settings.arcs},
             {[&](Vec2d at) {
                  return std::max(floor_.tip_height(at) + path_settings.allowance,
                                  path_settings.min_z);
@@ -120,7 +123,7 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
                  return floor_.move_clearance(a, b);
              }});
     }
-    moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
+    moves_.enter_along(path, heights, kLeastTurn * tool, settings.entry == EntryKind::kPlunge);
 }
 
 double PocketPathWriter::stock_top_around(Vec2d start, double radius) const
@@ -301,6 +304,7 @@ PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass&
     ProjectedPass last = project_pass(flat, settings, true);
     CutSettings entering = settings;
     entering.path_settings.nurbs = false;
+    entering.rapid_to_stock = false;
     double before = kUnbounded;
     for (int i = 0; i < kMostCuts; ++i) {
         const auto height = allowed_height_over(last.path, settings);
@@ -330,6 +334,7 @@ void PocketPathWriter::cut_pass(ClearingPass& pass, const CutSettings& settings,
     }
     track_moves();
     CutSettings entering = settings;
+    entering.rapid_to_stock = settings.rapid_to_stock && !repeated;
     if (too_deep(now.path, settings)) {
         now = cut_above(now, settings, repeated);
         entering.entry = layer_entry(settings.entry);
@@ -414,6 +419,9 @@ void PocketPathWriter::cut(const ClearedRegion& cleared, const CutSettings& sett
             cut_beside_stock(passes, settings);
         }
         for (std::size_t i = first; i < end; ++i) {
+            if (is_set(settings.skipped, i)) {
+                continue;
+            }
             cut_final(passes[i - first], settings, is_set(settings.repeated, i));
         }
         if (settings.progress) {

@@ -31,6 +31,11 @@ struct CutSettings {
     // Which passes are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
     StockBesidePasses stock_beside;
+    // Passes that roughing has cut whole; empty: none.
+    std::vector<bool> skipped;
+    // Rapid moves over passes that are not `repeated` end above the stock height map, which may miss thin
+    // stock beside walls; else above entry_heights.
+    bool rapid_to_stock{};
     // Fraction of max_depth that a pass may cut where the stock height is known.
     double depth_share{1.0};
     // Limit of the retracts up to the end, the last one included; at least the number of entries.

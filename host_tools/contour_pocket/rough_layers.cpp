@@ -162,6 +162,20 @@ bool is_roughed(const Operation& operation)
     return operation.max_depth.has_value() || !operation.layers.empty();
 }
 
+bool finish_is_last_layer(const Operation& operation)
+{
+    return is_roughed(operation) && operation.prismatic && operation.layers.empty() &&
+           operation.allowance <= 0.0 &&
+           (operation.tools.empty() || operation.tools.front().number == operation.tool.number);
+}
+
+double rough_stepover(const Operation& operation)
+{
+    const Tool& tool = operation.tools.empty() ? operation.tool : operation.tools.front();
+    return std::min(rough_step(tool, operation.max_depth.value_or(tool.radius)).across,
+                    operation.step_over.value_or(kUnbounded));
+}
+
 double layer_depth(const Operation& operation)
 {
     if (operation.max_depth) {
@@ -191,6 +205,7 @@ double lowest_tip(const ClearedRegion& cleared, const DropCutter& floor)
     return lowest;
 }
 
+// Over 60 lines: the steps of one plan, in order, share its settings.
 std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const Operation& operation,
                                              const Region2d& region,
@@ -212,7 +227,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     ClearingSettings clearing;
     clearing.wall_clearance =
         tolerances.wall_clearance - operation.tool.radius + rough.tool.radius + operation.allowance;
-    clearing.stepover = std::min(step.across, operation.step_over.value_or(kUnbounded));
+    clearing.stepover = rough_stepover(operation);
     clearing.direction = operation.direction_of_cut;
     ClearedRegion cleared = clear_region(region, clearing);
     RoughResult result;
@@ -242,6 +257,12 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     const int each = cleared.leaves + static_cast<int>(operation.islands.size());
     result.heights =
         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
+    if (finish_is_last_layer(operation)) {
+        result.heights.pop_back();
+        if (result.heights.empty()) {
+            return std::nullopt;
+        }
+    }
     cut_layers(job, cleared, result.heights, each, std::move(settings), cutter);
     cutter.end();
     warn_of_thin_layers(job, operation, result);

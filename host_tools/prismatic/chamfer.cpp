@@ -9,6 +9,7 @@
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/prismatic/profile_contours.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 
 #include "fmt/format.h"
 
@@ -22,6 +23,7 @@ using job::Prismatic;
 using offset::Contour;
 using offset::Region2d;
 using offset::RegionOffset;
+using toolpath::inner_first_tour;
 using toolpath::MoveKind;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
@@ -46,7 +48,7 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
                         std::max(0.0, tool.radius - away)));
     }
     const double z = cut.top - (cut.width + kTipClearance) / std::tan(tool.tip_angle / 2);
-    Region2d centres =
+    const Region2d centres =
         RegionOffset{opposite(without_common_edges(material_of(cut)).region)}.at(away);
     if (centres.contours.empty()) {
         const Vec2d p = in_plan(cut.loops.front().loop.front().points.front());
@@ -55,14 +57,19 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
                         "as at x {:.6g} y {:.6g} mm",
                         operation_text(job, operation), cut.file, tool.number, p.x, p.y));
     }
-    sort_inner_first(centres.contours);
     PlannedOperation planned =
         begun(job, operation, fmt::format("{:g} mm wide, tip at z {:.6g} mm", cut.width, z));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const bool climb = operation.direction_of_cut == CutDirection::kClimb;
     const EdgeForm form{operation.output != OutputForm::kLines, operation.plan_tolerance / 2,
                         climb};
+    std::vector<Vec2d> starts;
     for (const Contour& contour : centres.contours) {
+        starts.push_back(contour.front().start);
+    }
+    for (const std::size_t k :
+         inner_first_tour(starts, contours_around(centres.contours), Vec2d{0, 0})) {
+        const Contour& contour = centres.contours[k];
         const Contour way = climb ? contour : reversed(contour);
         writer.approach(way.front().start, rapid_end(job, cut.top));
         writer.line(MoveKind::kPlunge, {way.front().start.x, way.front().start.y, z});

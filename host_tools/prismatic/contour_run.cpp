@@ -122,6 +122,21 @@ std::vector<Vec2d> points_along(const std::vector<Edge>& edges, const EdgeForm& 
     return points;
 }
 
+toolpath::EntryRun run_along(const std::vector<Edge>& edges, Vec3d start, const EdgeForm& form)
+{
+    toolpath::EntryRun run{start, {}};
+    for (const Edge& edge : edges) {
+        if (edge.turn != 0 && form.arcs) {
+            run.pieces.push_back({{edge.end.x, edge.end.y, start.z}, edge.centre, edge.turn});
+            continue;
+        }
+        for (const Vec2d p : points_along({edge}, form)) {
+            run.pieces.push_back({{p.x, p.y, start.z}});
+        }
+    }
+    return run;
+}
+
 void write_edges(const std::vector<Edge>& edges,
                  double z0,
                  double z1,

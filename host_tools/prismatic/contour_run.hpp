@@ -51,6 +51,11 @@ struct EdgeForm {
 // the tolerance; ends are exact.
 std::vector<Vec2d> points_along(const std::vector<offset::Edge>& edges, const EdgeForm& form);
 
+// The edges at the height of the start, as a slope follows them: arcs where the form has them.
+toolpath::EntryRun run_along(const std::vector<offset::Edge>& edges,
+                             Vec3d start,
+                             const EdgeForm& form);
+
 // Moves along the edges, from where the tool is; the height changes evenly from z0 to z1. A descent
 // is a plunging cut.
 void write_edges(const std::vector<offset::Edge>& edges,

@@ -6,8 +6,8 @@
 #include "host_tools/input_error/counted.hpp"
 #include "host_tools/job/hole_depth.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
-#include "host_tools/prismatic/drill_tour.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 
 #include "fmt/format.h"
 
@@ -21,6 +21,7 @@ using job::tip_in_hole;
 using toolpath::DrillCycle;
 using toolpath::MoveKind;
 using toolpath::PlannedOperation;
+using toolpath::short_tour;
 using toolpath::ToolpathWriter;
 
 namespace {
@@ -46,6 +47,24 @@ void drill_hole(Vec2d at, const HoleHeights& hole, double peck, ToolpathWriter& 
             writer.line(MoveKind::kRapid, {at.x, at.y, hole.above});
             writer.line(MoveKind::kRapid, {at.x, at.y, std::min(z + kPeckClearance, hole.above)});
         }
+    }
+}
+
+// A sentence for each of the first few, and the number of the others.
+void warn_of_narrower_holes(const Operation& operation, PlannedOperation& planned)
+{
+    constexpr std::size_t kNamed = 10;
+    const std::vector<Hole>& holes = operation.prismatic->narrower_holes;
+    for (std::size_t k = 0; k < std::min(kNamed, holes.size()); ++k) {
+        planned.stats.warnings.push_back(fmt::format(
+            "{}: the hole of {:g} mm at x {:.6g} y {:.6g} mm is narrower than tool {} of {:g} mm: "
+            "left out",
+            operation.prismatic->file, holes[k].diameter, holes[k].at.x, holes[k].at.y,
+            operation.tool.number, 2 * operation.tool.radius));
+    }
+    if (holes.size() > kNamed) {
+        planned.stats.warnings.push_back(fmt::format("{} more are narrower than the tool: left out",
+                                                     counted(holes.size() - kNamed, "hole")));
     }
 }
 
@@ -77,6 +96,7 @@ std::vector<PlannedOperation> plan_drill(const Job& job, const Operation& operat
     count_moves(writer, static_cast<int>(places.size()), 1, planned);
     planned.stats.counts.emplace_back("holes", static_cast<double>(places.size()));
     planned.stats.counts.emplace_back("way_mm", way);
+    warn_of_narrower_holes(operation, planned);
     return {planned};
 }
 

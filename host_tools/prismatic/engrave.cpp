@@ -4,12 +4,14 @@
 
 #include "host_tools/input_error/counted.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/prismatic/contour_run.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/engrave_floor.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/prismatic/profile_contours.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 
 #include "fmt/format.h"
 
@@ -23,7 +25,10 @@ using offset::Edge;
 using offset::fit_edges;
 using toolpath::MoveKind;
 using toolpath::PlannedOperation;
+using toolpath::short_tour;
 using toolpath::ToolpathWriter;
+using toolpath::TourStep;
+using toolpath::TourStop;
 
 namespace {
 
@@ -47,32 +52,18 @@ std::vector<Edge> turned_around(std::vector<Edge> edges)
     return edges;
 }
 
-// Nearest end next.
 std::vector<std::vector<Edge>> in_order(std::vector<std::vector<Edge>> chains)
 {
-    Vec2d at{0, 0};
-    for (std::size_t n = 0; n < chains.size(); ++n) {
-        std::size_t best = n;
-        bool turn = false;
-        double least = kUnbounded;
-        for (std::size_t k = n; k < chains.size(); ++k) {
-            for (const bool from_end : {false, true}) {
-                const double d =
-                    norm((from_end ? chains[k].back().end : chains[k].front().start) - at);
-                if (d < least) {
-                    least = d;
-                    best = k;
-                    turn = from_end;
-                }
-            }
-        }
-        std::swap(chains[n], chains[best]);
-        if (turn) {
-            chains[n] = turned_around(std::move(chains[n]));
-        }
-        at = chains[n].back().end;
+    std::vector<TourStop> stops;
+    for (const std::vector<Edge>& chain : chains) {
+        stops.push_back({chain.front().start, chain.back().end});
     }
-    return chains;
+    std::vector<std::vector<Edge>> ordered;
+    for (const TourStep& step : short_tour(stops, {0, 0})) {
+        std::vector<Edge>& chain = chains[step.stop];
+        ordered.push_back(step.turned ? turned_around(std::move(chain)) : std::move(chain));
+    }
+    return ordered;
 }
 
 }  // namespace
@@ -101,18 +92,15 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const EdgeForm form{operation.output != OutputForm::kLines, chord_tolerance(operation), true,
                         true};
-    for (const std::vector<Edge>& edges : in_order(std::move(chains))) {
-        double above = operation.prismatic->top;
+    for (std::vector<Edge>& edges : in_order(std::move(chains))) {
+        writer.approach(edges.front().start, rapid_end(job, operation.prismatic->top));
+        const bool closed = norm(edges.back().end - edges.front().start) <= kFit;
         for (const double z : levels) {
+            // the next level begins where this one ends: an open curve goes back and forth
             const Vec2d start = edges.front().start;
-            const Vec3d down{start.x, start.y, z};
-            // a closed curve continues from where it ended
-            if (above == operation.prismatic->top || norm(in_plan(writer.at()) - start) > kFit) {
-                writer.approach(start, rapid_end(job, above));
-            }
-            writer.line(MoveKind::kPlunge, down);
+            writer.line(MoveKind::kPlunge, {start.x, start.y, z});
             write_edges(edges, z, z, form, writer);
-            above = z;
+            edges = closed ? std::move(edges) : turned_around(std::move(edges));
         }
     }
     writer.retract();

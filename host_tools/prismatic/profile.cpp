@@ -13,6 +13,7 @@
 #include "host_tools/prismatic/profile_contours.hpp"
 #include "host_tools/prismatic/profile_leads.hpp"
 #include "host_tools/prismatic/tab_places.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 
 #include "fmt/format.h"
 
@@ -33,6 +34,8 @@ using offset::edges_of;
 using offset::EdgeTree;
 using offset::Region2d;
 using offset::RegionOffset;
+using toolpath::EntryRun;
+using toolpath::inner_first_tour;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
 
@@ -158,16 +161,28 @@ private:
     }
 
     // rough  where the tool has left the allowance; there only the bottom is left to cut
-    void cut_around(Region2d centres, double away, const std::vector<Edge>& rough)
+    void cut_around(const Region2d& centres, double away, const std::vector<Edge>& rough)
     {
         const std::vector<double> bottom{levels_.back()};
         const EdgeTree roughed{rough};
-        sort_inner_first(centres.contours);
         const auto places = places_by_contour(centres);
+        std::vector<LeadContour> led;
+        std::vector<Vec2d> starts;
         for (std::size_t n = 0; n < centres.contours.size(); ++n) {
-            const Contour& contour = centres.contours[n];
-            cut_contour(contour, away, places[n], is_roughed(contour, roughed) ? bottom : levels_);
+            led.push_back(led_contour(centres.contours[n], away, places[n]));
+            starts.push_back(start_of(led.back()));
         }
+        const Vec2d here = writer_.started() ? in_plan(writer_.at()) : Vec2d{0, 0};
+        for (const std::size_t n :
+             inner_first_tour(starts, contours_around(centres.contours), here)) {
+            cut_contour(led[n], away, places[n],
+                        is_roughed(centres.contours[n], roughed) ? bottom : levels_);
+        }
+    }
+
+    static Vec2d start_of(const LeadContour& led)
+    {
+        return led.leads.in ? led.leads.in->start : led.run.point(0);
     }
 
     // Whether the pass with the allowance came everywhere along the contour, but for corners.
@@ -242,28 +257,37 @@ private:
         return middles;
     }
 
-    void cut_contour(const Contour& contour,
-                     double away,
-                     const std::vector<Vec2d>& places,
-                     const std::vector<double>& levels)
+    LeadContour led_contour(const Contour& contour,
+                            double away,
+                            const std::vector<Vec2d>& places) const
     {
         const bool left = operation_.direction_of_cut == CutDirection::kClimb;
         const ContourRun whole{left ? contour : reversed(contour)};
         const double radius = operation_.tool.radius;
-        const double lead = cut_.lead_in.value_or(on_line() ? 0.0 : kLeadRadius * radius);
+        // Round a narrow contour the tool comes down along it.
+        const bool narrow = toolpath::goes_round(whole.length(), radius);
+        const double lead = cut_.lead_in.value_or(on_line() || narrow ? 0.0 : kLeadRadius * radius);
         std::vector<double> kept;
         for (const Vec2d place : places) {
             kept.push_back(whole.nearest_to(place));
         }
         const double free = cut_.tabs ? half_of_tab(*cut_.tabs, radius) : 0.0;
-        const LeadContour led =
-            with_leads(whole, walls_, kept, free, {lead, cut_.lead_out.value_or(lead), away, left});
+        return with_leads(whole, walls_, kept, free,
+                          {lead, cut_.lead_out.value_or(lead), away, left});
+    }
+
+    void cut_contour(const LeadContour& led,
+                     double away,
+                     const std::vector<Vec2d>& places,
+                     const std::vector<double>& levels)
+    {
         std::vector<TabStretch> tabs;
         if (cut_.tabs) {
-            tabs = tab_stretches(*cut_.tabs, tab_middles(led.run, places), radius);
+            tabs = tab_stretches(*cut_.tabs, tab_middles(led.run, places), operation_.tool.radius);
         }
         double above = cut_.top;
         for (const double z : levels) {
+            go_to_start(led, away, above);
             cut_level(led, tabs, above, z);
             above = z;
         }
@@ -272,15 +296,30 @@ private:
         leads_ += led.leads.in ? 1 : 0;
     }
 
+    // From the end of one level of a contour to the start of the next the tool stays at the level that it has
+    // cut, where it has room for the straight way.
+    void go_to_start(const LeadContour& led, double away, double above)
+    {
+        const Vec2d start = start_of(led);
+        if (above == cut_.top) {
+            writer_.approach(start, rapid_end(job_, above));
+            return;
+        }
+        const Edge way = offset::line_edge(in_plan(writer_.at()), start);
+        if (keeps_clear(way, walls_, away)) {
+            writer_.line(toolpath::MoveKind::kLink, {start.x, start.y, writer_.at().z});
+        } else {
+            writer_.approach(start, rapid_end(job_, above));
+        }
+    }
+
     void cut_level(const LeadContour& led,
                    const std::vector<TabStretch>& tabs,
                    double above,
                    double z)
     {
         const double full = bottom() + (cut_.tabs ? cut_.tabs->height : 0.0);
-        const Vec2d start = led.leads.in ? led.leads.in->start : led.run.point(0);
-        writer_.approach(start, rapid_end(job_, above));
-        writer_.enter(entry_run(led, tabs, start, z), above,
+        writer_.enter(entry_run(led, tabs, z), above,
                       [](Vec2d, double) { return std::optional<double>{}; });
         if (led.leads.in) {
             write_edges({*led.leads.in}, z, z, form_, writer_);
@@ -301,23 +340,15 @@ private:
     }
 
     // The lead-in and the contour up to its first tab: a ramp runs back and forth along it.
-    std::vector<Vec3d> entry_run(const LeadContour& led,
-                                 const std::vector<TabStretch>& tabs,
-                                 Vec2d start,
-                                 double z) const
+    EntryRun entry_run(const LeadContour& led, const std::vector<TabStretch>& tabs, double z) const
     {
         std::vector<Edge> edges =
             led.run.part(0, tabs.empty() ? led.run.length() : tabs.front().rise_begin);
         if (led.leads.in) {
             edges.insert(edges.begin(), *led.leads.in);
         }
-        std::vector<Vec3d> run{{start.x, start.y, z}};
-        EdgeForm form = form_;
-        form.tolerance = operation_.plan_tolerance / 2;
-        for (const Vec2d p : points_along(edges, form)) {
-            run.push_back({p.x, p.y, z});
-        }
-        return run;
+        const Vec2d start = start_of(led);
+        return run_along(edges, {start.x, start.y, z}, form_);
     }
 
     const Job& job_;

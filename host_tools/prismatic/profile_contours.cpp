@@ -13,6 +13,8 @@ namespace cusp::prismatic {
 using job::NestedLoop;
 using job::Prismatic;
 using offset::area;
+using offset::Box2d;
+using offset::box_of;
 using offset::Contour;
 using offset::Edge;
 using offset::edges_of;
@@ -78,11 +80,28 @@ Unreached unreached(const Region2d& waste, const Region2d& centres, double dista
     return found;
 }
 
-void sort_inner_first(std::vector<Contour>& contours)
+std::vector<std::optional<std::size_t>> contours_around(const std::vector<Contour>& contours)
 {
-    std::stable_sort(contours.begin(), contours.end(), [](const Contour& a, const Contour& b) {
-        return std::abs(area(a)) < std::abs(area(b));
-    });
+    const std::size_t n = contours.size();
+    std::vector<Box2d> boxes;
+    std::vector<double> sizes;
+    for (const Contour& contour : contours) {
+        boxes.push_back(box_of(Region2d{{contour}}));
+        sizes.push_back(std::abs(area(contour)));
+    }
+    std::vector<std::optional<std::size_t>> around(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2d p = contours[k].front().start;
+        for (std::size_t other = 0; other < n; ++other) {
+            const Box2d& box = boxes[other];
+            const bool smaller = around[k] && sizes[other] >= sizes[*around[k]];
+            if (sizes[other] > sizes[k] && !smaller && p.x >= box.x0 && p.x <= box.x1 &&
+                p.y >= box.y0 && p.y <= box.y1 && surrounds(contours[other], p)) {
+                around[k] = other;
+            }
+        }
+    }
+    return around;
 }
 
 }  // namespace cusp::prismatic

@@ -36,7 +36,8 @@ Unreached unreached(const offset::Region2d& waste,
                     const offset::Region2d& centres,
                     double distance);
 
-// Inner contours first, so the part comes free last.
-void sort_inner_first(std::vector<offset::Contour>& contours);
+// Of each contour the one that lies directly around it, by its place in the list; none: nothing does.
+std::vector<std::optional<std::size_t>> contours_around(
+    const std::vector<offset::Contour>& contours);
 
 }  // namespace cusp::prismatic

@@ -14,24 +14,24 @@ using offset::left_normal;
 using offset::point_on;
 using offset::tangent_on;
 
-namespace {
-
 // Samples 0.05 mm apart: between two of them the distance from a wall dips by at most an eighth of
 // that squared times the curvatures of arc and wall offset, 1e-3 mm for radii of 0.6 mm; where the
 // arc comes near the wall it runs along it.
-bool keeps_clear(const Edge& arc, const EdgeTree& walls, double clearance)
+bool keeps_clear(const Edge& way, const EdgeTree& walls, double clearance)
 {
     constexpr double kApart = 0.05;     // mm
     constexpr double kRounding = 1e-6;  // mm
-    const int pieces = 8 + static_cast<int>(offset::length(arc) / kApart);
+    const int pieces = 8 + static_cast<int>(offset::length(way) / kApart);
     for (int i = 0; i <= pieces; ++i) {
-        if (walls.any_nearer(point_on(arc, static_cast<double>(i) / pieces),
+        if (walls.any_nearer(point_on(way, static_cast<double>(i) / pieces),
                              clearance - kRounding)) {
             return false;
         }
     }
     return true;
 }
+
+namespace {
 
 // The arcs at a place of an edge; none where one has no room.
 std::optional<Leads> leads_at(const Edge& edge,

@@ -28,6 +28,9 @@ struct LeadContour {
     Leads leads;
 };
 
+// Whether a way keeps the tool's centre so far from the walls, mm.
+bool keeps_clear(const offset::Edge& way, const offset::EdgeTree& walls, double clearance);
+
 // The contour from a place where the leads have room: the middle of a long side, away from `kept`
 // (mm along the contour) by `free`. Radii are halved where nowhere has room for them, and left out
 // below a sixteenth.

@@ -17,30 +17,20 @@ constexpr double kHelixShare = 0.5;     // radius of an entry helix over the too
 constexpr double kShallow = 0.05;       // mm: not worth a helix or a ramp
 constexpr double kShortestRamp = 0.25;  // radii: a shorter run has no room for one
 
-double plan_distance(Vec3d a, Vec3d b) { return std::hypot(b.x - a.x, b.y - a.y); }
+// Whether it ends where it starts, with a way round between.
+bool is_round(const EntryRun& run)
+{
+    constexpr double kSamePoint = 1e-6;   // mm in plan
+    constexpr double kLeastRound = 0.01;  // mm
+    return norm(in_plan(run.end()) - in_plan(run.start)) < kSamePoint &&
+           plan_length(run) > kLeastRound;
+}
 
 }  // namespace
 
-double plan_length(const std::vector<Vec3d>& points)
+bool goes_round(double length, double tool_radius)
 {
-    double sum = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        sum += plan_distance(points[i - 1], points[i]);
-    }
-    return sum;
-}
-
-std::vector<Vec3d> beginning(const std::vector<Vec3d>& points, double length)
-{
-    std::vector<Vec3d> out{points.front()};
-    double left = length;
-    for (std::size_t i = 1; i < points.size() && left > 0; ++i) {
-        const double step = plan_distance(points[i - 1], points[i]);
-        const double share = step > left ? left / step : 1.0;
-        out.push_back(points[i - 1] + (points[i] - points[i - 1]) * share);
-        left -= step;
-    }
-    return out;
+    return length * kEntrySlope < kLeastTurn * tool_radius;
 }
 
 void ToolpathWriter::line(MoveKind kind, Vec3d end)
@@ -74,9 +64,9 @@ void ToolpathWriter::approach(Vec2d place, double z)
     }
 }
 
-void ToolpathWriter::enter(const std::vector<Vec3d>& run, double stock_top, const HelixFloor& floor)
+void ToolpathWriter::enter(const EntryRun& run, double stock_top, const HelixFloor& floor)
 {
-    const Vec3d start = run.front();
+    const Vec3d start = run.start;
     const double top = std::max(stock_top, start.z);
     if (settings_.kind == EntryKind::kPlunge || top - start.z <= kShallow) {
         line(MoveKind::kPlunge, start);
@@ -91,7 +81,7 @@ void ToolpathWriter::enter(const std::vector<Vec3d>& run, double stock_top, cons
             return;
         }
     }
-    if (plan_length(run) > kShortestRamp * settings_.tool_radius) {
+    if (plan_length(run) > kShortestRamp * settings_.tool_radius || is_round(run)) {
         line(MoveKind::kPlunge, {start.x, start.y, std::min(at_.z, top)});
         ramp(run);
         return;
@@ -135,26 +125,49 @@ bool ToolpathWriter::helix(Vec3d start, const HelixFloor& floor)
     return true;
 }
 
-// Out and back along the run, as far as the slope needs, so that it ends at the start at depth.
-void ToolpathWriter::ramp(const std::vector<Vec3d>& run)
+// The run at heights that fall evenly with the distance travelled, from `depth` above it to nothing.
+//
+// whole  mm of the slope; gone: of it so far
+void ToolpathWriter::go_along(const EntryRun& run, double depth, double whole, double& gone)
 {
-    const double depth = at_.z - run.front().z;
-    const double length = plan_length(run);
-    const double drop = std::min(2 * length * kEntrySlope, settings_.max_drop);
-    const int trips = std::max(1, static_cast<int>(std::ceil(depth / drop)));
-    const std::vector<Vec3d> out = beginning(run, depth / (2 * trips * kEntrySlope));
-    const double whole = 2 * trips * plan_length(out);
-    double gone = 0;
-    const auto go = [&](Vec3d p) {
-        gone += plan_distance(at_, p);
+    Vec3d from = run.start;
+    for (const RunPiece& piece : run.pieces) {
+        gone += plan_length(from, piece);
         const double lift = depth * std::max(0.0, 1 - gone / whole);
-        line(MoveKind::kPlunge, {p.x, p.y, p.z + lift});
-    };
-    for (int trip = 0; trip < trips; ++trip) {
-        std::for_each(out.begin() + 1, out.end(), go);
-        std::for_each(out.rbegin() + 1, out.rend(), go);
+        const Vec3d end{piece.end.x, piece.end.y, piece.end.z + lift};
+        if (piece.turn == 0) {
+            line(MoveKind::kPlunge, end);
+        } else {
+            arc(MoveKind::kPlunge,
+                {end, {piece.centre.x, piece.centre.y, end.z}, ArcPlane::kXY, piece.turn < 0});
+        }
+        from = piece.end;
     }
-    line(MoveKind::kPlunge, run.front());
+}
+
+// Out and back along the run, as far as the slope needs, so that it ends at the start at depth; round and
+// round where it is closed and short.
+void ToolpathWriter::ramp(const EntryRun& run)
+{
+    const double depth = at_.z - run.start.z;
+    const double length = plan_length(run);
+    const double turn = std::min(kLeastTurn * settings_.tool_radius, settings_.max_drop);
+    double gone = 0;
+    if (is_round(run) && goes_round(length, settings_.tool_radius)) {
+        const int turns = std::max(1, static_cast<int>(std::ceil(depth / turn)));
+        for (int i = 0; i < turns; ++i) {
+            go_along(run, depth, turns * length, gone);
+        }
+    } else {
+        const double drop = std::min(2 * length * kEntrySlope, settings_.max_drop);
+        const int trips = std::max(1, static_cast<int>(std::ceil(depth / drop)));
+        const EntryRun trip = there_and_back(run, depth / (trips * kEntrySlope));
+        const double whole = trips * plan_length(trip);
+        for (int i = 0; i < trips; ++i) {
+            go_along(trip, depth, whole, gone);
+        }
+    }
+    line(MoveKind::kPlunge, run.start);
 }
 
 }  // namespace cusp::toolpath

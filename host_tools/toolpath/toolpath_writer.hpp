@@ -17,9 +17,17 @@
 
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/toolpath/entry_kind.hpp"
+#include "host_tools/toolpath/entry_run.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::toolpath {
+
+// Of a closed run that a slope goes round, over the tool's radius: the least descent of a turn. On a circle so
+// narrow that the tool's middle cuts anyway, a gentler slope is only slower.
+inline constexpr double kLeastTurn = 0.2;
+
+// Whether a slope goes round a closed run of this length in plan, mm, rather than there and back along it.
+bool goes_round(double length, double tool_radius);
 
 // Rapid moves go no nearer to stock, mm.
 inline constexpr double kRapidClearance = 1.0;
@@ -66,9 +74,14 @@ public:
     // From over the start of a run down to it: straight where no stock is deeper than 0.05 mm, else
     // on a helix, a ramp along the run, or straight where neither has room.
     //
-    //   run        points of the pass that follows; the tool is straight over the first one
+    //   run        the pass that follows, or its points; the tool is straight over its start. Round a closed run
+    //              that is short beside the tool the slope is steeper: a tenth of the tool's diameter a turn
     //   stock_top  z: below it stock may begin
-    void enter(const std::vector<Vec3d>& run, double stock_top, const HelixFloor& floor);
+    void enter(const EntryRun& run, double stock_top, const HelixFloor& floor);
+    void enter(const std::vector<Vec3d>& run, double stock_top, const HelixFloor& floor)
+    {
+        enter(run_along(run), stock_top, floor);
+    }
 
     int retracts() const { return retracts_; }
     int helices() const { return helices_; }
@@ -88,13 +101,8 @@ private:
     int narrow_entries_{0};
 
     bool helix(Vec3d start, const HelixFloor& floor);
-    void ramp(const std::vector<Vec3d>& run);
+    void ramp(const EntryRun& run);
+    void go_along(const EntryRun& run, double depth, double whole, double& gone);
 };
-
-// mm in plan along the points.
-double plan_length(const std::vector<Vec3d>& points);
-
-// The first `length` mm of it, in plan; all of it where it is shorter.
-std::vector<Vec3d> beginning(const std::vector<Vec3d>& points, double length);
 
 }  // namespace cusp::toolpath

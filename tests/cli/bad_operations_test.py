@@ -98,9 +98,15 @@ class BadOperations(unittest.TestCase):
     def warned(self, words, operations, **more):
         self.assertRegex(self.said(0, operations, **more), words)
 
-    def test_a_hole_smaller_than_the_tool(self):
-        self.refused("the hole of 3 mm at x 90 y 50 mm is smaller than tool 2 of 5 mm",
-                     operation("drill", "holes", tool=2, depth=3))
+    def test_holes_that_are_all_smaller_than_the_tool(self):
+        self.write("small.dxf", f"0\nSECTION\n2\nENTITIES\n{circle('small', 5, 5, 2)}0\nENDSEC\n0\nEOF\n")
+        self.refused("the hole of 4 mm at x 5 y 5 mm is smaller than tool 2 of 5 mm",
+                     operation("drill", "small", tool=2, depth=3).replace("plate.dxf", "small.dxf"))
+
+    def test_a_hole_smaller_than_the_tool_beside_others(self):
+        self.warned(r"the hole of 3 mm at x 90 y 50 mm is narrower than tool 2 of 5 mm: left out",
+                    operation("drill", "holes", tool=2, depth=3))
+        self.assertNotIn("X90 Y50", (self.folder / "p.ngc").read_text())
 
     def test_a_hole_wider_than_the_tool(self):
         self.write("wide.dxf", f"0\nSECTION\n2\nENTITIES\n{circle('wide', 5, 5, 4)}0\nENDSEC\n0\nEOF\n")

@@ -7,8 +7,8 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/prismatic/drill_tour.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
+#include "host_tools/toolpath/short_tour.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
@@ -325,7 +325,7 @@ TEST(PrismaticProperty, ToursVisitEveryPlaceAndAreNoLongerThanTheNearestNext)
         for (Vec2d& p : places) {
             p = {draw.uniform(0, 100), draw.uniform(0, 100)};
         }
-        const std::vector<std::size_t> order = short_tour(places, {0, 0});
+        const std::vector<std::size_t> order = toolpath::short_tour(places, {0, 0});
         CHECK(std::set<std::size_t>(order.begin(), order.end()).size() == places.size());
         double way = 0;
         Vec2d at{0, 0};

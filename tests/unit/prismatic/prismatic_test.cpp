@@ -62,6 +62,9 @@ diameter = 3
 shape = "vee"
 diameter = 6
 tip_angle = 90
+[[tool]]
+shape = "drill"
+diameter = 5
 [cutting]
 feed = 1000
 [stock]
@@ -158,10 +161,23 @@ TEST(Prismatic, HolesAreChosenByDiameter)
     LONGS_EQUAL(3, holes("tool = 2\ndiameter = [3, 5]"));
 }
 
+TEST(Prismatic, HolesNarrowerThanTheDrillAreLeftOutWithAWarningEach)
+{
+    const Job job =
+        job_of("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 4");
+    LONGS_EQUAL(2, job.operations[0].prismatic->holes.size());
+    const std::vector<std::string> warnings = plan(job).front().stats.warnings;
+    LONGS_EQUAL(2, warnings.size());
+    CHECK(
+        warnings[1].find("hole of 3 mm at x 35 y 5 mm is narrower than tool 4 of 5 mm: left out") !=
+        std::string::npos);
+}
+
 TEST(Prismatic, HolesThatAreTooNarrowOrNotThereAreRefused)
 {
-    REFUSED("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 3",
-            "the hole of 3 mm at x 5 y 5 mm is smaller than tool 3 of 6 mm");
+    REFUSED(
+        "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 3\ndiameter = 3",
+        "the hole of 3 mm at x 5 y 5 mm is smaller than tool 3 of 6 mm");
     REFUSED(
         "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2\n"
         "diameter = 4",
