@@ -98,6 +98,7 @@ void add_place_to(Json& out, const std::string& name, const std::optional<verify
     }
 }
 
+// Over 60 lines: one key after the other.
 Json stats_of(const Verification& result)
 {
     const VerifyFigures& f = result.figures;

@@ -1,6 +1,8 @@
 // Offsets edge by edge; arcs around outer corners close the gaps.
 #include "host_tools/offset/raw_offset.hpp"
 
+#include <optional>
+
 #include "firmware/base/math.hpp"
 
 namespace cusp::offset {
@@ -65,7 +67,8 @@ public:
     void run()
     {
         for (std::size_t i = 0; i < contour_.size(); ++i) {
-            add_edge(contour_[i], contour_[(i + 1) % contour_.size()]);
+            const std::size_t size = contour_.size();
+            add_edge(contour_[(i + size - 1) % size], contour_[i], contour_[(i + 1) % size]);
             origin_ += kOrigins;
         }
         if (pieces_.size() > first_) {
@@ -77,34 +80,84 @@ public:
     }
 
 private:
-    void add_edge(const Edge& edge, const Edge& next)
+    // Where the pieces of an edge and of the next one end and begin.
+    struct Junction {
+        Vec2d end;
+        Vec2d onward;
+        bool smooth;  // at one point
+        bool corner;  // an arc around the corner closes the gap
+    };
+
+    Junction joint_of(const Edge& edge, const Edge& next) const
     {
         const Vec2d leaving = tangent_at_end(edge);
         const Vec2d entering = tangent_at_start(next);
         const Vec2d end = edge.end + left_normal(leaving) * distance_;
         const Vec2d onward = next.start + left_normal(entering) * distance_;
-        const bool smooth = cusp::offset::distance(end, onward) < kSamePoint;
-        const double bend = cross(leaving, entering);
-        const bool corner = !smooth && (bend < 0.0 || dot(leaving, entering) < -0.9999);
+        if (cusp::offset::distance(end, onward) < kSamePoint) {
+            return {onward, onward, true, false};
+        }
+        if (const auto meet = nearly_smooth(edge, next, end, onward)) {
+            return {*meet, *meet, true, false};
+        }
+        const bool corner = cross(leaving, entering) < 0.0 || dot(leaving, entering) < -0.9999;
+        return {end, onward, false, corner};
+    }
+
+    // Where two pieces with a small kink between them meet: a point at the distance from the joint that
+    // lies on both to within rounding. Their crossing, the other way to close the joint, is not known
+    // so exactly where they are nearly tangent. None where the kink shows, or a piece is too short.
+    std::optional<Vec2d> nearly_smooth(const Edge& edge,
+                                       const Edge& next,
+                                       Vec2d end,
+                                       Vec2d onward) const
+    {
+        constexpr double kOff = 5e-9;    // mm
+        constexpr double kShare = 0.25;  // of a piece that may change
+        if (fate_of(edge, distance_) != Fate::kKept || fate_of(next, distance_) != Fate::kKept) {
+            return std::nullopt;
+        }
+        const double gap = cusp::offset::distance(end, onward);
+        const Vec2d joint = edge.end;
+        const Vec2d meet = joint + unit((end - joint) + (onward - joint)) * distance_;
+        const auto fits = [&](const Edge& source, Vec2d from) {
+            const double size =
+                length(source) * (source.turn == 0 ? 1.0 : offset_radius(source) / source.radius);
+            const double off =
+                source.turn == 0
+                    ? dot(meet - from, left_normal(unit(source.end - source.start)))
+                    : cusp::offset::distance(meet, source.centre) - offset_radius(source);
+            return gap <= kShare * size && std::abs(off) <= kOff;
+        };
+        if (gap > 0.1 * distance_ || !fits(edge, end) || !fits(next, onward)) {
+            return std::nullopt;
+        }
+        return meet;
+    }
+
+    double offset_radius(const Edge& arc) const { return arc.radius - arc.turn * distance_; }
+
+    void add_edge(const Edge& before, const Edge& edge, const Edge& next)
+    {
+        const Junction joint = joint_of(edge, next);
         const bool next_lost = fate_of(next, distance_) == Fate::kLost;
         switch (fate_of(edge, distance_)) {
             case Fate::kKept: {
-                const Vec2d start = edge.start + left_normal(tangent_at_start(edge)) * distance_;
-                const Vec2d finish = smooth ? onward : end;
-                pieces_.push_back({moved(edge, start, finish, distance_),
-                                   (corner || smooth) && !(smooth && next_lost), false, origin_});
+                pieces_.push_back({moved(edge, joint_of(before, edge).onward, joint.end, distance_),
+                                   (joint.corner || joint.smooth) && !(joint.smooth && next_lost),
+                                   false, origin_});
                 break;
             }
             case Fate::kPoint:
-                if (pieces_.size() > first_ && !(corner || (smooth && !next_lost))) {
+                if (pieces_.size() > first_ && !(joint.corner || (joint.smooth && !next_lost))) {
                     pieces_.back().joined = false;
                 }
                 break;
             case Fate::kLost:
                 break;
         }
-        if (corner) {
-            add_corner(pieces_, edge.end, end, onward, distance_, origin_ + 1);
+        if (joint.corner) {
+            add_corner(pieces_, edge.end, joint.end, joint.onward, distance_, origin_ + 1);
             pieces_.back().joined = !next_lost;
         }
     }

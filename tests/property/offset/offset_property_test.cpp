@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <polyclipping/clipper.hpp>
 
 #include "host_tools/offset/offset.hpp"
+#include "tests/property/offset/offset_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 
@@ -18,40 +18,6 @@ using namespace offset;
 namespace {
 
 constexpr int kRegions = 10000;  // source profiles tried
-
-// Largest departure of the result's points from the distance asked for; wrong side counts as 1.
-double worst_distance(const Region2d& source, const Region2d& result, double distance)
-{
-    double worst = 0.0;
-    for (const Contour& contour : result.contours) {
-        for (const Vec2d p : samples(contour, 5)) {
-            worst = std::max(worst, std::abs(distance_to(source, p) - distance));
-            if (!contains(source, p)) {
-                worst = std::max(worst, 1.0);
-            }
-        }
-        for (std::size_t i = 0; i < contour.size(); ++i) {
-            const Vec2d next = contour[(i + 1) % contour.size()].start;
-            worst = std::max(worst, cusp::offset::distance(contour[i].end, next));
-        }
-    }
-    return worst;
-}
-
-// Random points whose membership of the result differs from their distance.
-int wrong_points(Random& random, const Region2d& source, const Region2d& result, double distance)
-{
-    int wrong = 0;
-    for (int i = 0; i < 60; ++i) {
-        const Vec2d p{uniform(random, -65.0, 65.0), uniform(random, -65.0, 65.0)};
-        const double apart = distance_to(source, p);
-        if (std::abs(apart - distance) > 1e-5) {
-            const bool expected = contains(source, p) && apart > distance;
-            wrong += contains(result, p) != expected ? 1 : 0;
-        }
-    }
-    return wrong;
-}
 
 TEST_GROUP(RandomOffset){};
 
@@ -122,39 +88,6 @@ TEST(RandomOffset, OfManySmallCurvesMissesNothing)
             LONGS_EQUAL(0, wrong_points(random, source, result, distance));
         }
     }
-}
-
-constexpr double kClipperUnit = 1e6;
-
-ClipperLib::Paths polygons(const Region2d& region)
-{
-    ClipperLib::Paths paths;
-    for (const Contour& contour : region.contours) {
-        ClipperLib::Path path;
-        for (const Edge& edge : contour) {
-            const int n = edge.turn == 0 ? 1 : 64;
-            for (int i = 0; i < n; ++i) {
-                const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-                path.emplace_back(static_cast<ClipperLib::cInt>(std::llround(p.x * kClipperUnit)),
-                                  static_cast<ClipperLib::cInt>(std::llround(p.y * kClipperUnit)));
-            }
-        }
-        paths.push_back(path);
-    }
-    return paths;
-}
-
-double clipper_area(const Region2d& source, double distance)
-{
-    ClipperLib::ClipperOffset offset{2.0, 1e-3 * kClipperUnit};
-    offset.AddPaths(polygons(source), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
-    ClipperLib::Paths result;
-    offset.Execute(result, -distance * kClipperUnit);
-    double sum = 0.0;
-    for (const ClipperLib::Path& path : result) {
-        sum += ClipperLib::Area(path);
-    }
-    return sum / (kClipperUnit * kClipperUnit);
 }
 
 TEST(RandomOffset, EnclosesTheAreaThatClipperFinds)
