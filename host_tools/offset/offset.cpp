@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kSlack = 1e-9;       // a crossing may lie this far beyond an edge's end
 constexpr double kNearer = 2e-8;      // a run this much too near is still kept
+constexpr double kLostRun = 1e-3;     // mm: rounding leaves no open run as long at the distance
 constexpr std::size_t kCrowded = 25;  // pairs a piece beside each other: trimming them is cheaper
 
 struct Cut {
@@ -208,6 +209,15 @@ Vec2d middle_of(const Run& run)
     return longest->centre + unit(chord_middle - longest->centre) * longest->radius;
 }
 
+double length_of(const Run& run)
+{
+    double sum = 0;
+    for (const Edge& edge : run.edges) {
+        sum += length(edge);
+    }
+    return sum;
+}
+
 // Fast test by chords: the segment of an arc is no larger than the half disc over its chord.
 bool encloses_nothing(const Contour& contour)
 {
@@ -272,6 +282,7 @@ bool contours_touch(const Region2d& source, const EdgeTree& tree)
 struct KeptRuns {
     std::vector<Run> runs;
     std::vector<std::uint32_t> gone;  // origins of pieces of which nothing is left
+    bool complete;                    // no run that belongs to the offset misses its crossing
 };
 
 KeptRuns kept_runs(const Region2d& source,
@@ -292,11 +303,11 @@ KeptRuns kept_runs(const Region2d& source,
         pieces = trimmed(pieces, tree, distance);
         cuts = find_cuts(pieces, SIZE_MAX);
     }
-    KeptRuns kept{split_into_runs(pieces, *cuts), {}};
+    KeptRuns kept{split_into_runs(pieces, *cuts), {}, true};
     // A point too near to one run is usually too near to the next one.
     std::optional<Vec2d> nearer;
     const auto too_near = [&](const Run& run) {
-        if (run.open_end || run.edges.empty()) {
+        if (run.edges.empty()) {
             return true;
         }
         const double reach = distance - kNearer;
@@ -304,7 +315,10 @@ KeptRuns kept_runs(const Region2d& source,
         if (!nearer || cusp::offset::distance(middle, *nearer) >= reach) {
             nearer = tree.some_nearer(middle, reach);
         }
-        return nearer.has_value();
+        if (run.open_end && !nearer && length_of(run) > kLostRun) {
+            kept.complete = false;
+        }
+        return run.open_end || nearer.has_value();
     };
     kept.runs.erase(std::remove_if(kept.runs.begin(), kept.runs.end(), too_near), kept.runs.end());
     std::vector<bool> lives(gone.size(), false);
@@ -322,9 +336,13 @@ std::optional<Region2d> offset_once(const Region2d& source,
                                     const EdgeTree& tree,
                                     double distance,
                                     bool touching,
+                                    bool complete,
                                     std::vector<double>& gone)
 {
     KeptRuns kept = kept_runs(source, tree, gone, distance);
+    if (complete && !kept.complete) {
+        return std::nullopt;
+    }
     if (touching) {
         remove_wrong_and_double(tree, kept.runs);
     }
@@ -355,9 +373,13 @@ Region2d RegionOffset::at(double distance) const
     // If rounding at a common point of several pieces defeats the joining, a distance nearby is
     // used. The steps are below the promised accuracy of 1e-6 mm.
     constexpr double kSteps[] = {0.0, 1e-8, -1e-8, 3e-8, 1e-7, -1e-7, 3e-7, -3e-7, 8e-7, -8e-7};
-    for (const double step : kSteps) {
-        if (auto region = offset_once(source_, tree_, distance + step, touching_, gone_)) {
-            return *region;
+    // Where none of them gives the whole offset, what can be joined has to do.
+    for (const bool complete : {true, false}) {
+        for (const double step : kSteps) {
+            if (auto region =
+                    offset_once(source_, tree_, distance + step, touching_, complete, gone_)) {
+                return *region;
+            }
         }
     }
     return {};
