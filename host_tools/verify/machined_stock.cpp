@@ -145,18 +145,19 @@ double MachinedStock::depth_at(
 double MachinedStock::level_around(double x, double y, std::size_t begin, std::size_t end) const
 {
     constexpr double kLevel = 0.01;  // mm
-    double least = kUnbounded;
-    double most = -kUnbounded;
-    if (grid_.first_column(x) < begin || grid_.end_column(x) > end) {
+    // Several points at all sides, so that a groove of a vee is never level.
+    const double reach = 2 * grid_.pitch;
+    const std::size_t first = grid_.first_column(x - reach);
+    const std::size_t last = grid_.end_column(x + reach);
+    if (first < begin || last > end) {
         return -kUnbounded;  // other bands are cut at the same time
     }
-    for (std::size_t i = grid_.first_column(x); i < grid_.end_column(x); ++i) {
-        for (std::size_t j = grid_.first_row(y); j < grid_.end_row(y); ++j) {
-            if (std::abs(grid_.x(i, j) - x) <= grid_.pitch &&
-                std::abs(grid_.y(i, j) - y) <= grid_.pitch) {
-                least = std::min(least, heights_[grid_.index(i, j)]);
-                most = std::max(most, heights_[grid_.index(i, j)]);
-            }
+    double least = kUnbounded;
+    double most = -kUnbounded;
+    for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t j = grid_.first_row(y - reach); j < grid_.end_row(y + reach); ++j) {
+            least = std::min(least, heights_[grid_.index(i, j)]);
+            most = std::max(most, heights_[grid_.index(i, j)]);
         }
     }
     return least <= most && most - least <= kLevel ? least : -kUnbounded;
