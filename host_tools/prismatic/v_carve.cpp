@@ -12,6 +12,7 @@
 #include "host_tools/prismatic/medial_axis.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
 #include "host_tools/prismatic/profile_contours.hpp"
+#include "host_tools/prismatic/way_graph.hpp"
 
 #include "fmt/format.h"
 
@@ -64,6 +65,104 @@ AxisBranch with_crossings(const AxisBranch& branch, std::array<double, 2> limits
     return out;
 }
 
+// The open ways, divided where the end of another one lies on them: forks of the axis.
+std::vector<Way> divided_at_forks(std::vector<Way> ways)
+{
+    std::vector<Vec3d> ends;  // by x
+    for (const Way& way : ways) {
+        ends.push_back(way.points.front());
+        ends.push_back(way.points.back());
+    }
+    std::sort(ends.begin(), ends.end(), [](Vec3d a, Vec3d b) { return a.x < b.x; });
+    // The end that lies on a line, away from its own ends.
+    const auto fork_on = [&](Vec3d a, Vec3d b) -> std::optional<Vec3d> {
+        const double low = std::min(a.x, b.x) - kEndsMeet;
+        const double high = std::max(a.x, b.x) + kEndsMeet;
+        std::optional<Vec3d> first;
+        for (auto at = std::lower_bound(ends.begin(), ends.end(), low,
+                                        [](Vec3d p, double x) { return p.x < x; });
+             at != ends.end() && at->x <= high; ++at) {
+            const double share =
+                dot(*at - a, b - a) / std::max(dot(b - a, b - a), kEndsMeet * kEndsMeet);
+            const Vec3d foot = a + std::clamp(share, 0.0, 1.0) * (b - a);
+            const bool inside = norm(*at - a) > kEndsMeet && norm(*at - b) > kEndsMeet;
+            if (inside && norm(*at - foot) < kEndsMeet &&
+                (!first || norm(foot - a) < norm(*first - a))) {
+                first = foot;
+            }
+        }
+        return first;
+    };
+    const auto is_end = [&](Vec3d p) {
+        auto at = std::lower_bound(ends.begin(), ends.end(), p.x - kEndsMeet,
+                                   [](Vec3d q, double x) { return q.x < x; });
+        for (; at != ends.end() && at->x <= p.x + kEndsMeet; ++at) {
+            if (norm(*at - p) < kEndsMeet) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::vector<Way> out;
+    for (Way& way : ways) {
+        if (!way.loop.empty()) {
+            out.push_back(std::move(way));
+            continue;
+        }
+        Way part;
+        part.points.push_back(way.points.front());
+        const auto end_part = [&] {
+            const Vec3d at = part.points.back();
+            out.push_back(std::move(part));
+            part = {{at}, {}};
+        };
+        for (std::size_t k = 1; k < way.points.size(); ++k) {
+            while (const auto fork = fork_on(part.points.back(), way.points[k])) {
+                part.points.push_back(*fork);
+                end_part();
+            }
+            part.points.push_back(way.points[k]);
+            if (k + 1 < way.points.size() && is_end(way.points[k])) {
+                end_part();
+            }
+        }
+        out.push_back(std::move(part));
+    }
+    return out;
+}
+
+std::vector<WayGraph::Way> ends_of(const std::vector<Way>& ways)
+{
+    std::vector<WayGraph::Way> out;
+    for (const Way& way : ways) {
+        double length = 0;
+        for (std::size_t k = 1; k < way.points.size(); ++k) {
+            length += norm(way.points[k] - way.points[k - 1]);
+        }
+        out.push_back({way.points.front(), way.points.back(), length});
+    }
+    return out;
+}
+
+// The way that is not cut whose start or end is nearest.
+WayGraph::Step nearest_of(const std::vector<Way>& ways, const WayGraph& graph, Vec3d at)
+{
+    WayGraph::Step best{};
+    double least = kUnbounded;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        if (graph.is_cut(k)) {
+            continue;
+        }
+        const double from_start = norm(ways[k].points.front() - at);
+        const double from_end = norm(ways[k].points.back() - at);
+        if (std::min(from_start, from_end) < least) {
+            least = std::min(from_start, from_end);
+            best = {k, from_end < from_start};
+        }
+    }
+    return best;
+}
+
 class Carver {
 public:
     Carver(const Job& job, const Operation& operation)
@@ -93,7 +192,8 @@ private:
     std::vector<double> depths() const;
     void add_branches(double above, double depth, std::vector<Way>& ways) const;
     void add_loops(double above, double depth, bool last, std::vector<Way>& ways);
-    void write(std::vector<Way> ways, double above, ToolpathWriter& writer) const;
+    double worth_of_lift(double above, double z) const;
+    void write(const std::vector<Way>& ways, double above, ToolpathWriter& writer) const;
 
     const Job& job_;
     const Operation& operation_;
@@ -182,40 +282,60 @@ void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& 
     }
 }
 
-// Nearest neighbour first; branches may start at either end.
-void Carver::write(std::vector<Way> ways, double above, ToolpathWriter& writer) const
+// mm of travel at the feed that take as long as to lift the tool and to come down on a place at a height again.
+double Carver::worth_of_lift(double above, double z) const
+{
+    constexpr double kRapid = 6000;  // mm/min, of a usual mill
+    const toolpath::CuttingRates rates = rates_of(job_, operation_.tool);
+    const double down = rapid_end(job_, cut_.top - above);
+    const double lift = job_.stock_top + job_.clearance - z;
+    return rates.feed * (std::max(0.0, down - z) / rates.plunge_feed + 2 * lift / kRapid);
+}
+
+// Goes on through what is cut where that is quicker than a lift; else by the nearest neighbour.
+void Carver::write(const std::vector<Way>& ways, double above, ToolpathWriter& writer) const
 {
     const EdgeForm form{operation_.output != OutputForm::kLines, chord_tolerance(operation_),
                         operation_.direction_of_cut == CutDirection::kClimb};
-    for (std::size_t n = 0; n < ways.size(); ++n) {
-        std::size_t best = n;
-        bool turn = false;
-        double least = kUnbounded;
-        for (std::size_t k = n; k < ways.size(); ++k) {
-            const double from_start = norm(ways[k].points.front() - writer.at());
-            const double from_end = norm(ways[k].points.back() - writer.at());
-            if (std::min(from_start, from_end) < least) {
-                least = std::min(from_start, from_end);
-                best = k;
-                turn = from_end < from_start;
+    WayGraph graph{ends_of(ways)};
+    const auto follow = [&](std::size_t k, bool backward, MoveKind kind) {
+        std::vector<Vec3d> points = ways[k].points;
+        if (backward) {
+            std::reverse(points.begin(), points.end());
+        }
+        for (const Vec3d& p : points) {
+            const bool down = kind == MoveKind::kCut && p.z < writer.at().z;
+            writer.line(down ? MoveKind::kPlungingCut : kind, p);
+        }
+    };
+    std::optional<WayGraph::Step> last;
+    for (std::size_t left = ways.size(); left > 0; --left) {
+        std::optional<WayGraph::Link> link;
+        if (last) {
+            link = graph.link_to_uncut(last->way, !last->backward,
+                                       worth_of_lift(above, writer.at().z));
+        }
+        WayGraph::Step next{};
+        if (link) {
+            for (const WayGraph::Step& step : link->steps) {
+                follow(step.way, step.backward, MoveKind::kLink);
             }
+            next = {link->way, link->backward};
+        } else {
+            next = nearest_of(ways, graph, writer.at());
         }
-        std::swap(ways[n], ways[best]);
-        Way& way = ways[n];
-        if (turn) {
-            std::reverse(way.points.begin(), way.points.end());
-        }
-        const Vec3d start = way.points.front();
-        if (!writer.started() || least > kEndsMeet) {
+        const Way& way = ways[next.way];
+        const Vec3d start = next.backward ? way.points.back() : way.points.front();
+        if (!writer.started() || (!link && norm(start - writer.at()) > kEndsMeet)) {
             writer.approach(in_plan(start), rapid_end(job_, cut_.top - above));
             writer.line(MoveKind::kPlunge, start);
         }
         if (!way.loop.empty()) {
             write_edges(way.loop, start.z, start.z, form, writer);
         }
-        for (const Vec3d& p : way.points) {
-            writer.line(p.z < writer.at().z ? MoveKind::kPlungingCut : MoveKind::kCut, p);
-        }
+        follow(next.way, next.backward, MoveKind::kCut);
+        graph.mark_cut(next.way);
+        last = next;
     }
 }
 
@@ -235,8 +355,9 @@ PlannedOperation Carver::plan()
         std::vector<Way> ways;
         add_loops(above, levels[k], k + 1 == levels.size(), ways);
         add_branches(above, levels[k], ways);
+        ways = divided_at_forks(std::move(ways));
         ways_written += ways.size();
-        write(std::move(ways), above, writer);
+        write(ways, above, writer);
         above = levels[k];
     }
     writer.retract();

@@ -236,5 +236,25 @@ class DrawingCuts(CuspCase):
             self.assertLess(order.index((cell, True)), order.index((cell, False)), cell)
 
 
+class Carvings(CuspCase):
+    # Forks of the axis, and a tool that goes back through what it has cut.
+    def test_a_carving_is_lifted_over_stock_alone(self):
+        vee = head().replace("tip_diameter = 1\n", "")
+        star = [((9 if k % 2 else 20) * math.cos(k * math.pi / 7) + 30, (9 if k % 2 else 20) * math.sin(k * math.pi / 7) + 30)
+                for k in range(14)]
+        comb = [(0, 60), (60, 60), (60, 64)] + [p for k in range(5) for p in (
+            (60 - 12 * k, 76), (56 - 12 * k, 76), (54 - 12 * k, 64), (50 - 12 * k, 64))] + [(0, 64)]
+        self.write("plate.dxf", drawing(polygon("star", star), polygon("comb", comb)))
+        for layer, lifts in (("star", 1), ("comb", 3)):
+            self.write("job.toml", vee + operation("v_carve", layer, tool=2, depth=4))
+            self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+            planned = json.loads((self.folder / "p.json").read_text())["operations"][0]
+            # on a level floor loops lie beside each other
+            floors = planned["floor_loops"]
+            self.assertLessEqual(planned["retracts"], lifts + floors, layer)
+            self.assertGreater(planned["branches"], 5)
+            self.cusp(0, "verify", "job.toml", "p.ngc")
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]], verbosity=2)
