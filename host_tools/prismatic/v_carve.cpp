@@ -33,8 +33,6 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-constexpr double kEndsMeet = 1e-3;  // mm: the tool continues without a retract
-
 // A path of the tip: along a branch of the axis, or a loop at one height.
 struct Way {
     std::vector<Vec3d> points;  // both ends of a loop alone
@@ -65,23 +63,24 @@ AxisBranch with_crossings(const AxisBranch& branch, std::array<double, 2> limits
     return out;
 }
 
-// The open ways, divided where the end of another one lies on them: forks of the axis.
-std::vector<Way> divided_at_forks(std::vector<Way> ways)
-{
-    std::vector<Vec3d> ends;  // by x
-    for (const Way& way : ways) {
-        ends.push_back(way.points.front());
-        ends.push_back(way.points.back());
+// The ends of all ways, to find those that lie on another one: forks of the axis.
+class Forks {
+public:
+    explicit Forks(const std::vector<Way>& ways)
+    {
+        for (const Way& way : ways) {
+            ends_.push_back(way.points.front());
+            ends_.push_back(way.points.back());
+        }
+        std::sort(ends_.begin(), ends_.end(), [](Vec3d a, Vec3d b) { return a.x < b.x; });
     }
-    std::sort(ends.begin(), ends.end(), [](Vec3d a, Vec3d b) { return a.x < b.x; });
-    // The end that lies on a line, away from its own ends.
-    const auto fork_on = [&](Vec3d a, Vec3d b) -> std::optional<Vec3d> {
-        const double low = std::min(a.x, b.x) - kEndsMeet;
-        const double high = std::max(a.x, b.x) + kEndsMeet;
+
+    // The first one on a line, away from the line's own ends.
+    std::optional<Vec3d> on(Vec3d a, Vec3d b) const
+    {
         std::optional<Vec3d> first;
-        for (auto at = std::lower_bound(ends.begin(), ends.end(), low,
-                                        [](Vec3d p, double x) { return p.x < x; });
-             at != ends.end() && at->x <= high; ++at) {
+        for (auto at = from(std::min(a.x, b.x));
+             at != ends_.end() && at->x <= std::max(a.x, b.x) + kEndsMeet; ++at) {
             const double share =
                 dot(*at - a, b - a) / std::max(dot(b - a, b - a), kEndsMeet * kEndsMeet);
             const Vec3d foot = a + std::clamp(share, 0.0, 1.0) * (b - a);
@@ -92,17 +91,32 @@ std::vector<Way> divided_at_forks(std::vector<Way> ways)
             }
         }
         return first;
-    };
-    const auto is_end = [&](Vec3d p) {
-        auto at = std::lower_bound(ends.begin(), ends.end(), p.x - kEndsMeet,
-                                   [](Vec3d q, double x) { return q.x < x; });
-        for (; at != ends.end() && at->x <= p.x + kEndsMeet; ++at) {
+    }
+
+    bool is_at(Vec3d p) const
+    {
+        for (auto at = from(p.x); at != ends_.end() && at->x <= p.x + kEndsMeet; ++at) {
             if (norm(*at - p) < kEndsMeet) {
                 return true;
             }
         }
         return false;
-    };
+    }
+
+private:
+    std::vector<Vec3d>::const_iterator from(double low) const
+    {
+        return std::lower_bound(ends_.begin(), ends_.end(), low - kEndsMeet,
+                                [](Vec3d p, double x) { return p.x < x; });
+    }
+
+    std::vector<Vec3d> ends_;  // by x
+};
+
+// The open ways, divided at their forks.
+std::vector<Way> divided_at_forks(std::vector<Way> ways)
+{
+    const Forks forks{ways};
     std::vector<Way> out;
     for (Way& way : ways) {
         if (!way.loop.empty()) {
@@ -117,12 +131,12 @@ std::vector<Way> divided_at_forks(std::vector<Way> ways)
             part = {{at}, {}};
         };
         for (std::size_t k = 1; k < way.points.size(); ++k) {
-            while (const auto fork = fork_on(part.points.back(), way.points[k])) {
+            while (const auto fork = forks.on(part.points.back(), way.points[k])) {
                 part.points.push_back(*fork);
                 end_part();
             }
             part.points.push_back(way.points[k]);
-            if (k + 1 < way.points.size() && is_end(way.points[k])) {
+            if (k + 1 < way.points.size() && forks.is_at(way.points[k])) {
                 end_part();
             }
         }
@@ -292,7 +306,7 @@ double Carver::worth_of_lift(double above, double z) const
     return rates.feed * (std::max(0.0, down - z) / rates.plunge_feed + 2 * lift / kRapid);
 }
 
-// Goes on through what is cut where that is quicker than a lift; else by the nearest neighbour.
+// Continues through what is cut where that is quicker than a lift; else by the nearest neighbour.
 void Carver::write(const std::vector<Way>& ways, double above, ToolpathWriter& writer) const
 {
     const EdgeForm form{operation_.output != OutputForm::kLines, chord_tolerance(operation_),

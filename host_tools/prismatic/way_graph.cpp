@@ -11,8 +11,6 @@ namespace cusp::prismatic {
 
 namespace {
 
-constexpr double kEndsMeet = 1e-3;  // mm
-
 // Numbers places; those within kEndsMeet of each other have one number.
 class Places {
 public:

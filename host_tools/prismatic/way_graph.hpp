@@ -15,6 +15,9 @@
 
 namespace cusp::prismatic {
 
+// mm: ends as near as this are one place, at which the tool continues without a retract.
+inline constexpr double kEndsMeet = 1e-3;
+
 class WayGraph {
 public:
     struct Way {
@@ -34,7 +37,7 @@ public:
         double length;  // mm, of the steps
     };
 
-    // Ends within 1e-3 mm of each other are one.
+    // Ends within kEndsMeet of each other are one.
     explicit WayGraph(std::vector<Way> ways);
 
     void mark_cut(std::size_t way) { cut_[way] = true; }

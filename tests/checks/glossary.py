@@ -12,7 +12,7 @@ import re
 import sys
 
 STANDARD = set("""
-    cone stop tour
+    cone graph stop tour way
     above access after and angle arc area at ball basis bend bernstein beside bezier bound box buffer by byte
     cad call chain check checksum choice cleanup clear clearing closed colour command comment contour control controller
     coolant count cross curve cutting dense descriptor diameter difference display distance domain drawing dxf edge effect end
