@@ -24,6 +24,7 @@ using job::Operation;
 using job::Prismatic;
 using job::ProfileSide;
 using toolpath::end_height;
+using toolpath::Tool;
 
 namespace {
 
@@ -253,8 +254,26 @@ RegionAt CutRegion::carved_at(double x, double y) const
     const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
     const double inward = into_material(x, y);
     const bool on_floor = inward * slope >= cut.depth;
-    return {inward, cut.top - std::clamp(inward * slope, 0.0, cut.depth),
-            operation_->tool.tip_radius * slope + (on_floor ? *operation_->scallop : 0.0)};
+    const double beside = operation_->plan_tolerance * slope;
+    const double deep = std::clamp(inward * slope, 0.0, cut.depth);
+    return {inward, cut.top - deep,
+            operation_->tool.tip_radius * slope + (on_floor ? *operation_->scallop : 0.0),
+            std::min(beside, cut.depth - deep), std::min(beside, deep)};
+}
+
+// The groove of the tool's profile; a path within its tolerance has it so much nearer or farther.
+RegionAt CutRegion::engraved_at(double x, double y) const
+{
+    const Tool& tool = operation_->tool;
+    const double away = from_curves(x, y);
+    const double tolerance = operation_->plan_tolerance;
+    const auto height = [&](double distance) {
+        return profile_height(tool, std::clamp(distance, 0.0, tool.radius));
+    };
+    const double exact = height(away);
+    return {tool.radius - away, operation_->prismatic->top - operation_->prismatic->depth + exact,
+            0.0, exact - height(std::min(away, tool.radius) - tolerance),
+            away + tolerance < tool.radius ? height(away + tolerance) - exact : kUnbounded};
 }
 
 RegionAt CutRegion::at(double x, double y, std::size_t k) const
@@ -280,16 +299,16 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
         return hole_at(x, y);
     }
     if (operation_->strategy == "engrave") {
-        const double away = from_curves(x, y);
         if (!heights_.empty()) {
-            return {radius - away, heights_[k]};
+            return {radius - from_curves(x, y), heights_[k]};
         }
-        return {radius - away, bottom + profile_height(operation_->tool, std::min(away, radius))};
+        return engraved_at(x, y);
     }
     if (operation_->strategy == "chamfer") {
         const double inward = into_material(x, y);
+        const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
         return {std::min(cut.width - inward, 2 * radius + inward),
-                cut.top - (cut.width - inward) / std::tan(operation_->tool.tip_angle / 2)};
+                cut.top - (cut.width - inward) * slope, 0.0, operation_->plan_tolerance * slope, 0.0};
     }
     return {cap_, bottom};  // face
 }

@@ -22,6 +22,9 @@ struct RegionAt {
     double inside;
     double floor;
     double left{0};  // mm: what the operation may leave over the floor
+    // mm along z, on flanks: how far a path within its plan tolerance may leave them below and above the floor.
+    double below{0};
+    double above{0};
 };
 
 class CutRegion {
@@ -48,6 +51,7 @@ private:
     RegionAt profile_at(double x, double y) const;
     RegionAt hole_at(double x, double y) const;
     RegionAt carved_at(double x, double y) const;
+    RegionAt engraved_at(double x, double y) const;
 
     const job::Operation* operation_;
     double cap_;

@@ -30,7 +30,7 @@ Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top)
     double least = top - z;
     Cuts cuts{least, 0};
     for (const RegionAt& region : regions) {
-        const double below = std::max(0.0, region.floor - z);
+        const double below = std::max(0.0, region.floor - region.below - z);
         const double beyond = std::max(0.0, -region.inside);
         if (std::max(below, beyond) < least) {
             least = std::max(below, beyond);
@@ -174,7 +174,7 @@ private:
             const RegionAt at = region.at(x(k), y(k), k);
             const double left = q_.cut[k] - at.floor;
             maps_.left[k] = std::isnan(maps_.left[k]) ? left : std::min(maps_.left[k], left);
-            high[k] = left > q_.floor_tolerance + at.left ? 1 : 0;
+            high[k] = left - at.above > q_.floor_tolerance + at.left ? 1 : 0;
         }
         figures_.cells += cells;
         if (cut.tabs) {
@@ -184,7 +184,8 @@ private:
             if (high[k] == 0) {
                 continue;
             }
-            const double left = q_.cut[k] - region.at(x(k), y(k), k).floor;
+            const RegionAt at = region.at(x(k), y(k), k);
+            const double left = q_.cut[k] - at.floor - at.above;
             if (!figures_.level_left || left > figures_.level_left->height) {
                 figures_.level_left =
                     LevelLeft{left, {x(k), y(k)}, operation.number, operation.strategy};
