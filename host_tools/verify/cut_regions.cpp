@@ -308,7 +308,8 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
         const double inward = into_material(x, y);
         const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
         return {std::min(cut.width - inward, 2 * radius + inward),
-                cut.top - (cut.width - inward) * slope, 0.0, operation_->plan_tolerance * slope, 0.0};
+                cut.top - (cut.width - inward) * slope, 0.0, operation_->plan_tolerance * slope,
+                0.0};
     }
     return {cap_, bottom};  // face
 }

@@ -13,7 +13,7 @@ from cusp_case import CuspCase
 ARC = "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nc\n90\n3\n70\n0\n10\n-15\n20\n-8\n42\n0\n10\n0\n20\n0\n42\n-0.55\n10\n15\n" \
       "20\n-8\n42\n0\n0\nENDSEC\n0\nEOF\n"
 
-# Shape, diameter, further keys, depth: the flanks of these grooves are upright or nearly so at the top.
+# Shape, diameter, further keys, depth: the flanks of these grooves are vertical or nearly so at the top.
 GROOVES = (("bull", 3, "corner_radius = 0.5", 1.34), ("bull", 3, "corner_radius = 0.5", 0.46),
            ("bull", 6, "corner_radius = 1.5", 1.45), ("ball", 3, "", 1.49), ("ball", 3, "", 2.5), ("ball", 6, "", 2.7),
            ("vee", 6, "tip_angle = 20", 1.5), ("flat", 3, "", 1.34))
