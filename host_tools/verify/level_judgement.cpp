@@ -193,13 +193,16 @@ private:
         }
     }
 
-    // Tabs are islands of stock as high as asked for; their points are taken out of `high`.
+    // Tabs are islands of stock as high as asked for; points near their tops are taken out of `high`.
     void count_tabs(const CutRegion& region, const std::vector<char>& here, std::vector<char>& high)
     {
         const Prismatic& cut = *region.operation().prismatic;
         const double full = cut.top - cut.depth + cut.tabs->height;
         std::vector<std::size_t> island;
         std::vector<char> open = high;
+        std::vector<char> tops(high.size(), 0);
+        std::vector<std::size_t> of_tabs;
+        const std::ptrdiff_t near = points_between_slivers(region.operation().tool.radius);
         for (std::size_t k = 0; k < open.size(); ++k) {
             if (open[k] == 0) {
                 continue;
@@ -208,15 +211,23 @@ private:
             open[k] = 0;
             double highest = q_.cut[k];
             for (std::size_t n = 0; n < island.size(); ++n) {
-                add_neighbours(island[n], open, island);
+                add_neighbours(island[n], near, open, island);
                 highest = std::max(highest, q_.cut[island[n]]);
             }
             if (std::abs(highest - full) <= q_.floor_tolerance &&
                 extent_of(island) >= cut.tabs->width / 2) {
                 ++figures_.tabs_standing;
                 for (const std::size_t at : island) {
-                    high[at] = 0;
+                    tops[at] = std::abs(q_.cut[at] - full) <= q_.floor_tolerance ? 1 : 0;
+                    of_tabs.push_back(at);
                 }
+            }
+        }
+        if (!of_tabs.empty()) {
+            const std::vector<double> away = distances_from(tops, q_.grid);
+            const double foot = tab_foot(region.operation());
+            for (const std::size_t at : of_tabs) {
+                high[at] = away[at] <= foot ? 0 : high[at];
             }
         }
         std::vector<char> loops(cut.loops.size(), 0);
@@ -228,6 +239,23 @@ private:
         const auto cut_loops = std::count(loops.begin(), loops.end(), 1);
         figures_.tabs_wanted += cut.tabs->count > 0 ? static_cast<int>(cut_loops) * cut.tabs->count
                                                     : static_cast<int>(cut.tabs->places.size());
+    }
+
+    // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool. What is left farther
+    // away is no tab, be it joined to one.
+    static double tab_foot(const Operation& operation)
+    {
+        constexpr double kRun = 2;   // of a slope, over its height
+        constexpr double kWall = 2;  // a wall is longer than the path inside it
+        const job::Tabs& tabs = *operation.prismatic->tabs;
+        return 2 * operation.tool.radius + (tabs.ramped ? kWall * kRun * tabs.height : 0.0);
+    }
+
+    // Between a wall and the circle that the tool leaves beside an vertical end of a tab stock gets narrow as a square.
+    // The raster meets it again, where it is a pitch wider than the pitch beside the wall, after no more points than this.
+    std::ptrdiff_t points_between_slivers(double radius) const
+    {
+        return 2 + static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(2 * radius / q_.grid.pitch)));
     }
 
     // mm: the longer side of the box around the points.
@@ -243,15 +271,14 @@ private:
     }
 
     void add_neighbours(std::size_t k,
+                        std::ptrdiff_t near,
                         std::vector<char>& open,
                         std::vector<std::size_t>& island) const
     {
         const auto i = static_cast<std::ptrdiff_t>(k / q_.grid.ny);
         const auto j = static_cast<std::ptrdiff_t>(k % q_.grid.ny);
-        // beside vertical ends slivers of the raster lie a few points away from their tab
-        constexpr std::ptrdiff_t kNear = 4;
-        for (std::ptrdiff_t di = -kNear; di <= kNear; ++di) {
-            for (std::ptrdiff_t dj = -kNear; dj <= kNear; ++dj) {
+        for (std::ptrdiff_t di = -near; di <= near; ++di) {
+            for (std::ptrdiff_t dj = -near; dj <= near; ++dj) {
                 const std::ptrdiff_t a = i + di;
                 const std::ptrdiff_t b = j + dj;
                 if (a < 0 || b < 0 || a >= static_cast<std::ptrdiff_t>(q_.grid.nx) ||

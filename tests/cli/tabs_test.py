@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""cusp verify on profiles with tabs: sound ones hold at any pitch, and no tab hides what is left beside it.
+
+usage: tabs_test.py CUSP
+"""
+import json
+import re
+import sys
+import unittest
+
+from cusp_case import CuspCase
+
+JOB = """units = "mm"
+[[tool]]
+shape = "flat"
+diameter = {diameter}
+[cutting]
+feed = 800
+[stock]
+top = 0
+bottom = -12
+x = [-32, 32]
+y = [-32, 32]
+[[operation]]
+strategy = "profile"
+boundary = "disc.dxf#c"
+side = "{side}"
+depth = {depth}
+lead_in = {lead}
+tabs = {{ count = {count}, width = 4, height = {height}{more} }}
+"""
+
+
+class Tabs(CuspCase):
+    def plan(self, radius, **job):
+        self.write("disc.dxf", f"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nc\n10\n0\n20\n0\n40\n{radius}\n0\nENDSEC\n0\nEOF\n")
+        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, **job}))
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        return (self.folder / "p.ngc").read_text()
+
+    def test_ends_beside_walls_are_of_their_tabs(self):
+        for radius, diameter, side in ((11.802790911, 8, "inside"), (12.3, 8, "inside"), (13.1, 6, "inside"),
+                                       (11.8, 8, "outside"), (12.7, 3, "outside")):
+            for lead in (0, 2, 5):
+                for more in ("", ', shape = "square"'):
+                    with self.subTest(radius=radius, diameter=diameter, side=side, lead=lead, more=more):
+                        self.plan(radius, diameter=diameter, side=side, depth=3.23, lead=lead, height=1.08, more=more)
+                        for pitch in ((), ("--grid", "0.12")):
+                            self.cusp(0, "verify", "job.toml", "p.ngc", *pitch)
+
+    def test_stock_left_along_a_contour_is_no_tab(self):
+        for count in (1, 3):
+            for left in (0.1, 0.3, 0.8):
+                with self.subTest(count=count, left=left):
+                    program = self.plan(12, diameter=4, side="outside", depth=3, height=1, count=count)
+                    higher = re.sub(r"Z-3\b", f"Z-{3 - left:.1f}", program)
+                    self.assertNotEqual(program, higher)
+                    self.write("q.ngc", higher)
+                    said = self.cusp(1, "verify", "job.toml", "q.ngc", "--stats", "v.json")
+                    figures = json.loads((self.folder / "v.json").read_text())
+                    self.assertAlmostEqual(left, figures["level_left_mm"], delta=0.01, msg=said)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
