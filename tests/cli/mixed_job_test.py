@@ -93,7 +93,7 @@ class MixedJob(CuspCase):
         self.assertIn("gouge_max_mm", self.spoiled("X30.3516 Z-3.0086", "X30.3516 Z-3.2086"))
         self.assertIn("wall_gouge_max_mm", self.spoiled("G98 G81 X5 Y5 ", "G98 G81 X5.3 Y5 "))
         self.assertIn("of operation 2 (drill)", self.spoiled("Z-8 R1", "Z-2 R1"))
-        self.assertIn("gouge_max_mm", self.spoiled("G1 Z-2.5 F250\n", "G1 Z-2.8 F250\n"))
+        self.assertIn("gouge_max_mm", self.spoiled("Y8.5774 Z-2.5 F322.757\n", "Y8.5774 Z-2.8 F322.757\n"))
 
 
 if __name__ == "__main__":
