@@ -112,9 +112,8 @@ ExactLength initial_level(LineContext& line, unsigned axis, std::int64_t origin)
     return ExactLength{origin, 0} + drill.level;
 }
 
-// Where the tool travels: up to R first, then across, with G98 up to the initial level on the way unless
-// it is above R already. LinuxCNC's does so too, but goes up to R on the way across where R is below
-// the initial level.
+// The tool goes up to R first, then across. With G98 it rises to the initial level on the way, unless it
+// is above R already. LinuxCNC goes up to R on the way across where R is below the initial level.
 void read_travel(const LineContext& line, std::int64_t level, DrillWords& words) noexcept
 {
     const std::int64_t clearance = words.clearance_nm;

@@ -156,7 +156,7 @@ void plan_switches(const LineContext& line, const ModalState& before, MotionPlan
     }
 }
 
-// Whether a line has a centre and no end: a full circle, also without G2 or G3.
+// True for a line with a centre and no end: a full circle, also without G2 or G3.
 bool is_circle(const Command& command) noexcept
 {
     constexpr LetterSet kOffsets = letter('I') | letter('J') | letter('K');

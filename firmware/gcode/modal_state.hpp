@@ -42,14 +42,14 @@ constexpr bool is_arc(Motion motion) noexcept
 // G73, G81 to G83, G85, G86 and G89.
 constexpr bool is_cycle(Motion motion) noexcept { return motion >= Motion::kDrill; }
 
-// Whether a cycle has a P word, the dwell at the bottom.
+// True for a cycle with a P word, the dwell at the bottom.
 constexpr bool dwells(Motion motion) noexcept
 {
     return motion == Motion::kDrillWithDwell || motion == Motion::kBoreStopping ||
            motion == Motion::kBoreWithDwell;
 }
 
-// Whether a cycle has a Q word, the depth of a peck.
+// True for a cycle with a Q word, the depth of a peck.
 constexpr bool pecks(Motion motion) noexcept
 {
     return motion == Motion::kDrillPecking || motion == Motion::kDrillChipBreaking;

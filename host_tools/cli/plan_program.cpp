@@ -12,6 +12,7 @@
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/chip_load.hpp"
 #include "host_tools/cli/post_fit.hpp"
+#include "host_tools/cli/rapid_refusal.hpp"
 #include "host_tools/cli/rest_of_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/stock_warning.hpp"

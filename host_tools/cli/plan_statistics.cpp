@@ -113,6 +113,15 @@ void print_warnings(const std::vector<std::string>& warnings)
 
 }  // namespace
 
+std::vector<const toolpath::Toolpath*> paths_of(const Plan& plan)
+{
+    std::vector<const toolpath::Toolpath*> paths;
+    for (const toolpath::PlannedOperation& operation : plan.operations) {
+        paths.push_back(&operation.path);
+    }
+    return paths;
+}
+
 void print_summary(const Plan& plan,
                    const std::vector<std::string>& notes,
                    const std::string& output,

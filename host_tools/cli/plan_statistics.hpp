@@ -18,6 +18,9 @@ struct Plan {
     std::vector<std::string> warnings;                   // not of a single planned operation
 };
 
+// The path of each operation, in order; they live as long as the plan.
+std::vector<const toolpath::Toolpath*> paths_of(const Plan& plan);
+
 // Prints lengths and times on `said`, warnings and notes on the standard error stream.
 //
 // notes   of the readers of parts

@@ -9,7 +9,6 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "host_tools/verify/path_contact.hpp"
-#include "host_tools/verify/path_rapids.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -72,14 +71,10 @@ std::string sentence_on(const Job& job, const PlannedOperation& operation, const
 void refuse_contacts(const Job& job, const Plan& plan)
 {
     constexpr double kQuiet = 1.0;  // s
-    std::vector<const toolpath::Toolpath*> paths;
-    for (const PlannedOperation& operation : plan.operations) {
-        paths.push_back(&operation.path);
-    }
     cancellation::set_work("checking shanks and holders");
     const ShareProgress progress{"shanks and holders", kQuiet};
     std::map<std::pair<int, BodyPart>, PathContact> worst;  // by the number of the tool
-    for (const PathContact& contact : path_contacts(job, paths, progress)) {
+    for (const PathContact& contact : path_contacts(job, paths_of(plan), progress)) {
         const int tool = plan.operations[contact.path].path.tool.number;
         const auto [known, is_new] = worst.try_emplace({tool, contact.part}, contact);
         if (!is_new && contact.depth > known->second.depth) {
@@ -94,26 +89,6 @@ void refuse_contacts(const Job& job, const Plan& plan)
         sentences.push_back(sentence_on(job, plan.operations[contact.path], contact));
     }
     throw InputError(fmt::format("{}: {}", job.file, fmt::join(sentences, "; ")));
-}
-
-void refuse_rapids(const Job& job, const Plan& plan)
-{
-    std::vector<const toolpath::Toolpath*> paths;
-    for (const PlannedOperation& operation : plan.operations) {
-        paths.push_back(&operation.path);
-    }
-    cancellation::set_work("checking rapid moves");
-    if (const auto rapid = verify::deepest_rapid(job, paths)) {
-        const PlannedOperation& operation = plan.operations[rapid->path];
-        throw InputError(fmt::format(
-            "{}: operation {}, {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would "
-            "cut {:.4g} mm "
-            "deep into stock that is there by then, the limit is {:g}: let an operation before it "
-            "cut that stock "
-            "away, or begin this one at its top",
-            job.file, operation.operation, operation.stats.strategy, operation.path.tool.number,
-            rapid->tip.x, rapid->tip.y, rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));
-    }
 }
 
 std::vector<std::string> reach_warnings(const Job& job, const Plan& plan)

@@ -1,4 +1,4 @@
-// Tools that are too short for their job, and rapid moves into stock.
+// Tools that are too short for their job.
 #pragma once
 
 #include <string>
@@ -19,9 +19,5 @@ std::vector<std::string> reach_warnings(const job::Job& job, const Plan& plan);
 // `holder_clearance`: for each part of a tool the operation and the place of the worst contact, its depth,
 // and the flutes or the length that would do.
 void refuse_contacts(const job::Job& job, const Plan& plan);
-
-// Errors: InputError where a rapid move of the plan would cut into stock that earlier operations and programs
-// leave: operation, place and depth.
-void refuse_rapids(const job::Job& job, const Plan& plan);
 
 }  // namespace cusp::cli

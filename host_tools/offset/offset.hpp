@@ -29,7 +29,8 @@ public:
     explicit RegionOffset(Region2d source);
 
     // The points of the region at least `distance` (mm, > 0) from its contours, as contours with
-    // the region on their left; empty if there is none. Every point of the result is within 1e-6 mm
+    // the region on their left; empty if there is none. Where rounding defeats the joining at this distance
+    // and at ten more within 1e-6 mm of it, the contours that could be joined. Every point of the result is within 1e-6 mm
     // of that distance from the source (tests/property/offset). Cost O(n log n) for n evenly spread
     // edges; less after a smaller distance, which excludes edges.
     Region2d at(double distance) const;

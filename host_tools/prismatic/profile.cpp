@@ -297,7 +297,7 @@ private:
     }
 
     // From the end of one level of a contour to the start of the next the tool stays at the level that it has
-    // cut, where it has room for the straight way.
+    // cut, where it has room for the straight way: between two leads it may cut waste.
     void go_to_start(const LeadContour& led, double away, double above)
     {
         const Vec2d start = start_of(led);
@@ -307,7 +307,7 @@ private:
         }
         const Edge way = offset::line_edge(in_plan(writer_.at()), start);
         if (keeps_clear(way, walls_, away)) {
-            writer_.line(toolpath::MoveKind::kLink, {start.x, start.y, writer_.at().z});
+            writer_.line(toolpath::MoveKind::kCut, {start.x, start.y, writer_.at().z});
         } else {
             writer_.approach(start, rapid_end(job_, above));
         }

@@ -8,6 +8,7 @@
 
 #include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 
 namespace cusp::verify {
 

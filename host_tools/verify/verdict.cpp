@@ -23,15 +23,16 @@ std::string words_of(const std::optional<FaultPlace>& at)
 }
 
 // The move that cuts lowest over a place; the first of those alike.
-FaultPlace cut_at(const std::vector<ToolPositions>& runs, Vec2d place, double height)
+// z of the place is that of the cut.
+FaultPlace cut_at(const std::vector<ToolPositions>& runs, Vec3d place)
 {
-    FaultPlace at{{place.x, place.y, height}, 0, 0};
+    FaultPlace at{place, 0, 0};
     double lowest = kUnbounded;
     constexpr double kAlike = 1e-6;    // mm
     constexpr double kBetween = 0.01;  // mm: positions' sweeps are wider than they
     for (const ToolPositions& run : runs) {
         for (std::size_t k = 0; k < run.tips.size(); ++k) {
-            const double away = norm(in_plan(run.tips[k]) - place);
+            const double away = norm(in_plan(run.tips[k]) - in_plan(place));
             if (away > run.tool.radius + kBetween || run.tips[k].z >= lowest) {
                 continue;
             }
@@ -39,6 +40,7 @@ FaultPlace cut_at(const std::vector<ToolPositions>& runs, Vec2d place, double he
                 run.tips[k].z + profile_height(run.tool, std::min(away, run.tool.radius));
             if (z < lowest - kAlike) {
                 lowest = z;
+                at.place.z = z;
                 at.line = run.lines[k];
                 at.tool = run.tool.number;
             }
@@ -119,11 +121,11 @@ void find_fault_places(const std::vector<ToolPositions>& runs, Verification& res
     if (f.gouge_max > result.bounds.floor_tolerance + kJudgement && deepest != result.gouge.end()) {
         const auto k = static_cast<std::size_t>(deepest - result.gouge.begin());
         const HeightGrid& grid = result.grid;
-        const Vec2d place{grid.x(k / grid.ny, k % grid.ny), grid.y(k / grid.ny, k % grid.ny)};
-        f.gouge_at = cut_at(runs, place, result.part[k] - *deepest);
+        f.gouge_at = cut_at(runs, {grid.x(k / grid.ny, k % grid.ny),
+                                   grid.y(k / grid.ny, k % grid.ny), result.part[k] - *deepest});
     }
     if (f.wall_gouge_at && f.wall_gouge_at->line == 0) {
-        f.wall_gouge_at = cut_at(runs, in_plan(f.wall_gouge_at->place), f.wall_gouge_at->place.z);
+        f.wall_gouge_at = cut_at(runs, f.wall_gouge_at->place);
     }
 }
 

@@ -12,20 +12,19 @@ import re
 import sys
 
 STANDARD = set("""
-    cone graph stop tour way
     above access after and angle arc area at ball basis bend bernstein beside bezier bound box buffer by byte
-    cad call chain check checksum choice cleanup clear clearing closed colour command comment contour control controller
+    cad call chain check checksum choice cleanup clear clearing closed colour command comment cone contour control controller
     coolant count cross curve cutting dense descriptor diameter difference display distance domain drawing dxf edge effect end
     entity equal error executed extent face fact fault figure file fit fitted fitter flat flow follow form free from
-    geometry grid group guess health hermite hit hole homogeneous info input inspect instrument job key keyboard kind lattice
+    geometry graph grid group guess health hermite hit hole homogeneous info input inspect instrument job key keyboard kind lattice
     layout leading left length limit limiter line listener lost lower lowest machine measure mesh model motion
     name navigation nearest nesting number nurbs octant offer offset one open operation option outcome output page
     parameter partial picture piece place plan plane planned pocket position profile progress proof proved
     quadratic question queue range rate raw reach read reading record rectangle refusal refused repair replacement
     report request result resume rough row rule sample scripted search section segment selection serial serve solid sphere
-    settings shape share side simulation source space spacing span spline split spot start stat statistic status
+    settings shape share side simulation source space spacing span spline split spot start stop stat statistic status
     step stream streamer surface table tangent task text thickest time to toolpath trace traversal tree trimmer under unit
-    vcd vec verification verify version vertex vertices visibility volume welded work worst writer
+    vcd vec verification verify version vertex vertices visibility volume way welded work worst writer
 """.split())
 TYPE = re.compile(r"^(?:struct|class|enum class) (?:alignas\(\d+\) )?(\w+)(?: final)?(?:\s*:(?!:)[^;{]*)?\s*\{", re.MULTILINE)
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")

@@ -165,12 +165,15 @@ class Plant:
         self.line, self.name = k + 1, "gouge_max_mm"
         return size
 
-    def offset(self):
+    def offset(self, axis="X", sign=1, name="wall_gouge_max_mm"):
         size = round(self.random.uniform(0.1, 0.6), 2)
         place = next(k for k, line in enumerate(self.lines) if line.startswith("G0"))
-        self.lines.insert(place, f"G10 L2 P1 X{self.job.length(size)}")
-        self.name = "wall_gouge_max_mm"
+        self.lines.insert(place, f"G10 L2 P1 {axis}{self.job.length(sign * size)}")
+        self.name = name
         return size
+
+    def height(self):
+        return self.offset("Z", -1, "gouge_max_mm")
 
     def moved(self):
         """A point of the outline's last pass, moved into the part."""
@@ -192,13 +195,6 @@ class Plant:
         self.lines[k] = f"G1 X{at['X'] * scale:.5f} Y{at['Y'] * scale:.5f}"
         self.line = k + 1
         self.name = "wall_gouge_max_mm" if self.job.shape == "disc" else None  # elsewhere not square to the wall
-        return size
-
-    def height(self):
-        size = round(self.random.uniform(0.1, 0.6), 2)
-        place = next(k for k, line in enumerate(self.lines) if line.startswith("G0"))
-        self.lines.insert(place, f"G10 L2 P1 Z{self.job.length(-size)}")
-        self.name = "gouge_max_mm"
         return size
 
     def missing(self):
