@@ -1,5 +1,5 @@
-# Bundles the pages of host_tools/view/web into OUTPUT, a C++ source that holds them. Run at build time.
-# cmake -DWEB=<host_tools/view/web> -DFOLDER=<build folder> -DOUTPUT=<file> -DNPM=<npm> -DNODE=<node> -DNEEDED=ON|OFF
+# Bundles the pages of host_tools/judge/view/web into OUTPUT, a C++ source that holds them. Run at build time.
+# cmake -DWEB=<host_tools/judge/view/web> -DFOLDER=<build folder> -DOUTPUT=<file> -DNPM=<npm> -DNODE=<node> -DNEEDED=ON|OFF
 #   -DDEVELOPMENT=ON|OFF -DNO_PAGE=<no_page.cpp.in> [-DCORE=<wasm>] -P view_pages.cmake
 # Where npm can't fetch what package-lock.json names, NEEDED=OFF writes a source that says so.
 

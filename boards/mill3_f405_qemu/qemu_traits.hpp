@@ -103,7 +103,7 @@ struct QemuTraits {
 private:
     static inline bool live_{false};
 
-    // The simulator's run, step by step (host_tools/simulate): the same order of bytes and servo
+    // The simulator's run, step by step (host_tools/controller/simulate): the same order of bytes and servo
     // ticks gives the same frames. Returns 0 for a program that is done, 1 after an error or alarm.
     template <class Board, class Application>
     static std::uint32_t run_program(Board& board, Application& application) noexcept

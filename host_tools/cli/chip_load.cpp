@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
-#include "host_tools/verify/path_engagement.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "host_tools/judge/verify/path_engagement.hpp"
 
 #include "fmt/format.h"
 

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "host_tools/cli/plan_statistics.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::cli {
 

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/demo_summary.hpp"
 #include "host_tools/cli/examples_folder.hpp"
@@ -12,13 +14,11 @@
 #include "host_tools/cli/run_program.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/verify_program.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/view/page_text.hpp"
-#include "host_tools/view/run_page.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/view/page_text.hpp"
+#include "host_tools/judge/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

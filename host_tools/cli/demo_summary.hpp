@@ -4,8 +4,8 @@
 #include <string>
 
 #include "host_tools/cli/plan_statistics.hpp"
-#include "host_tools/simulate/simulate.hpp"
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/controller/simulate/simulate.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 
 namespace cusp::cli {
 

@@ -3,8 +3,8 @@
 
 #include <system_error>
 
-#include "host_tools/files/program_data.hpp"
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/files/program_data.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 
 #include "fmt/format.h"
 

@@ -5,12 +5,12 @@
 #include <sstream>
 #include <string>
 
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/json_text/json_text.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/json_text/json_text.hpp"
-#include "host_tools/program_fit/program_fit.hpp"
+#include "host_tools/controller/program_fit/program_fit.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

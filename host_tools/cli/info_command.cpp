@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/base/files/files.hpp"
 #include "host_tools/cli/cli.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/import/part_geometry_reader.hpp"
-#include "host_tools/part_info/part_info.hpp"
-#include "host_tools/report/part_picture.hpp"
-#include "host_tools/toolpath/post.hpp"
+#include "host_tools/geometry/toolpath/post.hpp"
+#include "host_tools/job/import/part_geometry_reader.hpp"
+#include "host_tools/job/part_info/part_info.hpp"
+#include "host_tools/judge/report/part_picture.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/version_text.hpp"
-#include "host_tools/input_error/input_error.hpp"
 
 #include "CLI/CLI.hpp"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "host_tools/import/one_line_check.hpp"
-#include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/placing.hpp"
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/one_line_check.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/import/placing.hpp"
 
 #include "CLI/CLI.hpp"
 

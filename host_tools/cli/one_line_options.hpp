@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/import/one_line_job.hpp"
+#include "host_tools/job/import/one_line_job.hpp"
 
 #include "CLI/App.hpp"
 

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/plan_program.hpp"
 #include "host_tools/cli/plan_statistics.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/setup_choice.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/import/part_files.hpp"
-#include "host_tools/import/post_reader.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/verify/between_sides.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/part_files.hpp"
+#include "host_tools/job/import/post_reader.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/verify/between_sides.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

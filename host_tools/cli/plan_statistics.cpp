@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host_tools/input_error/counted.hpp"
+#include "host_tools/base/input_error/counted.hpp"
 
 #include "fmt/format.h"
 

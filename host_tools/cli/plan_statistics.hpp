@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/toolpath/toolpath.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 #include "nlohmann/json.hpp"
 

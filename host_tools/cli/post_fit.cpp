@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/toolpath/post.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/geometry/toolpath/post.hpp"
 
 #include "fmt/format.h"
 

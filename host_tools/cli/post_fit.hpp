@@ -1,8 +1,8 @@
 // Fits operations to a job's post before planning, and their bounds after it.
 #pragma once
 
-#include "host_tools/job/job.hpp"
-#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::cli {
 

@@ -1,9 +1,9 @@
 // The deepest rapid move of all operations is named.
 #include "host_tools/cli/rapid_refusal.hpp"
 
-#include "host_tools/cancellation/cancellation.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/verify/path_rapids.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/judge/verify/path_rapids.hpp"
 
 #include "fmt/format.h"
 

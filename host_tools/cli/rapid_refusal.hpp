@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host_tools/cli/plan_statistics.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::cli {
 

@@ -1,8 +1,8 @@
 // --threads and --memory.
 #include "host_tools/cli/resource_options.hpp"
 
-#include "host_tools/cancellation/cancellation.hpp"
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
 
 #include "CLI/CLI.hpp"
 

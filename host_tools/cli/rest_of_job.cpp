@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/job/job.hpp"
-#include "host_tools/rest_machining/rest_machining.hpp"
-#include "host_tools/toolpath/toolpath.hpp"
-#include "host_tools/verify/earlier_programs.hpp"
+#include "host_tools/cam/rest_machining/rest_machining.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/verify/earlier_programs.hpp"
 
 namespace cusp::cli {
 

@@ -1,8 +1,8 @@
 // Runs with progress and writes the statistics.
 #include "host_tools/cli/run_program.hpp"
 
+#include "host_tools/base/files/files.hpp"
 #include "host_tools/cli/interruption.hpp"
-#include "host_tools/files/files.hpp"
 
 #include "fmt/format.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_tools/simulate/simulate.hpp"
+#include "host_tools/controller/simulate/simulate.hpp"
 
 namespace cusp::cli {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "host_tools/cli/cli.hpp"
-#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
 
 namespace cusp::cli {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/verify/program_moves.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/judge/verify/program_moves.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace CLI {
 class App;

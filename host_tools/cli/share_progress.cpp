@@ -4,7 +4,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
 
 #include "fmt/format.h"
 

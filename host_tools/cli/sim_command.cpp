@@ -7,17 +7,17 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/pulse_frame.hpp"
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/run_program.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/program_run/motion_profile.hpp"
-#include "host_tools/report/motion_picture.hpp"
-#include "host_tools/simulate/fault_command.hpp"
-#include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/simulate/simulate.hpp"
-#include "host_tools/simulate/virtual_controller.hpp"
+#include "host_tools/controller/program_run/motion_profile.hpp"
+#include "host_tools/controller/simulate/fault_command.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
+#include "host_tools/controller/simulate/simulate.hpp"
+#include "host_tools/controller/simulate/virtual_controller.hpp"
+#include "host_tools/judge/report/motion_picture.hpp"
 
 namespace cusp::cli {
 

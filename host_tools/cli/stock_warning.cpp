@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
 

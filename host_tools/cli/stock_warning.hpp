@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host_tools/cli/plan_statistics.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::cli {
 

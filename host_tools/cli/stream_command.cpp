@@ -5,17 +5,17 @@
 #include <optional>
 #include <string>
 
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/stream/approach.hpp"
-#include "host_tools/stream/keyboard.hpp"
-#include "host_tools/stream/progress_display.hpp"
-#include "host_tools/stream/resume_point.hpp"
-#include "host_tools/stream/streamer.hpp"
-#include "host_tools/stream/time_table.hpp"
-#include "host_tools/stream/transfer_record.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
+#include "host_tools/controller/stream/approach.hpp"
+#include "host_tools/controller/stream/keyboard.hpp"
+#include "host_tools/controller/stream/progress_display.hpp"
+#include "host_tools/controller/stream/resume_point.hpp"
+#include "host_tools/controller/stream/streamer.hpp"
+#include "host_tools/controller/stream/time_table.hpp"
+#include "host_tools/controller/stream/transfer_record.hpp"
 
 namespace cusp::cli {
 

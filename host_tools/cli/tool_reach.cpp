@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <map>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
-#include "host_tools/verify/path_contact.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "host_tools/judge/verify/path_contact.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"

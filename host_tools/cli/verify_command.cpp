@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/cli/verify_program.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "host_tools/cancellation/cancellation.hpp"
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/json_text/json_text.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/json_text/json_text.hpp"
-#include "host_tools/report/report.hpp"
+#include "host_tools/judge/report/report.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"

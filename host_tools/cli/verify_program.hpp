@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host_tools/job/job.hpp"
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 
 namespace cusp::cli {
 

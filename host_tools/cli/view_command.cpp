@@ -3,18 +3,18 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/files/files.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/view/page_still.hpp"
-#include "host_tools/view/page_text.hpp"
-#include "host_tools/view/run_page.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/view/page_still.hpp"
+#include "host_tools/judge/view/page_text.hpp"
+#include "host_tools/judge/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

@@ -12,7 +12,7 @@
 #include "firmware/base/assert.hpp"
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/nurbs/arc_length_table.hpp"
-#include "host_tools/program_fit/program_fit.hpp"
+#include "host_tools/controller/program_fit/program_fit.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sys/resource.h>
 
-#include "host_tools/grid_pocket/grid_navigation.hpp"
-#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "host_tools/cam/grid_pocket/grid_navigation.hpp"
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 #include "tests/support/test_jobs.hpp"

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "host_tools/hull_rough/hull_rough.hpp"
+#include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "tests/support/test_jobs.hpp"
 
 namespace {

@@ -11,12 +11,12 @@
 
 #include "benchmark/benchmark.h"
 
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
-#include "host_tools/drop_cutter/lowest_position_search.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/part_model/offset_surface.hpp"
-#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/geometry/drop_cutter/lowest_position_search.hpp"
+#include "host_tools/geometry/part_model/offset_surface.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/test_jobs.hpp"
 
 using namespace cusp;

@@ -3,10 +3,10 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/offset/contour_fit.hpp"
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
+#include "host_tools/geometry/offset/contour_fit.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/papers/suh_lee/tiller_hanson.hpp"
 
 namespace cusp::test {

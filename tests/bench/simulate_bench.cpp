@@ -5,7 +5,7 @@
 
 #include "benchmark/benchmark.h"
 
-#include "host_tools/simulate/simulate.hpp"
+#include "host_tools/controller/simulate/simulate.hpp"
 
 namespace {
 

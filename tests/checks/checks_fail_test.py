@@ -72,11 +72,11 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertIn("firmware/path is not in the row of firmware/base", text)
 
     def test_includes_refuses_a_second_user_of_import(self):
-        self.write("docs/architecture.md", "| host_tools/import | |\n| host_tools/view | host_tools/import |\n")
-        self.write("host_tools/view/page.hpp", '#include "host_tools/import/import.hpp"\n')
+        self.write("docs/architecture.md", "| host_tools/job/import | |\n| host_tools/judge/view | host_tools/job/import |\n")
+        self.write("host_tools/judge/view/page.hpp", '#include "host_tools/job/import/import.hpp"\n')
         status, text = self.run_check("includes.py")
         self.assertEqual(status, 2)
-        self.assertIn("host_tools/import, which is for host_tools/cli alone", text)
+        self.assertIn("host_tools/job/import, which is for host_tools/cli alone", text)
 
     def test_includes_needs_a_table_and_sources(self):
         self.assertEqual(self.run_check("includes.py")[0], 2)
@@ -84,7 +84,7 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(self.run_check("includes.py")[0], 2)
 
     def test_job_keys_refuses_a_key_that_is_documented_or_known_alone(self):
-        self.write("host_tools/import/known_keys.cpp",
+        self.write("host_tools/job/import/known_keys.cpp",
                    'OperationKey kKeys[]{{"feed", ""}, {"grid", kGrids}};\nreturn {"top", "operation"};\n')
         self.write("docs/job_file.md", "| `feed`, `grid` | needed | |\n| `top` | 0 | |\n")
         self.assertEqual(self.run_check("job_keys.py")[0], 0)
@@ -95,19 +95,19 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertIn("a key tops ", text)
 
     def test_job_keys_needs_keys(self):
-        self.write("host_tools/import/known_keys.cpp", "")
+        self.write("host_tools/job/import/known_keys.cpp", "")
         self.write("docs/job_file.md", "")
         self.assertEqual(self.run_check("job_keys.py")[0], 2)
 
     def test_retired_words_are_refused_in_code_comments_documents_and_names_of_files(self):
-        self.write("host_tools/clearing/loops.hpp", "// A standing_metalwork.\nint told_apart_from;  // Joint\n")
+        self.write("host_tools/cam/clearing/loops.hpp", "// A standing_metalwork.\nint told_apart_from;  // Joint\n")
         self.assertEqual(self.run_check("retired_words.py")[0], 0)
-        for place, text in (("docs/life.md", "`TipFloor::drop()`\n"), ("host_tools/clearing/tip_floor_test.cpp", "\n"),
-                            ("host_tools/clearing/loops.hpp", "// See StandingMetal.\n"),
+        for place, text in (("docs/life.md", "`TipFloor::drop()`\n"), ("host_tools/cam/clearing/tip_floor_test.cpp", "\n"),
+                            ("host_tools/cam/clearing/loops.hpp", "// See StandingMetal.\n"),
                             ("firmware/base/vec.hpp", "struct Joint;\n"),
-                            ("host_tools/clearing/ball.hpp", "// A ball is let down.\n"),
+                            ("host_tools/cam/clearing/ball.hpp", "// A ball is let down.\n"),
                             ("docs/walls.md", "The tool can feel the wall.\n"),
-                            ("host_tools/view/web/src/scene.ts", "/** Where metal stands. */\n"),
+                            ("host_tools/judge/view/web/src/scene.ts", "/** Where metal stands. */\n"),
                             ("hal/sim/mill.hpp", "int a;  // The axis stands still.\n"),
                             ("tests/support/box.hpp", "int a;  // upright\n"),
                             ("tests/cli/box.py", 'def box():\n    """A box of metal."""\n'), ("tests/cli/tap.py", "a = 1  # what is told\n")):
@@ -193,7 +193,7 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(self.run_check("sizes.py")[0], 2)
         body = "\n".join(["    step();"] * 56)
         function = "namespace cusp {\n\n%sint cut(int a,\n        int b)\n{\n" + body + "\n%s}\n\n}  // namespace cusp\n"
-        place = "host_tools/clearing/cut.cpp"
+        place = "host_tools/cam/clearing/cut.cpp"
         self.write(place, function % ("// Cuts.\n", ""))
         self.assertEqual(self.run_check("sizes.py")[0], 0)
         self.write(place, function % ("// Cuts.\n", "    step();\n"))
@@ -202,18 +202,18 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertIn(f"{place}:4: a function of 61 lines", text)
         self.write(place, function % ("// Over 60 lines: a list of steps.\n", "    step();\n"))
         self.assertEqual(self.run_check("sizes.py")[0], 0)
-        self.write("host_tools/clearing/ring.hpp", "class Ring {\npublic:\n    int of() const;\n\nprivate:\n    int of_;\n};\n")
+        self.write("host_tools/cam/clearing/ring.hpp", "class Ring {\npublic:\n    int of() const;\n\nprivate:\n    int of_;\n};\n")
         self.assertEqual(self.run_check("sizes.py")[0], 0)
-        self.write("host_tools/clearing/ring.hpp", "class Ring {\n    int of_;\n\nprivate:\n    int at_;\n\npublic:\n};\n")
+        self.write("host_tools/cam/clearing/ring.hpp", "class Ring {\n    int of_;\n\nprivate:\n    int at_;\n\npublic:\n};\n")
         status, text = self.run_check("sizes.py")
         self.assertEqual(status, 1)
-        self.assertIn("host_tools/clearing/ring.hpp:1: a class", text)
-        self.write("host_tools/clearing/ring.hpp", "// A ring.\n" * 501)
+        self.assertIn("host_tools/cam/clearing/ring.hpp:1: a class", text)
+        self.write("host_tools/cam/clearing/ring.hpp", "// A ring.\n" * 501)
         self.assertIn("501 lines; limit 500", self.run_check("sizes.py")[1])
 
     def test_constants_refuses_other_names_for_nothing_and_for_the_inch(self):
         self.assertEqual(self.run_check("constants.py")[0], 2)
-        place = "host_tools/clearing/loops.cpp"
+        place = "host_tools/cam/clearing/loops.cpp"
         for line, wrong in (("double least = kUnbounded;  // not 1e300", None), ("constexpr double kMost = 1e12;  // mm", None),
                             ('text("1e9");', None), ("double small = 1e-9;", None), ("double least = 1e300;", "1e300 is"),
                             ("box = {1e9, -1e9};", "1e9 is"), ("constexpr double kFar = kInfinite;", "a second name"),
@@ -229,9 +229,9 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_glossary_refuses_a_noun_that_it_lacks(self):
         self.assertEqual(self.run_check("glossary.py")[0], 2)
         self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
-        self.write("host_tools/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")
+        self.write("host_tools/cam/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")
         self.assertEqual(self.run_check("glossary.py")[0], 0)
-        self.write("host_tools/clearing/rings.hpp", "\nclass RingFeeler {\n};\n")
+        self.write("host_tools/cam/clearing/rings.hpp", "\nclass RingFeeler {\n};\n")
         status, text = self.run_check("glossary.py")
         self.assertEqual(status, 1)
         self.assertIn("rings.hpp:2: RingFeeler: define \"feeler\" in docs/glossary.md", text)
@@ -248,14 +248,14 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_unnamed_names_refuses_one_name_in_two_sources_of_a_folder(self):
         self.assertEqual(2, self.run_check("unnamed_names.py")[0])
         unnamed = "namespace {{\n{}\n}}  // namespace\n".format
-        self.write("host_tools/clearing/loops.cpp", unnamed("constexpr double kStep = 0.1;  // mm"))
-        for place, text, status in (("host_tools/offset/rings.cpp", "constexpr int kStep{2};", 0),
-                                    ("host_tools/clearing/rings.cpp", "constexpr int kStep{2};", 1),
-                                    ("host_tools/clearing/rings.cpp", "struct Ring {\n};", 0),
-                                    ("host_tools/clearing/arcs.cpp", "struct Ring {\n};", 1),
-                                    ("host_tools/clearing/arcs.cpp", "double of(int a)\n{\n}", 0),
-                                    ("host_tools/clearing/loops.cpp", "double of(double a)\n{\n}", 0),
-                                    ("host_tools/clearing/loops.cpp", "double of(int a)\n{\n}", 1)):
+        self.write("host_tools/cam/clearing/loops.cpp", unnamed("constexpr double kStep = 0.1;  // mm"))
+        for place, text, status in (("host_tools/geometry/offset/rings.cpp", "constexpr int kStep{2};", 0),
+                                    ("host_tools/cam/clearing/rings.cpp", "constexpr int kStep{2};", 1),
+                                    ("host_tools/cam/clearing/rings.cpp", "struct Ring {\n};", 0),
+                                    ("host_tools/cam/clearing/arcs.cpp", "struct Ring {\n};", 1),
+                                    ("host_tools/cam/clearing/arcs.cpp", "double of(int a)\n{\n}", 0),
+                                    ("host_tools/cam/clearing/loops.cpp", "double of(double a)\n{\n}", 0),
+                                    ("host_tools/cam/clearing/loops.cpp", "double of(int a)\n{\n}", 1)):
             self.write(place, unnamed(text))
             self.assertEqual(status, self.run_check("unnamed_names.py")[0], (place, text))
 

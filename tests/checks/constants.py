@@ -2,10 +2,10 @@
 """Checks that "nothing", "no limit" and the inch each have one name.
 
 usage: constants.py TOP
-host_tools/nurbs/plan_vector.hpp defines kInfinite, kUnbounded and kNoValue. Elsewhere in host_tools no number of 1e9 or
+host_tools/geometry/nurbs/plan_vector.hpp defines kInfinite, kUnbounded and kNoValue. Elsewhere in host_tools no number of 1e9 or
 more replaces them: it is allowed only as a named constant (`constexpr`). No constant is another name of the three, and
 none is written as std::numeric_limits. LACK may not include plan_vector.hpp and write std::numeric_limits.
-kMillimetresPerInch of firmware/base/inch.hpp is the only 25.4. JSON is written by host_tools/json_text alone: dump() throws at
+kMillimetresPerInch of firmware/base/inch.hpp is the only 25.4. JSON is written by host_tools/base/json_text alone: dump() throws at
 bytes that are no UTF-8. Comments and strings do not count.
 Exit status: 0 all do, 1 some do not, 2 there are no sources.
 """
@@ -13,10 +13,10 @@ import pathlib
 import re
 import sys
 
-HOME = "host_tools/nurbs/plan_vector.hpp"
+HOME = "host_tools/geometry/nurbs/plan_vector.hpp"
 INCH = "firmware/base/inch.hpp"
-JSON_TEXT = "host_tools/json_text/json_text.hpp"
-LACK = ("host_tools/program_run/", "host_tools/view/")
+JSON_TEXT = "host_tools/base/json_text/json_text.hpp"
+LACK = ("host_tools/controller/program_run/", "host_tools/judge/view/")
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 HUGE = re.compile(r"(?<![\w.])[\d']+(?:\.\d*)?[eE]\+?0*(?:9|[1-9]\d+)\b")
 ALIAS = re.compile(r"\bk\w+(?: = |\{)-?k(?:Infinite|Unbounded|NoValue)[;}]")

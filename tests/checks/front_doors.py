@@ -13,7 +13,7 @@ import re
 import sys
 
 FOLDERS = ("firmware", "host_tools")
-ROW = re.compile(r"^\| `((?:%s)/\w+)` \| `(\w+\.hpp)` \|(?: ([^|\n]*?) ?\|)?$" % "|".join(FOLDERS), re.MULTILINE)
+ROW = re.compile(r"^\| `((?:%s)/[\w/]+)` \| `(\w+\.hpp)` \|(?: ([^|\n]*?) ?\|)?$" % "|".join(FOLDERS), re.MULTILINE)
 CLASS = re.compile(r"^class `(\w+)`$")
 EXAMPLE = re.compile(r"^//   +\S", re.MULTILINE)
 
@@ -50,7 +50,7 @@ def complaint_of_name(folder, header, reason):
 def main(arguments):
     top = pathlib.Path(arguments[1])
     table = {module: (header, reason) for module, header, reason in ROW.findall((top / "docs/architecture.md").read_text())}
-    modules = sorted({file.parent.relative_to(top).as_posix() for folder in FOLDERS for file in (top / folder).glob("*/*.hpp")})
+    modules = sorted({file.parent.relative_to(top).as_posix() for folder in FOLDERS for file in (top / folder).rglob("*.hpp")})
     if not table or not modules:
         print("front_doors: no table in docs/architecture.md, or no module", file=sys.stderr)
         return 2

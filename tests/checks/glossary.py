@@ -49,7 +49,7 @@ def main(arguments):
         return 2
     terms = STANDARD | {word.lower() for row in ROW.findall(glossary) for word in re.findall(r"[A-Za-z]+", row)}
     found, count = [], 0
-    for header in sorted((top / "host_tools").glob("*/*.hpp")):
+    for header in sorted((top / "host_tools").rglob("*.hpp")):
         text = header.read_text()
         for match in TYPE.finditer(text):
             count += 1

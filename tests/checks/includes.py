@@ -18,7 +18,7 @@ FREESTANDING_HEADERS = {
     "string_view", "tuple", "type_traits", "utility", "variant",
 }
 # Modules that one module alone may include, so that readers of files stay out of planning.
-SOLE_USER = {"host_tools/import": "host_tools/cli"}
+SOLE_USER = {"host_tools/job/import": "host_tools/cli"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include\s*([<"])([^>"]+)[>"]', re.M)
 ROW = re.compile(r"^\|\s*((?:%s)/[\w/]+)\s*\|([^|]*)\|" % "|".join(TOP_FOLDERS), re.M)
 

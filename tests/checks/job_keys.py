@@ -9,7 +9,7 @@ import re
 import sys
 
 # The reader refuses keys outside its lists, and tests fail on keys that are not read.
-KEYS = "host_tools/import/known_keys.cpp"
+KEYS = "host_tools/job/import/known_keys.cpp"
 DOCUMENT = "docs/job_file.md"
 TABLES = {"cutting", "fixture", "operation", "placing", "stock"}
 LISTED = re.compile(r'\{"(\w+)", (?:""|k\w+|"[^"]*")(?:, (?:k\w+|"[^"]*"))?\}')  # of operations, with their strategies

@@ -3,9 +3,9 @@
 #include <exception>
 #include <fstream>
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/strategies/strategies.hpp"
-#include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
+#include "host_tools/job/import/import.hpp"
 
 int main(int count, char** arguments)
 {

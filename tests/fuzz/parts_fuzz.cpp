@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // The first byte picks the format.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/base/vec.hpp"
-#include "host_tools/nurbs/plan_vector.hpp"
+#include "host_tools/geometry/nurbs/plan_vector.hpp"
 
 #include "fmt/format.h"
 

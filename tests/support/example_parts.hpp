@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 
 namespace cusp::test {
 

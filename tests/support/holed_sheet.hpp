@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
 #include "tests/support/plates.hpp"
 
 namespace cusp::test {

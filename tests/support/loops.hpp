@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::test {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/job/loop_shape.hpp"
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 
 namespace cusp::test {
 

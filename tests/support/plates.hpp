@@ -1,8 +1,8 @@
 // Horizontal rectangles as surfaces.
 #pragma once
 
-#include "host_tools/nurbs/nurbs.hpp"
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
 
 namespace cusp::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/test_jobs.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 
 namespace cusp::test {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
 
 namespace cusp::test {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/job/job.hpp"
-#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/support/tap.hpp"
 
 namespace cusp::test {

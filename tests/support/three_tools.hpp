@@ -1,7 +1,7 @@
 // A ball, a flat and a bull end of 6 mm.
 #pragma once
 
-#include "host_tools/toolpath/tool.hpp"
+#include "host_tools/geometry/toolpath/tool.hpp"
 
 namespace cusp::test {
 

@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-SOURCES = HERE.parents[1] / "host_tools/view/npm"
+SOURCES = HERE.parents[1] / "host_tools/judge/view/npm"
 
 
 def call(*words, folder):

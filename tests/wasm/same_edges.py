@@ -3,7 +3,7 @@
 
 usage: same_edges.py --cusp CUSP --package FOLDER [--programs N] [--seed N] [--keep FOLDER] [PROGRAM[=SETTINGS] ...]
 
-FOLDER is what host_tools/view/npm/build.mjs makes. Besides the programs named, N random ones with random settings run
+FOLDER is what host_tools/judge/view/npm/build.mjs makes. Besides the programs named, N random ones with random settings run
 (tests/target/random_programs.py). CUSP_WASM_PROGRAMS=N asks for another number. A program that differs is kept.
 Exit status: 0 all are equal, 1 one is not, 2 something could not run.
 """

@@ -6,9 +6,9 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/grid_pocket/grid_pocket.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
 using namespace cusp::grid_pocket;

@@ -5,9 +5,9 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/hull_rough/hull_rough.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/cam/hull_rough/hull_rough.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
 using namespace cusp::hull_rough;

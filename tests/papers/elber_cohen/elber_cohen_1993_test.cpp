@@ -4,7 +4,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/cam/adaptive_isocurve/isocurve_extraction.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/tube.hpp"
 

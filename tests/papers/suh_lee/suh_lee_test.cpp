@@ -1,8 +1,8 @@
 // The case study of Suh & Lee 1990 on our replica of its part, and the numbers we promise for it.
 #include <cmath>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/import/import.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
+#include "host_tools/job/import/import.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

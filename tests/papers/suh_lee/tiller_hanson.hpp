@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
 
 namespace cusp::test {
 

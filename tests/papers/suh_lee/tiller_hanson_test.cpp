@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <random>
 
-#include "host_tools/offset/contour_fit.hpp"
-#include "host_tools/offset/edge_tree.hpp"
+#include "host_tools/geometry/offset/contour_fit.hpp"
+#include "host_tools/geometry/offset/edge_tree.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
-#include "host_tools/adaptive_clearing/entry_spiral.hpp"
-#include "host_tools/adaptive_clearing/steered_pass.hpp"
-#include "host_tools/contour_pocket/open_sides.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/cam/adaptive_clearing/entry_spiral.hpp"
+#include "host_tools/cam/adaptive_clearing/steered_pass.hpp"
+#include "host_tools/cam/contour_pocket/open_sides.hpp"
 #include "tests/property/adaptive_clearing/random_clearing.hpp"
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
 #include "tests/property/offset/random_regions.hpp"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
-#include "host_tools/offset/offset.hpp"
-#include "host_tools/offset/region_check.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/geometry/offset/region_check.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/unit/offset/polygons.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 
 namespace cusp::test {
 

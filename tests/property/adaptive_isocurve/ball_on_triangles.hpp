@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/nurbs/nurbs.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/box_mesh.hpp"
 
 namespace cusp::test {

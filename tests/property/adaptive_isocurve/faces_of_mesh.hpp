@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/loops.hpp"
 

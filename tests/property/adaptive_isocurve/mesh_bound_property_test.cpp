@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
 #include "tests/property/adaptive_isocurve/ball_finish_judge.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 #include "tests/property/adaptive_isocurve/random_polyhedra.hpp"

@@ -8,9 +8,9 @@
 #include <set>
 #include <vector>
 
-#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
-#include "host_tools/part_model/part_model.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/property/grid_pocket/random_pockets.hpp"
 #include "tests/support/property_cases.hpp"
 

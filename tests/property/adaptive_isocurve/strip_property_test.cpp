@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/cross_section.hpp"
-#include "host_tools/toolpath/stepover.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/adaptive_isocurve/cross_section.hpp"
+#include "host_tools/geometry/toolpath/stepover.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

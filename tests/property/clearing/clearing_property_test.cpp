@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/cam/clearing/clearing.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 

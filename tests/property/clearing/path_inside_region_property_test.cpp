@@ -2,8 +2,8 @@
 // there is one.
 #include <cstdio>
 
-#include "host_tools/clearing/path_inside_region.hpp"
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/cam/clearing/path_inside_region.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/offset/contour.hpp"
-#include "host_tools/toolpath/toolpath.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 namespace cusp::test {
 

@@ -2,7 +2,7 @@
 // cut, layers, allowance, one tool or two.
 #include <cstdio>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/moves_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/plates.hpp"

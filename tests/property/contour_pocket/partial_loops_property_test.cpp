@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/moves_judge.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/property/offset/random_regions.hpp"
 
 namespace cusp::test {

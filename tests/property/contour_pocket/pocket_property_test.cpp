@@ -1,8 +1,8 @@
 // Random pockets with islands on random floors: no gouge, nothing left above the scallop.
 #include <cstdio>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/offset/region_check.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
+#include "host_tools/geometry/offset/region_check.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/grid_pocket/adaptive_layers.hpp"
-#include "host_tools/grid_pocket/grid_passes.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/grid_pocket/adaptive_layers.hpp"
+#include "host_tools/cam/grid_pocket/grid_passes.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/property/grid_pocket/height_raster.hpp"
 #include "tests/property/grid_pocket/random_pockets.hpp"
 #include "tests/support/property_cases.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/random_jobs.hpp"
 

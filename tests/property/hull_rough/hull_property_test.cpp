@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "host_tools/hull_rough/hull_patch.hpp"
-#include "host_tools/hull_rough/hull_rough.hpp"
-#include "host_tools/toolpath/gcode_writer.hpp"
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/cam/hull_rough/hull_patch.hpp"
+#include "host_tools/cam/hull_rough/hull_rough.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/random_jobs.hpp"

@@ -9,8 +9,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/sphere_patches.hpp"
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/sphere_patches.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/patch_cover.hpp"
 #include "tests/support/property_cases.hpp"

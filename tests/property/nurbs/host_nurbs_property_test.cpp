@@ -7,8 +7,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/nurbs/knot_insertion.hpp"
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/knot_insertion.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
 
 using namespace cusp;
 using namespace cusp::nurbs;

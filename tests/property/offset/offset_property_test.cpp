@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 #include "tests/property/offset/offset_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"

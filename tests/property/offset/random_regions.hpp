@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <random>
 
-#include "host_tools/offset/contour.hpp"
-#include "host_tools/offset/region_check.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/geometry/offset/region_check.hpp"
 
 namespace cusp::test {
 

@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/drawn_shapes.hpp"
-#include "host_tools/offset/contour_fit.hpp"
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/contour_fit.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
 #include "tests/property/offset/offset_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"

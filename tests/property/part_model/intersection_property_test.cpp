@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "host_tools/part_model/model_intersection.hpp"
-#include "host_tools/part_model/trim_region.hpp"
+#include "host_tools/geometry/part_model/model_intersection.hpp"
+#include "host_tools/geometry/part_model/trim_region.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/drop_cutter/surface_bounds.hpp"
-#include "host_tools/part_model/part_model.hpp"
-#include "host_tools/prismatic/prismatic.hpp"
-#include "host_tools/toolpath/tool_tip.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/prismatic/prismatic.hpp"
+#include "host_tools/geometry/drop_cutter/surface_bounds.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/prismatic/prismatic.hpp"
-#include "host_tools/toolpath/short_tour.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/prismatic/prismatic.hpp"
+#include "host_tools/geometry/toolpath/short_tour.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"

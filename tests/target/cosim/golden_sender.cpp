@@ -1,4 +1,4 @@
-// The simulator's order of bytes and servo ticks (host_tools/simulate), through a serial port.
+// The simulator's order of bytes and servo ticks (host_tools/controller/simulate), through a serial port.
 #include "tests/target/cosim/golden_sender.hpp"
 
 #include <algorithm>

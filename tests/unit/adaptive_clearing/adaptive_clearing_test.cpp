@@ -1,9 +1,9 @@
-#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

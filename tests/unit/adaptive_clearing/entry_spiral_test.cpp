@@ -1,5 +1,5 @@
 // The hole of an entry is widened within the engagement; without stock in the way it is whole.
-#include "host_tools/adaptive_clearing/entry_spiral.hpp"
+#include "host_tools/cam/adaptive_clearing/entry_spiral.hpp"
 
 #include <algorithm>
 #include <cmath>

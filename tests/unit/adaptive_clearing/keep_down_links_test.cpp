@@ -1,5 +1,5 @@
 // Ways of a tool that stays down, and how it comes down beside stock.
-#include "host_tools/adaptive_clearing/keep_down_links.hpp"
+#include "host_tools/cam/adaptive_clearing/keep_down_links.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

@@ -1,4 +1,4 @@
-#include "host_tools/adaptive_clearing/neck_ways.hpp"
+#include "host_tools/cam/adaptive_clearing/neck_ways.hpp"
 
 #include <algorithm>
 #include <cmath>

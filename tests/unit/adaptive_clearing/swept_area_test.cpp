@@ -1,4 +1,4 @@
-#include "host_tools/adaptive_clearing/swept_area.hpp"
+#include "host_tools/cam/adaptive_clearing/swept_area.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Passes along a wall where stock is left beside it.
-#include "host_tools/adaptive_clearing/wall_passes.hpp"
+#include "host_tools/cam/adaptive_clearing/wall_passes.hpp"
 
-#include "host_tools/adaptive_clearing/swept_area.hpp"
+#include "host_tools/cam/adaptive_clearing/swept_area.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

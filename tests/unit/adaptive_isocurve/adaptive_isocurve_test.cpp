@@ -1,5 +1,5 @@
 // Whole plans, judged by the certified distance of densely sampled points of the path.
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -9,10 +9,10 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
-#include "host_tools/finishing/swept_volume.hpp"
-#include "host_tools/part_model/part_model.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/cam/finishing/swept_volume.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/recorded_progress.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 

@@ -1,5 +1,5 @@
 // Sections at the poles of a ball, where derivatives are rounding.
-#include "host_tools/adaptive_isocurve/cross_section.hpp"
+#include "host_tools/cam/adaptive_isocurve/cross_section.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Passes a step apart, on surfaces whose width varies.
-#include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
+#include "host_tools/cam/adaptive_isocurve/equal_scallop_passes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The symbolic distance against distances of points.
-#include "host_tools/adaptive_isocurve/iso_distance.hpp"
+#include "host_tools/cam/adaptive_isocurve/iso_distance.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Complete isocurves of surfaces that close.
-#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/cam/adaptive_isocurve/isocurve_extraction.hpp"
 
 #include <cmath>
 

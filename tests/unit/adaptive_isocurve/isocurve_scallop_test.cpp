@@ -1,5 +1,5 @@
 // Scallops on twisted and sheared patches, compared with those of a ball stepped along both passes.
-#include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
+#include "host_tools/cam/adaptive_isocurve/isocurve_scallop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // The bound of neighbours against dense samples, on parts and on curves that cross.
-#include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
+#include "host_tools/cam/adaptive_isocurve/isocurve_spacing_bound.hpp"
 
 #include <algorithm>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/cam/adaptive_isocurve/equal_scallop_passes.hpp"
+#include "host_tools/cam/adaptive_isocurve/isocurve_extraction.hpp"
 #include "tests/support/example_parts.hpp"
 
 using namespace cusp;

@@ -1,5 +1,5 @@
 // Stock left by parallel planes, from the path that was cut.
-#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
 
 #include <cmath>
 #include <memory>
@@ -8,8 +8,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/finishing/swept_volume.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/finishing/swept_volume.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 

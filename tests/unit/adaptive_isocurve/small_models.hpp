@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
 namespace cusp::test {

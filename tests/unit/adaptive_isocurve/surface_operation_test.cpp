@@ -1,8 +1,8 @@
 // Jobs that cannot be planned are refused with name, value and limit.
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 

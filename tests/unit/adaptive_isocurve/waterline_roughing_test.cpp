@@ -1,5 +1,5 @@
 // Depths of levels, and what smaller cutters remove after larger ones.
-#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
 
 #include <cmath>
 #include <set>
@@ -7,11 +7,11 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/rest_regions.hpp"
-#include "host_tools/adaptive_isocurve/rough_depths.hpp"
-#include "host_tools/part_model/part_model.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/cam/adaptive_isocurve/rough_depths.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/random_jobs.hpp"
 

@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "firmware/base/assert.hpp"
-#include "host_tools/program_run/edge_listener.hpp"
-#include "host_tools/program_run/program_run.hpp"
+#include "host_tools/controller/program_run/edge_listener.hpp"
+#include "host_tools/controller/program_run/program_run.hpp"
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
 {

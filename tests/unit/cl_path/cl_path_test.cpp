@@ -1,9 +1,9 @@
-#include "host_tools/cl_path/cl_path.hpp"
+#include "host_tools/cam/cl_path/cl_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/cl_path/station_row.hpp"
+#include "host_tools/cam/cl_path/station_row.hpp"
 #include "tests/support/holed_sheet.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

@@ -1,5 +1,5 @@
 // Depths of straight cuts of a ball, and the heights that a limit allows, against closed forms.
-#include "host_tools/clearing/axial_depth_tracker.hpp"
+#include "host_tools/cam/clearing/axial_depth_tracker.hpp"
 
 #include "CppUTest/TestHarness.h"
 

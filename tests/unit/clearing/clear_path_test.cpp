@@ -1,4 +1,4 @@
-#include "host_tools/clearing/clear_path.hpp"
+#include "host_tools/cam/clearing/clear_path.hpp"
 
 #include <algorithm>
 #include <array>

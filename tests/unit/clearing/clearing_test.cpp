@@ -1,4 +1,4 @@
-#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/cam/clearing/clearing.hpp"
 
 #include <algorithm>
 

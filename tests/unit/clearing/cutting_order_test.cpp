@@ -1,4 +1,4 @@
-#include "host_tools/clearing/cutting_order.hpp"
+#include "host_tools/cam/clearing/cutting_order.hpp"
 
 #include "CppUTest/TestHarness.h"
 

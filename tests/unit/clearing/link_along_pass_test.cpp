@@ -1,4 +1,4 @@
-#include "host_tools/clearing/link_along_pass.hpp"
+#include "host_tools/cam/clearing/link_along_pass.hpp"
 
 #include <algorithm>
 #include <cmath>

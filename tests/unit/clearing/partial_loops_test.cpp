@@ -1,4 +1,4 @@
-#include "host_tools/clearing/partial_loops.hpp"
+#include "host_tools/cam/clearing/partial_loops.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Descents through stock and through air.
-#include "host_tools/clearing/plunge_feed_limit.hpp"
+#include "host_tools/cam/clearing/plunge_feed_limit.hpp"
 
 #include "CppUTest/TestHarness.h"
 

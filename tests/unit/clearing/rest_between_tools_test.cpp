@@ -1,5 +1,5 @@
 // Whether the area cleared by one cutter counts as cleared for another.
-#include "host_tools/clearing/rest_between_tools.hpp"
+#include "host_tools/cam/clearing/rest_between_tools.hpp"
 
 #include <cmath>
 #include <memory>

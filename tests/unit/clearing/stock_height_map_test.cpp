@@ -1,11 +1,11 @@
-#include "host_tools/clearing/stock_height_map.hpp"
+#include "host_tools/cam/clearing/stock_height_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

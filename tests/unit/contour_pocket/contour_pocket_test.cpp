@@ -1,10 +1,10 @@
-#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <map>
 
-#include "host_tools/contour_pocket/pocket_task.hpp"
+#include "host_tools/cam/contour_pocket/pocket_task.hpp"
 #include "tests/support/recorded_progress.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"

@@ -1,12 +1,12 @@
-#include "host_tools/contour_pocket/loop_scallop.hpp"
+#include "host_tools/cam/contour_pocket/loop_scallop.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/contour_pocket/height_bounds.hpp"
-#include "host_tools/contour_pocket/plan_stepover.hpp"
+#include "host_tools/cam/contour_pocket/height_bounds.hpp"
+#include "host_tools/cam/contour_pocket/plan_stepover.hpp"
 
 namespace cusp::test {
 

@@ -1,10 +1,10 @@
-#include "host_tools/contour_pocket/open_sides.hpp"
+#include "host_tools/cam/contour_pocket/open_sides.hpp"
 
 #include <algorithm>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/contour_pocket/pocket_task.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
+#include "host_tools/cam/contour_pocket/pocket_task.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/unit/offset/polygons.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

@@ -1,5 +1,5 @@
 // The tip lowest at a single place, with no line from it.
-#include "host_tools/contour_pocket/pencil_curves.hpp"
+#include "host_tools/cam/contour_pocket/pencil_curves.hpp"
 
 #include <algorithm>
 #include <cstdio>

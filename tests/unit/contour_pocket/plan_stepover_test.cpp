@@ -1,10 +1,10 @@
-#include "host_tools/contour_pocket/plan_stepover.hpp"
+#include "host_tools/cam/contour_pocket/plan_stepover.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/contour_pocket/loop_spacing.hpp"
+#include "host_tools/cam/contour_pocket/loop_spacing.hpp"
 
 namespace cusp::test {
 

@@ -1,5 +1,5 @@
 // Understanding a controller's answers.
-#include "host_tools/dialect/answer.hpp"
+#include "host_tools/controller/dialect/answer.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,9 +1,9 @@
 // Reading a program line by line.
-#include "host_tools/dialect/line_source.hpp"
+#include "host_tools/controller/dialect/line_source.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using cusp::dialect::LineSource;

@@ -1,5 +1,5 @@
 // Lines as they go over the wire.
-#include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/controller/dialect/program_lines.hpp"
 
 #include <string>
 #include <vector>

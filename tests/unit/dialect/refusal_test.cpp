@@ -1,5 +1,5 @@
 // The refused word, and its message.
-#include "host_tools/dialect/refusal.hpp"
+#include "host_tools/controller/dialect/refusal.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,5 +1,5 @@
 // Words that stock Grbl 1.1 accepts, against the table of G-codes in its documentation.
-#include "host_tools/dialect/stock_grbl.hpp"
+#include "host_tools/controller/dialect/stock_grbl.hpp"
 
 #include <cstdio>
 #include <set>

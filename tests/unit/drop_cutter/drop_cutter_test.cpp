@@ -1,5 +1,5 @@
 // The end of a patch at an angle over a floor, and drops of the tool beside it.
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <malloc.h>
 #include <random>
 
-#include "host_tools/drop_cutter/floor_coverage.hpp"
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/geometry/drop_cutter/floor_coverage.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
 #include "tests/support/plates.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

@@ -1,13 +1,13 @@
 // The lowest position of a tool over points that it cannot touch, compared with the best of
 // positions tried one by one, and with closed forms.
-#include "host_tools/drop_cutter/lowest_position_search.hpp"
+#include "host_tools/geometry/drop_cutter/lowest_position_search.hpp"
 
 #include <array>
 #include <cmath>
 #include <random>
 #include <string>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

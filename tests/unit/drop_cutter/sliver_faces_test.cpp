@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 #include "tests/property/adaptive_isocurve/ball_on_triangles.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 #include "tests/support/draw.hpp"

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
-#include "host_tools/offset/contour.hpp"
-#include "host_tools/part_model/trim_region.hpp"
+#include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/geometry/part_model/trim_region.hpp"
 #include "tests/support/holed_sheet.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

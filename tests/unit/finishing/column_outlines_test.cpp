@@ -1,5 +1,5 @@
 // A wall with a window and an arch is divided into pieces that vertical lines cross once.
-#include "host_tools/finishing/column_outlines.hpp"
+#include "host_tools/cam/finishing/column_outlines.hpp"
 
 #include <cmath>
 

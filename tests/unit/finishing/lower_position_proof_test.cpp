@@ -1,6 +1,6 @@
 // Whether a ball gets lower over points of rough and of smooth meshes, compared with a ball dropped
 // on a fine grid around each.
-#include "host_tools/finishing/lower_position_proof.hpp"
+#include "host_tools/cam/finishing/lower_position_proof.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // A wall of 89 degrees at the rim of a plate: rows over the plate leave it, passes along it do not.
-#include "host_tools/finishing/mesh_scallop_check.hpp"
+#include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // What passes do over the stock's top is left out, what they do below it stays.
-#include "host_tools/finishing/passes_in_stock.hpp"
+#include "host_tools/cam/finishing/passes_in_stock.hpp"
 
 #include <vector>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 using namespace cusp;
 using namespace cusp::finishing;

@@ -1,6 +1,6 @@
 // How low a ball gets beside a rim over a floor, touching it or kept off it, compared with all
 // positions across the rim.
-#include "host_tools/finishing/reachable_height.hpp"
+#include "host_tools/cam/finishing/reachable_height.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // Cells of surfaces that are not yet cut.
-#include "host_tools/finishing/scallop_check.hpp"
+#include "host_tools/cam/finishing/scallop_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

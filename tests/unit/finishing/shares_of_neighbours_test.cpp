@@ -1,5 +1,5 @@
 // Shares hold each number once, alike in size, and hardly overlap.
-#include "host_tools/finishing/shares_of_neighbours.hpp"
+#include "host_tools/cam/finishing/shares_of_neighbours.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Points below the side of a horizontal half pipe, very near to its silhouette.
-#include "host_tools/finishing/silhouette_map.hpp"
+#include "host_tools/cam/finishing/silhouette_map.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,5 +1,5 @@
 // The lowest free place over a point, compared with every move as many balls along it.
-#include "host_tools/finishing/swept_volume.hpp"
+#include "host_tools/cam/finishing/swept_volume.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Facets of the vertical parts of faces lie on them, within what they say, and cover them.
-#include "host_tools/finishing/vertical_faces.hpp"
+#include "host_tools/cam/finishing/vertical_faces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Bounds of random rational patches hold at their points, and are not far from what is found there.
-#include "host_tools/finishing/wall_cell.hpp"
+#include "host_tools/cam/finishing/wall_cell.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Sides of walls beside which a ball rests on nothing, in mm.
-#include "host_tools/finishing/walls_over_nothing.hpp"
+#include "host_tools/cam/finishing/walls_over_nothing.hpp"
 
 #include <cmath>
 
-#include "host_tools/finishing/vertical_faces.hpp"
+#include "host_tools/cam/finishing/vertical_faces.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

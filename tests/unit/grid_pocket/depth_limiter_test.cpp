@@ -3,8 +3,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/clearing/stock_height_map.hpp"
-#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "host_tools/cam/clearing/stock_height_map.hpp"
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/test_jobs.hpp"
 

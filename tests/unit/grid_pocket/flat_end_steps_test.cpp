@@ -1,9 +1,9 @@
 // Steps of a flat end on slopes whose steps are known.
-#include "host_tools/grid_pocket/flat_end_steps.hpp"
+#include "host_tools/cam/grid_pocket/flat_end_steps.hpp"
 
 #include <cmath>
 
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

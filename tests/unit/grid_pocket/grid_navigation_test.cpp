@@ -1,5 +1,5 @@
 // The order of cells: the paper's priorities, and the cost of leaving dead ends.
-#include "host_tools/grid_pocket/grid_navigation.hpp"
+#include "host_tools/cam/grid_pocket/grid_navigation.hpp"
 
 #include <cstdio>
 #include <cstdlib>

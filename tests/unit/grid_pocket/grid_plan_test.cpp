@@ -12,10 +12,10 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/grid_pocket/grid_pocket.hpp"
-#include "host_tools/offset/offset.hpp"
-#include "host_tools/part_model/part_model.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tap.hpp"

@@ -1,5 +1,5 @@
 // The sweep against a bitmap over all coordinates, which is simpler and as exact.
-#include "host_tools/hull_rough/box_union.hpp"
+#include "host_tools/cam/hull_rough/box_union.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Allowed positions of the axis, compared with distances by brute force.
-#include "host_tools/hull_rough/clear_zone.hpp"
+#include "host_tools/cam/hull_rough/clear_zone.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/hull_rough/zigzag.hpp"
+#include "host_tools/cam/hull_rough/zigzag.hpp"
 
 using namespace cusp;
 using namespace cusp::hull_rough;

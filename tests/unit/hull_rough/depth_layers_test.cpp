@@ -1,5 +1,5 @@
 // Layers between tops of boxes: split, merged, chosen.
-#include "host_tools/hull_rough/depth_layers.hpp"
+#include "host_tools/cam/hull_rough/depth_layers.hpp"
 
 #include <algorithm>
 #include <array>

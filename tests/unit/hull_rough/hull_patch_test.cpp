@@ -1,5 +1,5 @@
 // The hull property, on random rational patches.
-#include "host_tools/hull_rough/hull_patch.hpp"
+#include "host_tools/cam/hull_rough/hull_patch.hpp"
 
 #include <cstdio>
 #include <random>

@@ -10,7 +10,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/hull_rough/hull_rough.hpp"
+#include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tap.hpp"

@@ -1,10 +1,10 @@
 // Uncovered spots of a layer: found where a line is missing, none where lines and outlines are
 // complete.
-#include "host_tools/hull_rough/layer_coverage.hpp"
+#include "host_tools/cam/hull_rough/layer_coverage.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/hull_rough/layer_clearing.hpp"
+#include "host_tools/cam/hull_rough/layer_clearing.hpp"
 
 using namespace cusp;
 using namespace cusp::clearing;

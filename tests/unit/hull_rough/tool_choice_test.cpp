@@ -1,5 +1,5 @@
 // Time, fitness and changes.
-#include "host_tools/hull_rough/tool_choice.hpp"
+#include "host_tools/cam/hull_rough/tool_choice.hpp"
 
 #include "CppUTest/TestHarness.h"
 

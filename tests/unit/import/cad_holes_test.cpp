@@ -1,5 +1,5 @@
 // Holes of solids that Open CASCADE drills and writes, read back.
-#include "host_tools/import/cad_holes.hpp"
+#include "host_tools/job/import/cad_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@
 // it needs the harness before it
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/hole_depth.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/hole_depth.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // STEP and IGES: written by Open CASCADE, read back.
-#include "host_tools/import/cad_surfaces.hpp"
+#include "host_tools/job/import/cad_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,8 +51,8 @@
 // it needs the harness before it
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
-#include "host_tools/files/files.hpp"
-#include "host_tools/import/import.hpp"
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/import/seen_from_above.hpp"

@@ -1,17 +1,17 @@
 // Drawings with known areas, and drawings that are broken.
-#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/job/import/dxf_curves.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/drawn_shapes.hpp"
-#include "host_tools/import/dxf_holes.hpp"
-#include "host_tools/import/file_loops.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
+#include "host_tools/job/import/dxf_holes.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

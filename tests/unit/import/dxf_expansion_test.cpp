@@ -1,15 +1,15 @@
 // What is no contour is left out and counted; drawings in other planes; drawings far from the origin.
-#include "host_tools/import/dxf_expansion.hpp"
+#include "host_tools/job/import/dxf_expansion.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/dxf_holes.hpp"
-#include "host_tools/import/dxf_plane.hpp"
-#include "host_tools/import/file_loops.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/import/dxf_holes.hpp"
+#include "host_tools/job/import/dxf_plane.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/drawn_dxf.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

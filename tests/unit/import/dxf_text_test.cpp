@@ -1,5 +1,5 @@
 // Layers in every code page that drawings come in; what is no DXF text is named.
-#include "host_tools/import/dxf_text.hpp"
+#include "host_tools/job/import/dxf_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/job/import/dxf_curves.hpp"
 #include "tests/support/drawn_dxf.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

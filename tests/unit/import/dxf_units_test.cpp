@@ -1,11 +1,11 @@
 // Every unit of $INSUNITS against Autodesk's table in metres; $MEASUREMENT where there is none.
-#include "host_tools/import/dxf_units.hpp"
+#include "host_tools/job/import/dxf_units.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/job/import/dxf_curves.hpp"
 #include "tests/support/drawn_dxf.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -4,9 +4,9 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

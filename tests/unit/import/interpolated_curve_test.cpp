@@ -1,5 +1,5 @@
 // Splines through points: against the equations of the cubic spline, cubics, and circles.
-#include "host_tools/import/interpolated_curve.hpp"
+#include "host_tools/job/import/interpolated_curve.hpp"
 
 #include <cmath>
 #include <random>
@@ -7,9 +7,9 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/dxf_curves.hpp"
-#include "host_tools/import/file_loops.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/import/dxf_curves.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/drawn_dxf.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

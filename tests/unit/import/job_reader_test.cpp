@@ -5,8 +5,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/job/job.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // Loops by their closed forms: lengths, areas, what lies in what, and how far open ends are apart.
-#include "host_tools/import/loop_nesting.hpp"
+#include "host_tools/job/import/loop_nesting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/drawn_shapes.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
 #include "tests/support/loops.hpp"
 
 using namespace cusp;

@@ -1,5 +1,5 @@
 // Holes that a tool from above would fall through are found and closed; borders that are none are not.
-#include "host_tools/import/mesh_holes.hpp"
+#include "host_tools/job/import/mesh_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/mesh_borders.hpp"
+#include "host_tools/job/import/mesh_borders.hpp"
 #include "tests/support/box_mesh.hpp"
 
 using namespace cusp;

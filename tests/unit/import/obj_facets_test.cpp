@@ -1,5 +1,5 @@
 // OBJ files: what is read and refused; polygons are covered by their triangles.
-#include "host_tools/import/obj_facets.hpp"
+#include "host_tools/job/import/obj_facets.hpp"
 
 #include <cmath>
 #include <random>
@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/polygon_triangles.hpp"
+#include "host_tools/job/import/polygon_triangles.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Jobs out of one line: what is chosen, by which part and tools, and what is refused.
-#include "host_tools/import/one_line_job.hpp"
+#include "host_tools/job/import/one_line_job.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,11 +1,11 @@
 // Extents of parts: trims and control points that stand off the surface do not count.
-#include "host_tools/import/part_extent.hpp"
+#include "host_tools/job/import/part_extent.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/plates.hpp"
 

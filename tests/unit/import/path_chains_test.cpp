@@ -1,5 +1,5 @@
 // Closed polylines stay loops; loose curves go on in one way at every junction.
-#include "host_tools/import/path_chains.hpp"
+#include "host_tools/job/import/path_chains.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/file_loops.hpp"
-#include "host_tools/import/loop_nesting.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/import/loop_nesting.hpp"
 #include "tests/support/drawn_dxf.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

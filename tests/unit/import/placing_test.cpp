@@ -1,12 +1,12 @@
 // Parts scaled, turned and moved: against corners turned by hand, and the box that an origin asks for.
-#include "host_tools/import/placing.hpp"
+#include "host_tools/job/import/placing.hpp"
 
 #include <cmath>
 #include <random>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/job/loop_shape.hpp"
-#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 
 namespace cusp::test {
 

@@ -1,5 +1,5 @@
 // Meshes: what is read, what is refused, and that the height field never lies below them.
-#include "host_tools/import/stl_facets.hpp"
+#include "host_tools/job/import/stl_facets.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/facet_groups.hpp"
-#include "host_tools/import/height_field.hpp"
-#include "host_tools/import/import.hpp"
-#include "host_tools/import/mesh_file.hpp"
-#include "host_tools/import/mesh_patches.hpp"
+#include "host_tools/job/import/facet_groups.hpp"
+#include "host_tools/job/import/height_field.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/mesh_patches.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Tools in one word: what is read, and what is refused with which words.
-#include "host_tools/import/tool_text.hpp"
+#include "host_tools/job/import/tool_text.hpp"
 
 #include "CppUTest/TestHarness.h"
 

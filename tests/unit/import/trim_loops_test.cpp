@@ -1,9 +1,9 @@
 // Trims: outer loops and holes, and trims that contradict each other.
-#include "host_tools/import/trim_loops.hpp"
+#include "host_tools/job/import/trim_loops.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 
 using namespace cusp;

@@ -1,14 +1,14 @@
 // Loops of CAD faces that are open, or cross themselves at a cusp.
-#include "host_tools/import/trim_repair.hpp"
+#include "host_tools/job/import/trim_repair.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/trim_cusps.hpp"
-#include "host_tools/import/trim_lobes.hpp"
-#include "host_tools/import/trim_loops.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/job/import/trim_cusps.hpp"
+#include "host_tools/job/import/trim_lobes.hpp"
+#include "host_tools/job/import/trim_loops.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 
 using namespace cusp;

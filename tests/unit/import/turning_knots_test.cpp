@@ -1,5 +1,5 @@
 // Surfaces that turn far within a span get knots, and keep their shape and their trims.
-#include "host_tools/import/turning_knots.hpp"
+#include "host_tools/job/import/turning_knots.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Fixtures: distances and paths against points sampled closely.
-#include "host_tools/job/fixture_clearance.hpp"
+#include "host_tools/job/job/fixture_clearance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 using namespace cusp;
 using namespace cusp::job;

@@ -1,7 +1,7 @@
 // Feeds and speeds: the tool's own, else the job's.
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/job/job.hpp"
+#include "host_tools/job/job/job.hpp"
 
 using namespace cusp;
 using namespace cusp::job;

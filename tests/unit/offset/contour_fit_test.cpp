@@ -1,4 +1,4 @@
-#include "host_tools/offset/contour_fit.hpp"
+#include "host_tools/geometry/offset/contour_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host_tools/offset/offset.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,7 +1,7 @@
 // Polygons for tests.
 #pragma once
 
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
 
 namespace cusp::test {
 

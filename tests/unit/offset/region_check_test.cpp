@@ -1,4 +1,4 @@
-#include "host_tools/offset/region_check.hpp"
+#include "host_tools/geometry/offset/region_check.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,4 +1,4 @@
-#include "host_tools/offset/region_overlay.hpp"
+#include "host_tools/geometry/offset/region_overlay.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,6 +1,6 @@
 // Loops: every number once, the exception of the lowest number, loops in loops. Tasks: every one once, those
 // that tasks add too. Queues: tasks in order.
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
 
 #include <functional>
 #include <numeric>

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "host_tools/finishing/mesh_scallop_check.hpp"
-#include "host_tools/finishing/scallop_check.hpp"
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/finishing/mesh_scallop_check.hpp"
+#include "host_tools/cam/finishing/scallop_check.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

@@ -1,12 +1,12 @@
 // Shares that give halves away: each number once, the same order of what they return for any number of
 // threads, the first exception.
-#include "host_tools/finishing/work_in_shares.hpp"
+#include "host_tools/cam/finishing/work_in_shares.hpp"
 
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
-#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

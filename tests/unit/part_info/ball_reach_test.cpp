@@ -1,13 +1,13 @@
 // The largest ball, the smallest hollow and the ground of parts whose answers are known.
-#include "host_tools/part_info/ball_reach.hpp"
+#include "host_tools/job/part_info/ball_reach.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/part_geometry_reader.hpp"
-#include "host_tools/part_info/part_info.hpp"
+#include "host_tools/job/import/part_geometry_reader.hpp"
+#include "host_tools/job/part_info/part_info.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 

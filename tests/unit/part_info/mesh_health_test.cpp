@@ -1,5 +1,5 @@
 // Faults put into a cube are counted; sound meshes have none.
-#include "host_tools/part_info/mesh_health.hpp"
+#include "host_tools/job/part_info/mesh_health.hpp"
 
 #include <algorithm>
 

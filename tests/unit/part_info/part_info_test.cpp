@@ -1,9 +1,9 @@
 // Results of inspect_part for whole files, read as `cusp info` reads them.
-#include "host_tools/part_info/part_info.hpp"
+#include "host_tools/job/part_info/part_info.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/part_geometry_reader.hpp"
+#include "host_tools/job/import/part_geometry_reader.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

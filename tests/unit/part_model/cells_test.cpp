@@ -9,7 +9,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/three_tools.hpp"
 

@@ -1,5 +1,5 @@
 // Moves of a ball past the rim of a level plate, compared with what they remove from it in plan.
-#include "host_tools/part_model/edge_gouge_check.hpp"
+#include "host_tools/geometry/part_model/edge_gouge_check.hpp"
 
 #include <algorithm>
 #include <cmath>

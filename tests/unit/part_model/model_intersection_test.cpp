@@ -1,10 +1,10 @@
 // Intersections of plates and domes.
-#include "host_tools/part_model/model_intersection.hpp"
+#include "host_tools/geometry/part_model/model_intersection.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/part_model/trim_region.hpp"
+#include "host_tools/geometry/part_model/trim_region.hpp"
 #include "tests/support/plates.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

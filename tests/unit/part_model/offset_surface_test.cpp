@@ -1,6 +1,6 @@
 // Approximated offsets: samples never exceed the bound, and isocurves are those of the
 // approximation.
-#include "host_tools/part_model/offset_surface.hpp"
+#include "host_tools/geometry/part_model/offset_surface.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/part_model/bernstein_patch.hpp"
+#include "host_tools/geometry/part_model/bernstein_patch.hpp"
 
 using namespace cusp;
 using namespace cusp::nurbs;

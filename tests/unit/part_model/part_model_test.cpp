@@ -1,5 +1,5 @@
 // Clearance and drop over planes, cylinders and dense samples, with known results.
-#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/geometry/part_model/part_model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // A tube and a holed sheet in plan.
-#include "host_tools/part_model/surface_height_map.hpp"
+#include "host_tools/geometry/part_model/surface_height_map.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "host_tools/part_model/trim_region.hpp"
+#include "host_tools/geometry/part_model/trim_region.hpp"
 
 #include <algorithm>
 #include <array>

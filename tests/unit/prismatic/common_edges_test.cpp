@@ -1,5 +1,5 @@
 // Parts that touch: area stays, and what is left of the outlines is the outline of all.
-#include "host_tools/prismatic/common_edges.hpp"
+#include "host_tools/cam/prismatic/common_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 // Jobs of 2.5-D operations as a shop writes them: parsing, refusals with their places, and
 // verdicts on correct and on spoiled programs.
-#include "host_tools/prismatic/prismatic.hpp"
+#include "host_tools/cam/prismatic/prismatic.hpp"
 
 #include <cmath>
 #include <string>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/toolpath/gcode_writer.hpp"
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,5 @@
 // Whole programs: words kept, modal state restored, tolerance held, real size.
-#include "host_tools/program_fit/program_fit.hpp"
+#include "host_tools/controller/program_fit/program_fit.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/gcode/interpreter.hpp"
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 
 using namespace cusp;
 using namespace cusp::program_fit;

@@ -1,5 +1,5 @@
 // The checksum of edges against a CRC-32 bit by bit.
-#include "host_tools/program_run/edge_checksum.hpp"
+#include "host_tools/controller/program_run/edge_checksum.hpp"
 
 #include <random>
 #include <vector>

@@ -1,12 +1,12 @@
 // Profiles against the statistics of the same set points.
-#include "host_tools/program_run/motion_profile.hpp"
+#include "host_tools/controller/program_run/motion_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/program_run/motion_statistics.hpp"
+#include "host_tools/controller/program_run/motion_statistics.hpp"
 
 using namespace cusp;
 using program_run::MotionProfile;

@@ -1,5 +1,5 @@
 // Speed, acceleration and jerk of set points.
-#include "host_tools/program_run/motion_statistics.hpp"
+#include "host_tools/controller/program_run/motion_statistics.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,5 +1,5 @@
 // Distances to the programmed path.
-#include "host_tools/program_run/path_deviation.hpp"
+#include "host_tools/controller/program_run/path_deviation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // Programs in memory, run step by step.
-#include "host_tools/program_run/program_run.hpp"
+#include "host_tools/controller/program_run/program_run.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/program_run/path_deviation.hpp"
-#include "host_tools/program_run/settings_lines.hpp"
+#include "host_tools/controller/program_run/path_deviation.hpp"
+#include "host_tools/controller/program_run/settings_lines.hpp"
 
 namespace {
 

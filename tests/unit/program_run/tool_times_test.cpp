@@ -1,5 +1,5 @@
 // Ticks are counted for the tool of the line that is executed, not of the line that is read.
-#include "host_tools/program_run/tool_times.hpp"
+#include "host_tools/controller/program_run/tool_times.hpp"
 
 #include "CppUTest/TestHarness.h"
 

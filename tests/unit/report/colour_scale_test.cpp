@@ -1,5 +1,5 @@
 // The numbers of a scale are round and lie on it.
-#include "host_tools/report/colour_scale.hpp"
+#include "host_tools/judge/report/colour_scale.hpp"
 
 #include "CppUTest/TestHarness.h"
 

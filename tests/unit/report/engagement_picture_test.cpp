@@ -3,8 +3,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/report/colour_scale.hpp"
-#include "host_tools/report/report.hpp"
+#include "host_tools/judge/report/colour_scale.hpp"
+#include "host_tools/judge/report/report.hpp"
 
 using namespace cusp;
 using namespace cusp::report;

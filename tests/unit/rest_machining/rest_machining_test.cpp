@@ -1,9 +1,9 @@
 // Paths of a few moves, of which it is known what still meets stock.
-#include "host_tools/rest_machining/rest_machining.hpp"
+#include "host_tools/cam/rest_machining/rest_machining.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 using namespace cusp;
 using namespace cusp::job;

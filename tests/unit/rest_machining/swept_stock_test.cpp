@@ -1,5 +1,5 @@
 // Proofs of air against samples of random stocks.
-#include "host_tools/rest_machining/swept_stock.hpp"
+#include "host_tools/cam/rest_machining/swept_stock.hpp"
 
 #include <algorithm>
 #include <cmath>

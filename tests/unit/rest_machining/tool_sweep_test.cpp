@@ -1,5 +1,5 @@
 // Sweeps of random tools against the tool at a thousand places of the way.
-#include "host_tools/rest_machining/tool_sweep.hpp"
+#include "host_tools/cam/rest_machining/tool_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>

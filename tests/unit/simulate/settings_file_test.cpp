@@ -1,11 +1,11 @@
 // Settings files: what is read, and how invalid ones are refused.
-#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/controller/simulate/settings_file.hpp"
 
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/panel.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/fault_command.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/controller/simulate/fault_command.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Whole programs through the whole firmware, judged by invariants.
-#include "host_tools/simulate/simulate.hpp"
+#include "host_tools/controller/simulate/simulate.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "tests/support/edge_crc.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Times found part by part are those of the whole program, by one run that counts ticks.
-#include "host_tools/simulate/simulated_times.hpp"
+#include "host_tools/controller/simulate/simulated_times.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/pulse_frame.hpp"
-#include "host_tools/parallel/parallel.hpp"
-#include "host_tools/program_run/program_run.hpp"
-#include "host_tools/simulate/program_parts.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/controller/program_run/program_run.hpp"
+#include "host_tools/controller/simulate/program_parts.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/property_cases.hpp"
 

@@ -1,10 +1,10 @@
 // Text of the pulse trace and of the samples.
-#include "host_tools/simulate/vcd_writer.hpp"
+#include "host_tools/controller/simulate/vcd_writer.hpp"
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/samples_writer.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/controller/simulate/samples_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

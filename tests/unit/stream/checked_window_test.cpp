@@ -1,5 +1,5 @@
 // Checked lines: numbers, CRCs, and going back.
-#include "host_tools/stream/checked_window.hpp"
+#include "host_tools/controller/stream/checked_window.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,5 +1,5 @@
 // The bar of the streamer.
-#include "host_tools/stream/progress_display.hpp"
+#include "host_tools/controller/stream/progress_display.hpp"
 
 #include "CppUTest/TestHarness.h"
 

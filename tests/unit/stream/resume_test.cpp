@@ -4,10 +4,10 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/stream/approach.hpp"
-#include "host_tools/stream/controller_facts.hpp"
-#include "host_tools/stream/resume_point.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/controller/stream/approach.hpp"
+#include "host_tools/controller/stream/controller_facts.hpp"
+#include "host_tools/controller/stream/resume_point.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "host_tools/stream/transport.hpp"
+#include "host_tools/controller/stream/transport.hpp"
 
 namespace cusp::test {
 

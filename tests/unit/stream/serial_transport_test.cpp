@@ -3,7 +3,7 @@
 // libserialport refuses those: it looks for /sys/class/tty/pts/N, and wants modem lines (TIOCMGET)
 // that they do not have. The three calls that fail are interposed here: the library finds the
 // program's own functions before those of libc. Everything else is the kernel's.
-#include "host_tools/stream/serial_transport.hpp"
+#include "host_tools/controller/stream/serial_transport.hpp"
 
 #include <cerrno>
 #include <chrono>
@@ -21,9 +21,9 @@
 #include "CppUTest/TestHarness.h"
 
 #include "hal/posix/endpoints.hpp"
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/virtual_controller.hpp"
-#include "host_tools/stream/streamer.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/controller/simulate/virtual_controller.hpp"
+#include "host_tools/controller/stream/streamer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

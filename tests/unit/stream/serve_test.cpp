@@ -11,8 +11,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/simulate/virtual_controller.hpp"
-#include "host_tools/stream/streamer.hpp"
+#include "host_tools/controller/simulate/virtual_controller.hpp"
+#include "host_tools/controller/stream/streamer.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/temporary_folder.hpp"
 

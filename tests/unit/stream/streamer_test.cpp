@@ -1,5 +1,5 @@
 // The streamer against a scripted controller.
-#include "host_tools/stream/streamer.hpp"
+#include "host_tools/controller/stream/streamer.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,5 +1,5 @@
 // The text of a written program, and the radii of rounded arcs.
-#include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
 
 #include <cmath>
 #include <random>

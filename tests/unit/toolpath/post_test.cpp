@@ -1,6 +1,6 @@
 // Programs for other controllers: their words, their frames, and that rounding stays within its
 // bound, judged by a reader of this file's own.
-#include "host_tools/toolpath/post.hpp"
+#include "host_tools/geometry/toolpath/post.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -11,8 +11,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/toolpath/gcode_writer.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/unit/toolpath/straight_moves.hpp"
 
 using namespace cusp;

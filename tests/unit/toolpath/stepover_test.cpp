@@ -1,5 +1,5 @@
 // The stepover against two balls placed beside a circle.
-#include "host_tools/toolpath/stepover.hpp"
+#include "host_tools/geometry/toolpath/stepover.hpp"
 
 #include <cmath>
 #include <limits>

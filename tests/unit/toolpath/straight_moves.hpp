@@ -1,7 +1,7 @@
 // Straight moves, as tests write them.
 #pragma once
 
-#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/geometry/toolpath/toolpath.hpp"
 
 namespace cusp::toolpath {
 

@@ -1,6 +1,6 @@
 // Reordered operations: fewer changes of tool, and at every point of the plan the cuts stay in
 // order.
-#include "host_tools/toolpath/tool_order.hpp"
+#include "host_tools/geometry/toolpath/tool_order.hpp"
 
 #include <algorithm>
 #include <cmath>

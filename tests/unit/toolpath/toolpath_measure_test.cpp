@@ -1,12 +1,12 @@
 // Lengths, counts, times and shapes of tool paths, against closed forms.
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/toolpath/arc_geometry.hpp"
+#include "host_tools/geometry/toolpath/arc_geometry.hpp"
 
 using namespace cusp;
 using namespace cusp::toolpath;

@@ -1,12 +1,12 @@
 // Entries, rapids and retracts as written, against their slope, drop and ends.
-#include "host_tools/toolpath/toolpath_writer.hpp"
+#include "host_tools/geometry/toolpath/toolpath_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 using namespace cusp;
 using namespace cusp::toolpath;

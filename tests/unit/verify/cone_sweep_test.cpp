@@ -6,8 +6,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/nurbs/plan_vector.hpp"
-#include "host_tools/verify/machined_stock.hpp"
+#include "host_tools/geometry/nurbs/plan_vector.hpp"
+#include "host_tools/judge/verify/machined_stock.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 
 using namespace cusp;

@@ -1,5 +1,5 @@
 // Tools of comments, and programs as straight cuts.
-#include "host_tools/verify/earlier_programs.hpp"
+#include "host_tools/judge/verify/earlier_programs.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -10,12 +10,12 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/inch.hpp"
-#include "host_tools/nurbs/plan_vector.hpp"
-#include "host_tools/toolpath/gcode_text.hpp"
-#include "host_tools/toolpath/gcode_writer.hpp"
-#include "host_tools/toolpath/tool.hpp"
-#include "host_tools/verify/program_moves.hpp"
-#include "host_tools/verify/tool_comment.hpp"
+#include "host_tools/geometry/nurbs/plan_vector.hpp"
+#include "host_tools/geometry/toolpath/gcode_text.hpp"
+#include "host_tools/geometry/toolpath/gcode_writer.hpp"
+#include "host_tools/geometry/toolpath/tool.hpp"
+#include "host_tools/judge/verify/program_moves.hpp"
+#include "host_tools/judge/verify/tool_comment.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 

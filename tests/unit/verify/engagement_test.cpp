@@ -1,6 +1,6 @@
 // The engagement of paths for which it is known: straight cuts, slots, air, circles in a disc, and
 // entries. Then random paths against a finer raster of one thread, cut disc by disc.
-#include "host_tools/verify/engagement.hpp"
+#include "host_tools/judge/verify/engagement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,12 +1,12 @@
 // A closer look at what a coarse height map finds over the limit.
-#include "host_tools/verify/engagement_windows.hpp"
+#include "host_tools/judge/verify/engagement_windows.hpp"
 
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/verify/engagement.hpp"
-#include "host_tools/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/engagement.hpp"
+#include "host_tools/judge/verify/machined_stock.hpp"
 
 using namespace cusp;
 using namespace cusp::verify;

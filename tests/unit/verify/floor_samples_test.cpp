@@ -1,5 +1,5 @@
 // A ball dropped on points of a dome, compared with the ball on the dome.
-#include "host_tools/verify/floor_samples.hpp"
+#include "host_tools/judge/verify/floor_samples.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Heights and slopes of parts with closed forms.
-#include "host_tools/verify/part_heights.hpp"
+#include "host_tools/judge/verify/part_heights.hpp"
 
 #include <cmath>
 

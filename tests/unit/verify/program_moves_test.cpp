@@ -1,5 +1,5 @@
 // Programs as moves: what is read, and the file and line of errors.
-#include "host_tools/verify/program_moves.hpp"
+#include "host_tools/judge/verify/program_moves.hpp"
 
 #include <cmath>
 

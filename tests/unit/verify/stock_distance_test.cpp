@@ -1,5 +1,5 @@
 // Stock left beside a wall, between two passes and alone on a floor.
-#include "host_tools/verify/stock_distance.hpp"
+#include "host_tools/judge/verify/stock_distance.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Contacts of random discs along random paths against a raster that is cut in time order, and looked at
 // point by point; then what a job's lengths make of a tool.
-#include "host_tools/verify/tool_contact.hpp"
+#include "host_tools/judge/verify/tool_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/machined_stock.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 
 using namespace cusp;

@@ -1,12 +1,12 @@
 // The points of a grid that have stock before any cut.
-#include "host_tools/verify/uncut_stock.hpp"
+#include "host_tools/judge/verify/uncut_stock.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/verify/stock_grid.hpp"
+#include "host_tools/judge/verify/stock_grid.hpp"
 
 using namespace cusp;
 using namespace cusp::verify;

@@ -1,13 +1,13 @@
 // Verdicts on paths with known faults: a parallel path over a plane and the inside of a cylinder,
 // then the same path lowered, widened, and with a rapid move through stock.
-#include "host_tools/verify/verify.hpp"
+#include "host_tools/judge/verify/verify.hpp"
 
 #include <cmath>
 #include <cstdio>
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/import.hpp"
+#include "host_tools/job/import/import.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"

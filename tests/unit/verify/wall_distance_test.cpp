@@ -1,5 +1,5 @@
 // Distances from walls with closed forms.
-#include "host_tools/verify/wall_distance.hpp"
+#include "host_tools/judge/verify/wall_distance.hpp"
 
 #include "CppUTest/TestHarness.h"
 

@@ -1,5 +1,5 @@
 // Bytes to text of seven bits and back.
-#include "host_tools/view/byte_text.hpp"
+#include "host_tools/judge/view/byte_text.hpp"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // The chords of each level stay as near to the set points as the level says.
-#include "host_tools/view/path_vertices.hpp"
+#include "host_tools/judge/view/path_vertices.hpp"
 
 #include <algorithm>
 #include <cmath>

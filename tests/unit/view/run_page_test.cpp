@@ -1,9 +1,9 @@
 // The page of a run is equal for any number of threads.
-#include "host_tools/view/run_page.hpp"
+#include "host_tools/judge/view/run_page.hpp"
 
-#include "host_tools/input_error/input_error.hpp"
-#include "host_tools/parallel/parallel.hpp"
-#include "host_tools/view/page_text.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/judge/view/page_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.

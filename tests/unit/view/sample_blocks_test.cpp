@@ -1,5 +1,5 @@
 // Every set point is restored exactly.
-#include "host_tools/view/sample_blocks.hpp"
+#include "host_tools/judge/view/sample_blocks.hpp"
 
 #include <algorithm>
 #include <array>

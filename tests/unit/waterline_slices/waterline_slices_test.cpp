@@ -1,6 +1,6 @@
 // Slices of offsets: they keep their distance everywhere, are nested, and are no smaller than
 // necessary.
-#include "host_tools/waterline_slices/waterline_slices.hpp"
+#include "host_tools/geometry/waterline_slices/waterline_slices.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,0 +1,25 @@
+// Finishing in equally spaced parallel planes, for comparison: the usual strategy of CAM.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/job/job/job.hpp"
+
+namespace cusp::adaptive_isocurve {
+
+// Passes along x (direction "u") or y ("v") over the upper side of all surfaces or of a mesh, and
+// beyond rims that the ball overhangs. They are `step_over` apart, or as far as `scallop` allows at
+// the most demanding point; ground steeper than 75 degrees across the planes does not count. Proved
+// free of gouges as by `plan_adaptive_isocurve`.
+//
+// With `scallop` alone, passes are added where the planes leave more, as `ScallopCheck` and
+// `MeshScallopCheck` find; scallop_bound_mm is what they prove. With `step_over` none are added, and
+// it is a bound of what the planes leave, at most the tool's radius.
+//
+// Errors: InputError as `SurfaceOperation`; neither step_over nor scallop given; more than 20 000
+// planes.
+std::vector<toolpath::PlannedOperation> plan_parallel_planes(const job::Job& job,
+                                                             const job::Operation& operation);
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,369 @@
+// Checks of the input first; then passes in the requested form, links and statistics.
+#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/base/input_error/counted.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/finishing/passes_in_stock.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::adaptive_isocurve {
+
+using finishing::CcParameterList;
+using finishing::GougeFreePathFitter;
+using finishing::LinkedPasses;
+using finishing::LinkRules;
+using finishing::make_tolerance_band;
+using finishing::passes_in_stock;
+using finishing::Points;
+using finishing::SurfacePass;
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using job::Traversal;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+using part_model::PartModel;
+using toolpath::MoveKind;
+using toolpath::NurbsTo;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+using toolpath::ToolMove;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr double kSameTop = 1e-3;    // mm between the tops of stock and part
+constexpr double kOverStock = 1.0;   // mm above the stock at which rapids end
+constexpr double kLeastSize = 1e-6;  // mm
+constexpr double kLeastRise = 1e-6;  // z of a normal
+constexpr double kChordShare = 0.2;  // of the band: between arcs or curves and their chords
+
+std::string file_of(const Operation& operation)
+{
+    return operation.floor_files.empty() ? std::string{"floor"} : operation.floor_files.front();
+}
+
+}  // namespace
+
+void check_clearance(const Job& job, const Operation& operation, const PartModel& model)
+{
+    const double clearance = job.stock_top + job.clearance;
+    if (model.box_high().z <= clearance) {
+        return;
+    }
+    if (const double top = model.highest(); top > clearance) {
+        throw InputError(
+            fmt::format("{}: the part rises to z = {:.6g} mm, over the clearance height of {:g} mm "
+                        "(stock top {:g} + clearance {:g}): rapid moves would hit it",
+                        file_of(operation), top, clearance, job.stock_top, job.clearance));
+    }
+}
+
+SurfaceOperation::SurfaceOperation(const Job& job,
+                                   const Operation& operation,
+                                   std::vector<Surface> surfaces)
+    : job_{job}, operation_{operation}, surfaces_{std::move(surfaces)}
+{
+    check_tool();
+    check_form();
+    check_surfaces();
+    model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.mesh)
+                               : std::make_unique<PartModel>(surfaces_);
+    check_clearance(job, operation, *model_);
+    path_fitter_ = std::make_unique<GougeFreePathFitter>(
+        *model_, operation.tool,
+        make_tolerance_band(
+            operation.floor_tolerance,
+            surfaces_.empty() || operation.tolerance_side == ToleranceSide::kOutside));
+    path_fitter_->check_edge_gouges(surfaces_);
+}
+
+// Keys without effect are errors, never ignored.
+void SurfaceOperation::check_form() const
+{
+    if (operation_.roughing && operation_.strategy == "parallel_planes") {
+        throw InputError(
+            fmt::format("{}: parallel_planes only finishes: roughing = true is for "
+                        "adaptive_isocurve",
+                        job_.file));
+    }
+    if (!operation_.roughing && operation_.allowance > 0) {
+        throw InputError(
+            fmt::format("{}: {}: allowance is {:g} mm, but it is what roughing leaves: "
+                        "add roughing = true, or leave it out",
+                        job_.file, operation_.strategy, operation_.allowance));
+    }
+    const bool other_tools =
+        std::any_of(operation_.tools.begin(), operation_.tools.end(),
+                    [&](const Tool& tool) { return tool.number != operation_.tool.number; });
+    if (!operation_.roughing && other_tools) {
+        throw InputError(
+            fmt::format("{}: {}: tools names the tools that rough: add roughing = "
+                        "true; `tool` is the one that finishes",
+                        job_.file, operation_.strategy));
+    }
+    if (!operation_.roughing &&
+        (operation_.max_depth || operation_.min_depth || !operation_.layers.empty())) {
+        throw InputError(
+            fmt::format("{}: {}: max_depth, min_depth and layers are for roughing = true",
+                        job_.file, operation_.strategy));
+    }
+}
+
+void SurfaceOperation::check_tool() const
+{
+    const Tool& tool = operation_.tool;
+    if (tool.shape != ToolShape::kBall) {
+        throw InputError(fmt::format(
+            "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
+            "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
+            "grid_pocket finish with them)",
+            job_.file, operation_.strategy, tool.number,
+            tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
+    }
+    if (!(operation_.floor_tolerance < tool.radius)) {
+        throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
+                                     job_.file, operation_.floor_tolerance, tool.radius));
+    }
+    if (operation_.boundary || !operation_.islands.empty()) {
+        throw InputError(
+            fmt::format("{}: strategy {} takes no boundary or islands: trim the surfaces, or add "
+                        "walls to floor",
+                        job_.file, operation_.strategy));
+    }
+}
+
+void SurfaceOperation::check_surfaces()
+{
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+        const Surface& s = surfaces_[k];
+        constexpr int kSamples = 8;
+        double area = 0;
+        double most_up = 0;
+        for (int i = 0; i < kSamples; ++i) {
+            for (int j = 0; j < kSamples; ++j) {
+                const SurfacePoint p = derivatives_at(
+                    s, s.u_begin() + (s.u_end() - s.u_begin()) * (i + 0.5) / kSamples,
+                    s.v_begin() + (s.v_end() - s.v_begin()) * (j + 0.5) / kSamples);
+                area += norm(cross(p.du, p.dv)) * (s.u_end() - s.u_begin()) *
+                        (s.v_end() - s.v_begin()) / (kSamples * kSamples);
+                most_up = std::max(most_up, upward_normal(p).z);
+            }
+        }
+        if (!(area > kLeastSize)) {
+            throw InputError(fmt::format("{}: surface {} has an area of {:g} mm2, it is degenerate",
+                                         file_of(operation_), k + 1, area));
+        }
+        upright_ += most_up < kLeastRise ? 1 : 0;
+    }
+    if (upright_ > 0 && surfaces_.size() == static_cast<std::size_t>(upright_)) {
+        throw InputError(fmt::format(
+            "{}: every surface is vertical (no normal rises by {:g}): there is nothing to cut from "
+            "above",
+            file_of(operation_), kLeastRise));
+    }
+}
+
+double SurfaceOperation::outward() const
+{
+    return path_fitter_->band().offset + path_fitter_->band().half_width;
+}
+
+Points SurfaceOperation::add_pass(const Points& wanted,
+                                  const std::optional<Curve>& exact,
+                                  const CcParameterList& cc_parameters)
+{
+    return add(fitted_pass(wanted, exact, cc_parameters));
+}
+
+SurfaceOperation::FittedPass SurfaceOperation::fitted_pass(
+    const Points& wanted,
+    const std::optional<Curve>& exact,
+    const CcParameterList& cc_parameters,
+    const part_model::PartModel::SharedQueries::Part* queries) const
+{
+    GougeFreePathFitter fitter = *path_fitter_;
+    if (queries != nullptr) {
+        fitter.set_part(*queries);
+    }
+    FittedPass out;
+    const Points dense = fitter.moved_clear_of_edges(wanted);
+    out.moved = dense != wanted;
+    SurfacePass& pass = out.pass;
+    if (operation_.output == OutputForm::kNurbs) {
+        pass.curve =
+            !out.moved && exact && fitter.is_nurbs_clear(*exact) ? exact : fitter.fit_nurbs(dense);
+    }
+    if (operation_.output == OutputForm::kArcs) {
+        pass.points = dense;
+        pass.points.front() = fitter.raised_clear(dense.front());
+        pass.moves = fitter.fit_arcs(pass.points);
+        if (!pass.moves.empty()) {
+            pass.points.back() = end_of(pass.moves.back());
+        }
+    } else if (pass.curve) {
+        pass.points = dense;
+        pass.points.front() = pass.curve->points.front();
+        pass.points.back() = pass.curve->points.back();
+    } else {
+        pass.points = fitter.fit_lines(dense, out.moved ? CcParameterList{} : cc_parameters);
+    }
+    const bool cuts =
+        pass.points.size() >= 2 && (operation_.output != OutputForm::kArcs || !pass.moves.empty());
+    if (cuts) {
+        out.points = path_of(pass);
+    }
+    out.least_clearance = fitter.least_clearance();
+    return out;
+}
+
+Points SurfaceOperation::add(FittedPass fitted)
+{
+    moved_off_edges_ = moved_off_edges_ || fitted.moved;
+    path_fitter_->include_moves_with(fitted.least_clearance);
+    if (!fitted.points.empty()) {
+        passes_.push_back(std::move(fitted.pass));
+    }
+    return std::move(fitted.points);
+}
+
+std::optional<SurfaceOperation::FittedPass> SurfaceOperation::fitted_clear_pass(
+    const Points& dense, const CcParameterList& cc_parameters) const
+{
+    if (operation_.output != OutputForm::kLines ||
+        path_fitter_->moved_clear_of_edges(dense) != dense) {
+        return std::nullopt;
+    }
+    GougeFreePathFitter fitter = *path_fitter_;
+    std::optional<Points> points = fitter.fit_clear_lines(dense, cc_parameters);
+    if (!points) {
+        return std::nullopt;
+    }
+    FittedPass out;
+    out.pass.points = *points;
+    out.points = std::move(*points);
+    out.least_clearance = fitter.least_clearance();
+    return out;
+}
+
+Points SurfaceOperation::path_of(const SurfacePass& pass) const
+{
+    if (!pass.curve && pass.moves.empty()) {
+        return pass.points;
+    }
+    std::vector<ToolMove> moves = pass.moves;
+    if (pass.curve) {
+        moves = {{MoveKind::kCut, NurbsTo{*pass.curve}}};
+    }
+    Points out{pass.points.front()};
+    for (const ToolMove& move : moves) {
+        const Points next = points_of(move, out.back(), path_off());
+        out.insert(out.end(), next.begin(), next.end());
+    }
+    return out;
+}
+
+double SurfaceOperation::path_off() const
+{
+    return operation_.output == OutputForm::kLines ? 0
+                                                   : kChordShare * path_fitter_->band().half_width;
+}
+
+PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
+{
+    if (passes_.empty()) {
+        throw InputError(
+            fmt::format("{}: a ball of radius {:g} mm reaches no part of the surfaces from above",
+                        file_of(operation_), operation_.tool.radius));
+    }
+    LinkRules rules;
+    rules.stay_down = std::max(2 * operation_.tool.radius, 4 * spacing);
+    rules.clearance_z = job_.stock_top + job_.clearance;
+    rules.plunge_from = job_.stock_top + kOverStock;
+    rules.one_way = operation_.traversal == Traversal::kOneWay;
+    PlannedOperation planned;
+    OperationStats& stats = planned.stats;
+    stats.strategy = operation_.strategy;
+    keep_in_stock(rules.stay_down, stats);
+    stats.passes = static_cast<int>(passes_.size());
+    LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
+    stats.levels = 1;
+    stats.cl_points = linked.points;
+    stats.retracts = linked.retracts;
+    stats.gouge_bound_mm = std::max(0.0, -path_fitter_->least_clearance());
+    stats.scallop_bound_mm = scallop_bound;
+    stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
+    if (upright_ > 0) {
+        stats.warnings.push_back(fmt::format(
+            "vertical surfaces: {} of {}; which side of them is the part is not known; they are "
+            "cut where their normal points to the left of the direction of u",
+            upright_, surfaces_.size()));
+    }
+    set_tool(planned.path, job_, operation_.tool);
+    planned.path.moves = std::move(linked.moves);
+    planned.path.comments = {
+        operation_.strategy,
+        fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",
+                    stats.gouge_bound_mm, stats.scallop_bound_mm)};
+    return planned;
+}
+
+// Where the part rises over the stock, the job is wrong: nothing is left out on its word.
+void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
+{
+    const double limit = job_.stock_top + kSameTop;
+    if (model_->box_high().z > limit && model_->highest() > limit) {
+        return;
+    }
+    std::vector<SurfacePass> low = passes_in_stock(passes_, job_.stock_top, linked);
+    if (!low.empty()) {
+        passes_ = std::move(low);
+    } else {
+        stats.warnings.push_back(fmt::format(
+            "no place of the surfaces is below the stock's top, z = {:.6g} mm: the finish removes "
+            "nothing; where the stock is higher, give its height (top in [stock], --stock-top)",
+            job_.stock_top));
+    }
+}
+
+void report_left_beside_edges(OperationStats& stats, double beside_edges, double scallop_bound)
+{
+    if (beside_edges > scallop_bound) {
+        stats.counts.emplace_back("left_beside_edges_mm", beside_edges);
+        stats.warnings.push_back(fmt::format(
+            "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
+            "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
+            "ball would gouge from the side",
+            beside_edges));
+    }
+}
+
+void report_walls_over_nothing(OperationStats& stats, double length)
+{
+    if (length > 0) {
+        stats.counts.emplace_back("walls_over_nothing_mm", length);
+    }
+}
+
+void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool unseen)
+{
+    if (uncovered > 0) {
+        stats.warnings.push_back(
+            fmt::format("{} may keep more than the scallop", counted(uncovered, "place")));
+    }
+    if (unseen) {
+        stats.warnings.push_back(
+            "too many places keep more than the scallop to examine all: no bound of the stock left "
+            "is proved");
+    }
+}
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,491 @@
+// Slices the model, clears the slices, selects what is left and writes it, level by level. Then
+// measures the clearance of every move.
+#include "host_tools/cam/adaptive_isocurve/waterline_rougher.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
+#include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/cam/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/cam/adaptive_isocurve/waterline_adaptive.hpp"
+#include "host_tools/cam/clearing/clearing.hpp"
+#include "host_tools/cam/clearing/layer_toolpath_writer.hpp"
+#include "host_tools/cam/clearing/rest_between_tools.hpp"
+#include "host_tools/geometry/offset/edge_tree.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "host_tools/geometry/waterline_slices/fitted_edges.hpp"
+#include "host_tools/geometry/waterline_slices/waterline_slices.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::adaptive_isocurve {
+
+using adaptive_clearing::AdaptivePath;
+using adaptive_clearing::AdaptivePathWriter;
+using adaptive_clearing::EngagementReport;
+using clearing::ClearedRegion;
+using clearing::ClearingPass;
+using clearing::ClearingSettings;
+using clearing::LayerRun;
+using clearing::LayerSpace;
+using clearing::LayerToolpathWriter;
+using clearing::PassStart;
+using clearing::rest_offset_between_tools;
+using job::EntryKind;
+using job::OutputForm;
+using offset::Box2d;
+using offset::Contour;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::length;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::LineTo;
+using toolpath::OperationStats;
+using toolpath::Tool;
+using toolpath::ToolMove;
+using toolpath::Toolpath;
+using toolpath::ToolpathWriter;
+using waterline_slices::fitted_edges;
+using waterline_slices::fitted_region;
+using waterline_slices::SliceSettings;
+using waterline_slices::WaterlineSlices;
+
+namespace {
+
+constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
+constexpr std::size_t kLevelsAtOnce = 8;
+constexpr std::size_t kMovesAtOnce = 64;   // proved by one thread
+constexpr std::size_t kProofsAtOnce = 64;  // of these, before cells of the model are forgotten
+constexpr double kFit = 1.5e-3;            // mm: tolerance of the edges of slices as lines and arcs
+// mm: how much more each level keeps off walls than the one above. Without it a level would cut
+// slivers at walls, as wide as the fits of both levels differ.
+constexpr double kTaper = 1e-3;
+constexpr double kChord = 1e-3;      // mm: tolerance of arcs written as lines
+constexpr double kProofStep = 1e-3;  // mm: how much too low a proved clearance may be
+// mm: how far a cutter is clear where another was, beyond the tolerance of fits. Without it many
+// short parts beside walls would have to be examined.
+constexpr double kMargin = 6e-3;
+
+double beside(const Box2d& box, Vec2d p)
+{
+    return std::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.0}),
+                      std::max({box.y0 - p.y, p.y - box.y1, 0.0}));
+}
+
+class WaterlineRougher {
+public:
+    WaterlineRougher(const RoughWork& work,
+                     const Tool& tool,
+                     double clearance,
+                     const std::vector<RoughedWaterlines>& before)
+        : work_{work}, tool_{tool}, clearance_{clearance}, before_{before}
+    {
+        step_ = pass_spacing(tool, work.depths.scallop_height);
+        inner_fit_ = std::min(0.25 * work.operation.plan_tolerance, 0.02 * step_.stepover);
+        result_.levels.tool = tool;
+    }
+
+    RoughedTool plan()
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        const Box2d& plan = work_.stock.plan;
+        const bool adaptive = work_.operation.max_engagement.has_value();
+        // Passes of bounded engagement start and turn beside the stock, in a strip that is no neck.
+        const double out = (adaptive ? 2.7 : 1.05) * (tool_.radius + work_.operation.allowance);
+        SliceSettings settings;
+        settings.clearance = clearance_;
+        settings.excess = 0.5 * work_.operation.plan_tolerance;
+        settings.least_pitch = work_.least_pitch;
+        settings.field = {plan.x0 - out, plan.y0 - out, plan.x1 + out, plan.y1 + out};
+        const WaterlineSlices slices{work_.model, tool_, settings};
+        result_.keeps = most_kept(slices.pitch()) + slices.max_excess();
+        field_ = settings.field;
+        const double clearance_z =
+            std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance;
+        const bool arcs = work_.operation.output != OutputForm::kLines;
+        std::vector<ToolMove>& moves = result_.planned.path.moves;
+        LayerToolpathWriter runs{
+            result_.planned.path, tool_.radius, {clearance_z, work_.operation.entry, arcs, kChord}};
+        ToolpathWriter writer{moves, {clearance_z, work_.operation.entry, tool_.radius}};
+        AdaptivePathWriter passes{
+            writer, {arcs, kChord, work_.operation.entry == EntryKind::kPlunge, scallops()}};
+        double above = work_.stock.top;
+        const std::vector<double>& heights = work_.depths.heights;
+        std::vector<std::optional<Level>> ahead;  // cleared at once, from `first` on
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            work_.job.report_progress(work_.share_before + work_.share * static_cast<double>(k) /
+                                                               static_cast<double>(heights.size()));
+            if (k == first + ahead.size()) {
+                first = k;
+                ahead = cleared_levels(slices, k);
+            }
+            const std::optional<Level>& level = ahead[k - first];
+            if (!level) {
+                break;
+            }
+            result_.levels.regions.push_back(std::make_unique<RegionOffset>(level->region));
+            if (level->adaptive) {
+                write_adaptive(*level, above, passes);
+            } else {
+                write_level(*level, k, above, runs);
+            }
+            // Scallops of passes and the rest of other cutters are higher than the level.
+            above = heights[k] + scallops();
+        }
+        if (adaptive) {
+            writer.retract();
+            finish({writer.retracts(), passes.plunges(), passes.entries()}, begin);
+        } else {
+            runs.retract();
+            finish({runs.retracts(), runs.steep_plunges(), 0}, begin);
+        }
+        return std::move(result_);
+    }
+
+private:
+    // mm: the height of stock left above a cleared level.
+    double scallops() const
+    {
+        const double round = tool_.corner_radius > 0 ? step_.scallop_height : 0.0;
+        return before_.empty() ? round : work_.depths.scallop_height + work_.depths.rest_height;
+    }
+
+    // The largest distance of the slices from smooth walls, over all levels and fits.
+    double most_kept(double pitch) const
+    {
+        const double core = tool_.corner_radius + clearance_;
+        const double side = 1.42 * pitch;
+        const double levels = static_cast<double>(work_.depths.heights.size());
+        return std::sqrt(core * core + 0.5 * side * side) - tool_.corner_radius + 0.01 * side +
+               6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
+    }
+
+    // Whether a segment lies in the region: divided until the clearances at both ends of each part
+    // are together at least its length.
+    static bool line_inside(const RegionOffset& region, Vec2d from, Vec2d to)
+    {
+        const double room_from = region.clearance(from);
+        const double room_to = region.clearance(to);
+        const double length = norm(to - from);
+        if (room_from < 0 || room_to < 0) {
+            return false;
+        }
+        if (room_from + room_to >= length) {
+            return true;
+        }
+        if (length < 2.0 * kChord) {
+            return true;  // outside by no more than the tolerance of chords
+        }
+        const Vec2d middle = (from + to) * 0.5;
+        return line_inside(region, from, middle) && line_inside(region, middle, to);
+    }
+
+    // Whether a link lies in the region. Links are made from samples 0.1 mm apart, which is no
+    // proof.
+    static bool line_inside(const RegionOffset& region, const std::vector<Edge>& way)
+    {
+        return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
+            const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / 0.02);
+            for (int k = 0; k < parts; ++k) {
+                const Vec2d from = point_on(edge, static_cast<double>(k) / parts);
+                const Vec2d to = point_on(edge, static_cast<double>(k + 1) / parts);
+                if (!line_inside(region, from, to)) {
+                    return false;
+                }
+            }
+            return true;
+        });
+    }
+
+    struct Level {
+        double bottom;
+        Region2d region;
+        ClearedRegion cleared;
+        std::optional<AdaptivePath> adaptive{};
+    };
+    struct Written {
+        int retracts;
+        int plunges;
+        int entries;  // of adaptive paths
+    };
+
+    // The next levels.
+    std::vector<std::optional<Level>> cleared_levels(const WaterlineSlices& slices,
+                                                     std::size_t first) const
+    {
+        std::vector<std::optional<Level>> out(
+            std::min(kLevelsAtOnce, work_.depths.heights.size() - first));
+        {
+            const part_model::PartModel::SharedQueries shared{work_.model};
+            parallel::for_each(out.size(), [&](std::size_t k) {
+                const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1),
+                                              ""};
+                out[k] = cleared_level(slices, first + k);
+            });
+        }
+        work_.model.forget_cells();  // the next levels need cells at other heights
+        return out;
+    }
+
+    // The cleared level; none where the tool fits nowhere. Offsets may fail on edges that nearly
+    // coincide: other fits and other stepovers are tried then.
+    std::optional<Level> cleared_level(const WaterlineSlices& slices, std::size_t k) const
+    {
+        for (const double share : {1.0, 0.96, 0.9}) {
+            for (const double fit : {kFit, 3.0 * kFit, kFit / 3.0}) {
+                const double more = fit + kChord + kTaper * static_cast<double>(k);
+                Level level{work_.depths.heights[k],
+                            fitted_region(slices.at(work_.depths.heights[k], more), fit),
+                            {}};
+                if (level.region.contours.empty()) {
+                    return std::nullopt;
+                }
+                if (work_.operation.max_engagement) {
+                    level.adaptive = adaptive_level(work_, level.region, tool_,
+                                                    {field_, kFirst, step_.scallop_height, kChord},
+                                                    cleared_before(k));
+                    return level;
+                }
+                ClearingSettings clearing;
+                clearing.wall_clearance = kFirst;
+                clearing.stepover = share * step_.stepover - 4.0 * inner_fit_;
+                clearing.direction = work_.operation.direction_of_cut;
+                level.cleared = clear_region(level.region, clearing);
+                if (covers(level, clearing.stepover)) {
+                    return level;
+                }
+            }
+        }
+        throw InputError(
+            fmt::format("{}: roughing: the level at z = {:g} mm can't be cleared; try "
+                        "another max_depth or allowance",
+                        work_.job.file, work_.depths.heights[k]));
+    }
+
+    void write_adaptive(const Level& level, double top, AdaptivePathWriter& passes)
+    {
+        passes.write(*level.adaptive, top, level.bottom);
+        engagement_.add(*level.adaptive, 1, level.bottom);
+        result_.loops += static_cast<int>(level.adaptive->runs.size());
+        levels_ += level.adaptive->runs.empty() ? 0 : 1;
+    }
+
+    // Whether the passes cover the level. At a point left out the next level would cut twice the
+    // depth.
+    bool covers(const Level& level, double step) const
+    {
+        constexpr double kReach = 0.55;  // of the stepover; planned is a half
+        std::vector<Edge> edges;
+        for (const ClearingPass& pass : level.cleared.passes) {
+            edges.insert(edges.end(), pass.path.begin(), pass.path.end());
+        }
+        const EdgeTree passes{edges};
+        const RegionOffset inside{level.region};
+        const double pitch = 0.4 * step;
+        for (double x = work_.stock.plan.x0; x <= work_.stock.plan.x1; x += pitch) {
+            for (double y = work_.stock.plan.y0; y <= work_.stock.plan.y1; y += pitch) {
+                const Vec2d at{x, y};
+                if (inside.clearance(at) > 2 * kFirst &&
+                    (edges.empty() || !passes.any_nearer(at, kReach * step))) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    bool cuts_stock(const Contour& path) const
+    {
+        return std::any_of(path.begin(), path.end(), [&](const Edge& edge) {
+            const double room = beside(work_.stock.plan, point_on(edge, 0.5));
+            return room < tool_.radius + 0.5 * length(edge);
+        });
+    }
+
+    std::vector<LayerRun> runs_of(const ClearedRegion& cleared, const RegionOffset& region)
+    {
+        const bool arcs = work_.operation.output != OutputForm::kLines;
+        std::vector<LayerRun> out;
+        bool linked = false;  // the pass before is the last of `out`
+        for (const ClearingPass& pass : cleared.passes) {
+            if (!cuts_stock(pass.path)) {
+                linked = false;
+                continue;
+            }
+            // The outermost passes are not fitted: levels below depend on them.
+            const std::vector<Edge> edges =
+                arcs || pass.ring == 0 ? pass.path : fitted_edges(pass.path, inner_fit_, false);
+            if (linked && pass.start == PassStart::kLink && line_inside(region, pass.link)) {
+                std::vector<Edge>& run = out.back().edges;
+                run.insert(run.end(), pass.link.begin(), pass.link.end());
+                run.insert(run.end(), edges.begin(), edges.end());
+            } else {
+                out.push_back({edges, false});
+            }
+            linked = true;
+        }
+        return out;
+    }
+
+    // The places where the cutters before leave no stock for this one on the level.
+    std::vector<ClearedPlaces> cleared_before(std::size_t k) const
+    {
+        std::vector<ClearedPlaces> out;
+        for (const RoughedWaterlines& other : before_) {
+            // The rest height counts once: later cutters leave no more above it.
+            const double rest = out.empty() ? work_.depths.rest_height : 0.0;
+            const auto reach = rest_offset_between_tools(other.tool, tool_, rest);
+            if (k < other.regions.size() && reach) {
+                out.push_back({other.regions[k].get(), *reach - 2 * kFirst});
+            }
+        }
+        return out;
+    }
+
+    void write_level(const Level& level, std::size_t k, double top, LayerToolpathWriter& moves)
+    {
+        const auto& regions = result_.levels.regions;
+        const RegionOffset& region = *regions[k];
+        LayerSpace space{top, level.bottom, tool_.radius, {}, {}, {}};
+        space.scallop_height = before_.empty() ? 0.0 : scallops();
+        space.has_room = [&](Vec2d place, double extra) {
+            return region.clearance(place) >= extra;
+        };
+        space.beside_stock = [&](Vec2d place) {
+            return beside(work_.stock.plan, place) >= tool_.radius;
+        };
+        if (k > 0) {
+            space.cleared_above = [&](Vec2d from, Vec2d to) {
+                return line_inside(*regions[k - 1], from, to);
+            };
+        }
+        std::vector<LayerRun> runs = runs_of(level.cleared, region);
+        const std::vector<ClearedPlaces> before = cleared_before(k);
+        if (!before.empty()) {
+            runs = rest_regions(runs, tool_.radius, before);
+        }
+        for (const LayerRun& run : runs) {
+            moves.add(run, space);
+        }
+        result_.loops += static_cast<int>(runs.size());
+        levels_ += runs.empty() ? 0 : 1;
+    }
+
+    // The least clearance of all moves below the clearance height.
+    double least_clearance() const
+    {
+        const std::size_t count = result_.planned.path.moves.size();
+        std::vector<double> least((count + kMovesAtOnce - 1) / kMovesAtOnce, kInfinite);
+        for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
+            const part_model::PartModel::SharedQueries shared{work_.model};
+            parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
+                const part_model::PartModel::SharedQueries::Part queries{work_.model};
+                const std::size_t first = (begin + k) * kMovesAtOnce;
+                least[begin + k] = least_clearance(first, std::min(count, first + kMovesAtOnce));
+            });
+        }
+        return *std::min_element(least.begin(), least.end());
+    }
+
+    // mm: the least clearance of the moves [first, last).
+    double least_clearance(std::size_t first, std::size_t last) const
+    {
+        const std::vector<ToolMove>& moves = result_.planned.path.moves;
+        double least = kInfinite;
+        for (std::size_t k = std::max<std::size_t>(1, first); k < last; ++k) {
+            const ToolMove& move = moves[k];
+            const Vec3d at = end_of(moves[k - 1]);
+            if (std::min(at.z, end_of(move).z) >=
+                work_.model.box_high().z + work_.operation.allowance) {
+                continue;
+            }
+            const double sufficient = std::min(least, work_.operation.allowance + 1.0);
+            const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
+            Vec3d from = at;
+            for (const Vec3d& to : points_of(move, at, kChord)) {
+                least = std::min(least, work_.model.move_clearance(tool_, from, to,
+                                                                   sufficient + bow, kProofStep) -
+                                            bow);
+                from = to;
+            }
+        }
+        return least;
+    }
+
+    void finish(const Written& written, std::chrono::steady_clock::time_point begin)
+    {
+        if (result_.loops == 0) {
+            return;
+        }
+        const double least = least_clearance();
+        Toolpath& path = result_.planned.path;
+        set_tool(path, work_.job, tool_);
+        path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
+                                     work_.operation.strategy, levels_, work_.operation.allowance),
+                         fmt::format("clearance from the model at least {:.4f} mm", least)};
+        OperationStats& stats = result_.planned.stats;
+        stats.strategy = work_.operation.strategy;
+        stats.roughing = true;
+        stats.passes = result_.loops;
+        stats.levels = levels_;
+        stats.cl_points = static_cast<int>(path.moves.size());
+        stats.retracts = written.retracts;
+        stats.gouge_bound_mm = std::max(0.0, -least);
+        // Slices bound what is cut, not what is left: the only bound of that is the stock's height.
+        stats.scallop_bound_mm = work_.stock.top - work_.stock.bottom;
+        stats.counts = {{"layers", levels_},
+                        {"loops", result_.loops},
+                        {"layer_depth_mm", work_.stock.top - work_.depths.heights.front()},
+                        {"clearance_bound_mm", least},
+                        {"allowance_mm", work_.operation.allowance}};
+        if (least < work_.operation.allowance - kProofStep) {
+            stats.warnings.push_back(
+                fmt::format("roughing comes within {:.4f} mm of the model, the allowance is {:g} "
+                            "mm",
+                            least, work_.operation.allowance));
+        }
+        if (written.plunges > 0) {
+            stats.warnings.push_back(
+                fmt::format("{} entries had no room for a ramp and plunge", written.plunges));
+        }
+        if (work_.operation.max_engagement) {
+            stats.counts.emplace_back("entries", written.entries);
+            stats.counts.emplace_back("lifts", written.retracts);
+            engagement_.write(stats);
+        }
+        stats.planning_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+
+    const RoughWork& work_;
+    Tool tool_;
+    double clearance_;
+    const std::vector<RoughedWaterlines>& before_;
+    PassSpacing step_{};
+    Box2d field_;  // of the axis
+    EngagementReport engagement_{work_.operation.max_engagement.value_or(0.0)};
+    double inner_fit_{};
+    RoughedTool result_;
+    int levels_{};
+};
+
+}  // namespace
+
+RoughedTool rough_with(const RoughWork& work,
+                       const Tool& tool,
+                       double clearance,
+                       const std::vector<RoughedWaterlines>& before)
+{
+    return WaterlineRougher{work, tool, clearance, before}.plan();
+}
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,203 @@
+// The passes are planned once, in plan, and written at each height.
+#include "host_tools/cam/contour_pocket/adaptive_pocket.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
+#include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/cam/contour_pocket/open_sides.hpp"
+#include "host_tools/cam/contour_pocket/pocket_report.hpp"
+#include "host_tools/cam/contour_pocket/pocket_task.hpp"
+#include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/geometry/toolpath/toolpath_writer.hpp"
+
+namespace cusp::contour_pocket {
+
+using adaptive_clearing::AdaptivePath;
+using adaptive_clearing::AdaptivePathWriter;
+using adaptive_clearing::AdaptiveSettings;
+using adaptive_clearing::clear_adaptively;
+using adaptive_clearing::EngagementReport;
+using drop_cutter::DropCutter;
+using job::EntryKind;
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::PocketRefusal;
+using nurbs::Surface;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+using toolpath::ToolpathWriter;
+
+namespace {
+
+constexpr double kDegrees = kPi / 180.0;
+constexpr double kLevel = 1e-6;  // mm: heights of a level floor differ by less
+
+double level_of(const Operation& operation)
+{
+    const Vec3d first = operation.floor.front().points.front();
+    for (const Surface& surface : operation.floor) {
+        for (const Vec3d p : surface.points) {
+            if (std::abs(p.z - first.z) > kLevel) {
+                throw InputError(operation.floor_files.front() +
+                                 ": clearing \"adaptive\" needs a level floor; it has z " +
+                                 number_text(first.z) + " mm and " + number_text(p.z) + " mm");
+            }
+        }
+    }
+    return first.z;
+}
+
+std::vector<double> heights_of(const Job& job, const Operation& operation, double floor)
+{
+    const double deep = job.stock_top - floor;
+    std::vector<double> heights;
+    for (const double below : operation.layers) {
+        if (below < deep - kLevel) {
+            heights.push_back(job.stock_top - below);
+        }
+    }
+    const int n = operation.layers.empty() && operation.max_depth && deep > 0.0
+                      ? layer_count(job, operation, deep, *operation.max_depth)
+                      : 1;
+    for (int i = 1; i < n; ++i) {
+        heights.push_back(job.stock_top - deep * i / n);
+    }
+    heights.push_back(floor);
+    return heights;
+}
+
+// The swept area is kept in cells of a twelfth of the radius.
+void check_size(const Operation& operation, const Region2d& region)
+{
+    constexpr double kMostCells = 2e7;
+    const double pitch = operation.tool.radius / 12.0;
+    const offset::Box2d box = box_of(region);
+    const double x = box.x1 - box.x0;
+    const double y = box.y1 - box.y0;
+    if (x * y > kMostCells * pitch * pitch) {
+        throw InputError(
+            operation.boundary_file + ": the pocket of " + number_text(x) + " x " + number_text(y) +
+            " mm is over " + number_text(kMostCells * pitch * pitch) +
+            " mm^2, the most that clearing \"adaptive\" takes with the tool of radius " +
+            number_text(operation.tool.radius) + " mm");
+    }
+}
+
+// mm: of chords in place of arcs. The bound of SweptArea has room for this share of the radius.
+double chord_tolerance(const Operation& operation, const ToleranceSplit& tolerances)
+{
+    return std::min(tolerances.plan_tolerance, 0.005 * operation.tool.radius);
+}
+
+AdaptivePath passes_of(const Job& job,
+                       const Operation& operation,
+                       const Region2d& region,
+                       const std::optional<OpenSides>& open,
+                       const ToleranceSplit& tolerances)
+{
+    AdaptiveSettings settings;
+    settings.tool_radius = operation.tool.radius;
+    settings.wall_clearance = tolerances.wall_clearance;
+    settings.max_engagement = *operation.max_engagement * kDegrees;
+    settings.tolerance = chord_tolerance(operation, tolerances);
+    settings.corner = tolerances.plan_tolerance;
+    settings.direction = operation.direction_of_cut;
+    if (open) {
+        settings.open.push_back(open->starts);
+    }
+    settings.progress = [&](double share) {
+        job.report_progress(share);
+    };
+    AdaptivePath path = clear_adaptively(region, settings);
+    if (path.runs.empty()) {
+        throw PocketRefusal(operation.boundary_file + ": the tool of radius " +
+                            number_text(operation.tool.radius) +
+                            " mm fits nowhere into the pocket");
+    }
+    return path;
+}
+
+void warn_beside_stock(const Job& job,
+                       const Operation& operation,
+                       const Region2d& pocket,
+                       OperationStats& stats)
+{
+    if (lies_beside_stock(job, pocket)) {
+        stats.warnings.push_back(operation.boundary_file +
+                                 ": the pocket lies beside the stock: the program cuts none");
+    }
+}
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operation& operation)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const ToleranceSplit tolerances = split_tolerances(job, operation);
+    const Region2d pocket = make_region(operation, tolerances.fit);
+    const std::optional<OpenSides> open =
+        open_sides(job, operation, pocket, tolerances.wall_clearance);
+    const Region2d& region = open ? open->region : pocket;
+    check_work(job, operation, region, tolerances);
+    check_size(operation, region);
+    const DropCutter floor{operation.floor, operation.tool, tolerances.accuracy};
+    check_coverage(operation, open ? open->in_stock : pocket, floor);
+    const std::vector<double> heights = heights_of(job, operation, level_of(operation));
+    const AdaptivePath path = passes_of(job, operation, region, open, tolerances);
+
+    PlannedOperation result;
+    set_tool(result.path, job, operation.tool);
+    ToolpathWriter writer{result.path.moves,
+                          {job.stock_top + job.clearance, operation.entry, operation.tool.radius}};
+    AdaptivePathWriter cutter{
+        writer,
+        {operation.output != OutputForm::kLines, chord_tolerance(operation, tolerances),
+         operation.entry == EntryKind::kPlunge}};
+    double above = job.stock_top;
+    for (const double z : heights) {
+        cutter.write(path, above, z);
+        above = z;
+    }
+    writer.retract();
+
+    OperationStats& stats = result.stats;
+    stats.strategy = operation.strategy;
+    stats.passes = static_cast<int>(path.runs.size() * heights.size());
+    stats.levels = static_cast<int>(heights.size());
+    stats.cl_points = cutter.points();
+    stats.retracts = writer.retracts();
+    stats.scallop_bound_mm = operation.floor_tolerance;
+    stats.counts = {{"layers", static_cast<double>(heights.size())},
+                    {"islands", static_cast<double>(operation.islands.size())},
+                    {"entries", static_cast<double>(cutter.entries())},
+                    {"lifts", static_cast<double>(writer.retracts())}};
+    EngagementReport engagement{*operation.max_engagement};
+    engagement.add(path, heights.size());
+    engagement.write(stats);
+    if (open) {
+        stats.counts.emplace_back("open_pocket", 1.0);
+    }
+    report_plunges(cutter.plunges(), stats);
+    report_air(result.path.moves, job.stock_top, stats);
+    warn_beside_stock(job, operation, pocket, stats);
+    const RegionOffset walls{region};
+    report_uncut({job, operation, region, walls, floor, tolerances.wall_clearance, false,
+                  open ? open->air : Region2d{}},
+                 stats);
+    result.path.comments = {"contour_pocket: adaptive clearing, engagement at most " +
+                            number_text(path.engagement_bound / kDegrees) + " degrees"};
+    stats.planning_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return {std::move(result)};
+}
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,35 @@
+// A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
+// the only one. Where that fails, the whole model is searched.
+#pragma once
+
+#include <optional>
+
+#include "host_tools/cam/finishing/gouge_free_path.hpp"
+
+namespace cusp::finishing {
+
+// Not for use by two threads at once.
+class ContactTracker {
+public:
+    explicit ContactTracker(const GougeFreePathFitter& path_fitter) : path_fitter_{path_fitter} {}
+
+    struct BallPosition {
+        Vec3d tip;
+        CcParameters contact;
+        // Cosine of the angle between the normal at the contact and the direction to the centre:
+        // less than 1 on a rim or a crease.
+        double facing{1};
+    };
+
+    // The ball of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
+    // only. Quickest near the last point.
+    std::optional<BallPosition> at(double x, double y);
+
+private:
+    std::optional<BallPosition> beside(double x, double y);
+
+    const GougeFreePathFitter& path_fitter_;
+    CcParameters last_;
+};
+
+}  // namespace cusp::finishing

@@ -1,0 +1,275 @@
+// Tests the moves near a point one by one; the best tips come from `ReachableHeight`.
+#include "host_tools/cam/finishing/scallop_at_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::finishing {
+
+using nurbs::Surface;
+
+namespace {
+
+constexpr double kReachStep = 0.25;    // in stepovers
+constexpr double kReachPitch = 0.125;  // radii, at least
+// How much too high drops may be: mm, within shares of the scallop. A part of metres would be cut
+// into millions of pieces otherwise.
+constexpr double kDropAccuracy = 1e-4;
+constexpr double kLeastDropShare = 0.001;
+constexpr double kMostDropShare = 0.005;
+constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of searches
+constexpr double kTraceApart = 0.3;  // in stepovers: tips that one line may join
+constexpr double kFarApart = 0.5;    // radii: tips that one pass may join
+constexpr double kShortest = 1e-3;   // mm
+constexpr double kLevelWall = 1e-9;  // z of a normal: a wall has no height
+constexpr int kLeftHalvings = 20;
+
+}  // namespace
+
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool along_z)
+{
+    return along_z ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
+}
+
+Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)
+{
+    return top + normal * (radius - scallop);
+}
+
+ScallopAtPoint::ScallopAtPoint(const std::vector<Surface>& surfaces,
+                               const GougeFreePathFitter& path_fitter,
+                               double scallop,
+                               double path_off)
+    : surfaces_{surfaces},
+      path_fitter_{path_fitter},
+      radius_{path_fitter.tool().radius},
+      scallop_{scallop},
+      path_off_{path_off},
+      step_{std::sqrt(8 * radius_ * scallop)},
+      swept_{std::make_shared<SweptVolume>(radius_, 0.6 * step_)},
+      accuracy_{std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)},
+      reach_{surfaces, path_fitter, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
+{
+    if (surfaces.empty()) {
+        lower_position_.emplace(path_fitter, reach_.pitch());
+    }
+}
+
+ScallopAtPoint::ScallopAtPoint(const ScallopAtPoint& other)
+    : surfaces_{other.surfaces_},
+      path_fitter_{other.path_fitter_},
+      radius_{other.radius_},
+      scallop_{other.scallop_},
+      path_off_{other.path_off_},
+      step_{other.step_},
+      swept_{other.swept_},
+      accuracy_{other.accuracy_},
+      reach_{other.reach_}
+{
+    if (other.lower_position_) {
+        lower_position_.emplace(path_fitter_, reach_.pitch());
+    }
+}
+
+Vec3d ScallopAtPoint::touching_tip(Vec3d point, Vec3d normal) const
+{
+    return point + normal * (radius_ + path_fitter_.band().offset) - Vec3d{0, 0, radius_};
+}
+
+bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
+{
+    const double allowed = scallop_ * share;
+    const Vec3d top = raised(point, normal, allowed, normal.z >= kSteepNormal);
+    swept_->near(centre_under(top, normal, allowed, radius_), near_);
+    return std::any_of(near_.begin(), near_.end(),
+                       [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
+}
+
+bool ScallopAtPoint::is_wall_cut(Vec3d point, Vec3d normal, double share, double off) const
+{
+    const double allowed = share * scallop_;
+    const Vec3d top = raised(point, normal, allowed, false);
+    swept_->near_or_below(centre_under(top, normal, allowed, radius_), near_);
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
+        return swept_->removes(move, top, path_off_ + off);
+    });
+}
+
+bool ScallopAtPoint::one_move_cuts_wall(const std::vector<WallPoint>& points, double off) const
+{
+    Vec3d middle;
+    for (const WallPoint& at : points) {
+        middle = middle + at.point / static_cast<double>(points.size());
+    }
+    swept_->near_or_below(middle + points.front().normal * radius_, near_);
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
+        return std::all_of(points.begin(), points.end(), [&](const WallPoint& at) {
+            return swept_->removes(move, raised(at.point, at.normal, scallop_, false),
+                                   path_off_ + off);
+        });
+    });
+}
+
+double ScallopAtPoint::left_beside_wall(Vec3d point, Vec3d normal, double off) const
+{
+    double low = 0;
+    double high = radius_;
+    for (int k = 0; k < kLeftHalvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (is_wall_cut(point, normal, middle / scallop_, off) ? high : low) = middle;
+    }
+    return high;
+}
+
+double ScallopAtPoint::upright_normal() const
+{
+    const double height = path_fitter_.model().box_high().z - path_fitter_.model().box_low().z;
+    return std::clamp(kPlaceShare * scallop_ / std::max(height, kLevelWall), kLevelWall,
+                      kUprightNormal);
+}
+
+// mm: the stock over a point from `height` up to `now`, along the normal; at most the radius.
+double ScallopAtPoint::left_from(Vec3d point, Vec3d normal, double height, double now) const
+{
+    const double from = std::max(point.z, height);
+    if (normal.z >= kUprightNormal) {
+        return std::min(radius_, std::max(0.0, (now - from) * normal.z));
+    }
+    return left_beside_wall({point.x, point.y, from}, normal);
+}
+
+// Fast test whether some ball removes more than a share of the scallop, within the resolution of
+// searches.
+LowerPositionProof::Verdict ScallopAtPoint::quick_verdict(Vec3d point,
+                                                          Vec3d normal,
+                                                          double share,
+                                                          const SweptVolume::Lowest& now) const
+{
+    const double resolution = scallop_ * share / normal.z;
+    if (now.height - point.z <= resolution) {
+        return LowerPositionProof::Verdict::kNone;
+    }
+    if (!lower_position_ || !std::isfinite(now.height)) {
+        return LowerPositionProof::Verdict::kUnknown;
+    }
+    return lower_position_->verdict_over(
+        {point.x, point.y, now.height - resolution - kAgrees * accuracy_}, now.centre);
+}
+
+ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
+                                                  Vec3d normal,
+                                                  double share,
+                                                  const SweptVolume::Lowest& now) const
+{
+    const double resolution = scallop_ * share;
+    const double exact_below = now.height - resolution / normal.z;
+    const auto removed_by = [&](const std::optional<ReachableHeight::Position>& position) {
+        if (!position || position->height >= exact_below) {
+            return 0.0;
+        }
+        return normal.z < kUprightNormal ? left_from(point, normal, position->height, now.height)
+                                         : (now.height - position->height) * normal.z;
+    };
+    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, exact_below);
+    const double most = removed_by(best);
+    if (most <= resolution) {
+        return {};
+    }
+    if (path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
+        return {best->tip, most, false};
+    }
+    const std::optional<ReachableHeight::Position> kept =
+        reach_.lowest_clear_of_edges(point, *best, exact_below);
+    const double less = removed_by(kept);
+    if (less <= resolution) {
+        return {std::nullopt, 0, true};
+    }
+    return {kept->tip, less, false};
+}
+
+ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, double share) const
+{
+    if (normal.z < kUprightNormal && (is_upright(normal) || is_wall_cut(point, normal, share))) {
+        return {};
+    }
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
+    return quick_verdict(point, normal, share, now) == LowerPositionProof::Verdict::kNone
+               ? LowerTip{}
+               : searched(point, normal, share, now);
+}
+
+bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
+{
+    return quick_verdict(point, normal, 1, swept_->lowest(point.x, point.y)) ==
+           LowerPositionProof::Verdict::kNone;
+}
+
+bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
+{
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
+    const LowerPositionProof::Verdict quick = quick_verdict(point, normal, kSettledShare, now);
+    if (quick != LowerPositionProof::Verdict::kUnknown) {
+        return quick == LowerPositionProof::Verdict::kNone;
+    }
+    const LowerTip better = searched(point, normal, kSettledShare, now);
+    return !better.tip && !better.moved_clear;
+}
+
+ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double resolution) const
+{
+    if (is_upright(normal)) {
+        return {};
+    }
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
+    if (normal.z >= kUprightNormal && !std::isfinite(now.height)) {
+        return {radius_, 0};
+    }
+    if ((now.height - point.z) * normal.z <= resolution) {
+        return {};
+    }
+    const auto over = [&](double height) {
+        return left_from(point, normal, height, now.height);
+    };
+    const double exact_below = now.height - resolution / normal.z;
+    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, exact_below);
+    if (!best) {
+        return {over(point.z), 0};
+    }
+    if (best->height > exact_below ||
+        path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
+        return {over(best->height), 0};
+    }
+    const std::optional<ReachableHeight::Position> kept =
+        reach_.lowest_clear_of_edges(point, *best, exact_below);
+    return {kept ? over(kept->height) : 0, over(best->height)};
+}
+
+std::vector<Points> ScallopAtPoint::runs_of(const Points& tips) const
+{
+    // Drops are accurate to a micrometre only: a point at the limit may have had a tip in one query
+    // and none in the next.
+    if (tips.empty()) {
+        return {};
+    }
+    std::vector<Points> out{{tips.front()}};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const double apart = norm(tips[k] - out.back().back());
+        if (apart > kFarApart * radius_) {
+            out.push_back({tips[k]});
+            continue;
+        }
+        if (apart > kTraceApart * step_) {
+            const Points between = path_fitter_.sample_dropped(out.back().back(), tips[k]);
+            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
+        }
+        out.back().push_back(tips[k]);
+    }
+    for (Points& run : out) {
+        if (run.size() == 1) {
+            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::finishing

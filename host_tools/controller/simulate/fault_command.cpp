@@ -1,0 +1,161 @@
+// Parses the commands of the control port.
+#include "host_tools/controller/simulate/fault_command.hpp"
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "firmware/base/panel.hpp"
+
+namespace cusp::simulate {
+namespace {
+
+std::optional<double> number_in(std::string_view text)
+{
+    double number = 0;
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failed != std::errc{} || end != text.data() + text.size() || text.empty()) {
+        return std::nullopt;
+    }
+    return number;
+}
+
+// Returns the next word; the remainder stays in `text`.
+std::string_view next_word(std::string_view& text, const char* separators)
+{
+    const std::size_t first = text.find_first_not_of(separators);
+    if (first == std::string_view::npos) {
+        text = {};
+        return {};
+    }
+    text.remove_prefix(first);
+    const std::size_t end = text.find_first_of(separators);
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(word.size());
+    return word;
+}
+
+constexpr std::array<std::pair<std::string_view, FaultKind>, 12> kWords{{
+    {"unplug", FaultKind::kUnplug},
+    {"plug", FaultKind::kPlug},
+    {"cut", FaultKind::kCutPowerAfter},
+    {"high", FaultKind::kInputHigh},
+    {"low", FaultKind::kInputLow},
+    {"free", FaultKind::kInputFree},
+    {"plate", FaultKind::kProbePlate},
+    {"line", FaultKind::kLineFaults},
+    {"lose-frame", FaultKind::kLoseFrame},
+    {"overrun", FaultKind::kOverrun},
+    {"where", FaultKind::kWhere},
+    {"power", FaultKind::kPowerOff},
+}};
+
+std::optional<FaultKind> kind_named(std::string_view word)
+{
+    for (const auto& [name, kind] : kWords) {
+        if (name == word) {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
+// Parses the arguments of the command. Returns whether they are valid.
+bool read_rest(FaultCommand& command, std::string_view rest)
+{
+    std::string_view words = rest;
+    const std::string_view word = next_word(words, " \t\r");
+    switch (command.kind) {
+        case FaultKind::kPowerOff:
+            if (word == "on") {
+                command.kind = FaultKind::kPowerOn;
+            }
+            return word == "on" || word == "off";
+        case FaultKind::kCutPowerAfter:
+        case FaultKind::kProbePlate:
+            command.value = number_in(word).value_or(-1.0);
+            return number_in(word).has_value() &&
+                   (command.value >= 0 || command.kind == FaultKind::kProbePlate);
+        case FaultKind::kInputHigh:
+        case FaultKind::kInputLow:
+        case FaultKind::kInputFree:
+            command.inputs = input_named(word);
+            return command.inputs != 0;
+        case FaultKind::kLineFaults: {
+            const auto faults = parse_line_faults(rest);
+            command.faults = faults.value_or(hal::LineFaults{});
+            return faults.has_value();
+        }
+        case FaultKind::kUnplug:
+        case FaultKind::kPlug:
+        case FaultKind::kPowerOn:
+        case FaultKind::kLoseFrame:
+        case FaultKind::kOverrun:
+        case FaultKind::kWhere:
+            break;
+    }
+    return word.empty();
+}
+
+}  // namespace
+
+std::optional<FaultCommand> parse_fault_command(std::string_view line)
+{
+    std::string_view rest = line;
+    const auto kind = kind_named(next_word(rest, " \t\r"));
+    FaultCommand command;
+    if (!kind) {
+        return std::nullopt;
+    }
+    command.kind = *kind;
+    return read_rest(command, rest) ? std::optional{command} : std::nullopt;
+}
+
+std::optional<hal::LineFaults> parse_line_faults(std::string_view text)
+{
+    hal::LineFaults faults;
+    for (std::string_view word = next_word(text, " ,\t\r"); !word.empty();
+         word = next_word(text, " ,\t\r")) {
+        const std::size_t equals = word.find('=');
+        const std::string_view name = word.substr(0, equals);
+        const auto value =
+            equals == std::string_view::npos ? std::nullopt : number_in(word.substr(equals + 1));
+        if (!value || *value < 0.0 || *value > 1.0) {
+            return std::nullopt;
+        }
+        if (name == "noise") {
+            faults.noise = *value;
+        } else if (name == "loss") {
+            faults.loss = *value;
+        } else if (name == "doubling") {
+            faults.doubling = *value;
+        } else if (name == "delay") {
+            faults.delay = *value;
+        } else {
+            return std::nullopt;
+        }
+    }
+    return faults;
+}
+
+std::uint16_t input_named(std::string_view name)
+{
+    constexpr std::array<std::pair<std::string_view, std::uint16_t>, 8> kNames{{
+        {"x", kLimitX},
+        {"y", kLimitY},
+        {"z", kLimitZ},
+        {"probe", kProbe},
+        {"door", kDoor},
+        {"hold", kHoldButton},
+        {"start", kStartButton},
+        {"reset", kResetButton},
+    }};
+    for (const auto& [known, bit] : kNames) {
+        if (known == name) {
+            return bit;
+        }
+    }
+    return 0;
+}
+
+}  // namespace cusp::simulate

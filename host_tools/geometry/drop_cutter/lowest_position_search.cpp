@@ -1,0 +1,476 @@
+// Contacts bound the drop from below; each exact drop adds a contact.
+#include "host_tools/geometry/drop_cutter/lowest_position_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/geometry/part_model/pattern_search.hpp"
+
+namespace cusp::drop_cutter {
+
+using part_model::pattern_search;
+using toolpath::Tool;
+
+namespace {
+
+constexpr int kMostDrops = 10;  // from one start
+constexpr std::size_t kMostStarts = 3;
+constexpr double kApart = 0.3;    // radii: distance of starts
+constexpr double kFinest = 1e-3;  // of the pitch
+// The division of directions.
+constexpr std::size_t kMostTriangles = 600;
+constexpr int kMostImprovements = 10;        // of positions that known contacts leave open
+constexpr int kMostTries = 40;               // drops that can only add a contact
+constexpr double kBeside = 0.25;             // of a triangle's edge: as near as its middle
+constexpr int kMostHalvings = 8;             // of the pitch: key_of() distinguishes 2^21 pitches
+constexpr std::size_t kLongestProof = 1500;  // parts; longer proofs are not kept
+constexpr std::size_t kMostParts = 200'000;  // of all proofs: 16 MB
+constexpr std::size_t kMostNodes = 200'000;  // 16 MB
+constexpr double kMoreGained = 0.25;         // of the gain: least gain of another search
+
+double square(double a) { return a * a; }
+
+// The square of the distance in plan between a point and the tool's flat.
+double square_off_flat(double flat, Vec2d axis, Vec3d place)
+{
+    const double away = square(place.x - axis.x) + square(place.y - axis.y);
+    return flat > 0 ? square(std::max(0.0, std::sqrt(away) - flat)) : away;
+}
+
+}  // namespace
+
+LowestPositionSearch::LowestPositionSearch(
+    const Tool& tool, double growth, double pitch, double agrees, Drop drop)
+    : radius_{tool.radius},
+      flat_{tool.radius - tool.corner_radius},
+      corner_{tool.corner_radius},
+      contact_corner_{tool.corner_radius + growth},
+      pitch_{pitch},
+      agreement_{agrees},
+      drop_{std::move(drop)}
+{
+}
+
+double LowestPositionSearch::height_under(Vec3d centre, Vec3d place) const
+{
+    const double under = square(corner_) - square_off_flat(flat_, {centre.x, centre.y}, place);
+    return under < 0 ? kInfinite : centre.z - std::sqrt(under);
+}
+
+void LowestPositionSearch::begin_with(Nodes nodes)
+{
+    nodes_ = std::move(nodes);
+    begun_with_.clear();
+    for (const auto& [key, node] : nodes_) {
+        begun_with_.push_back(key);
+    }
+}
+
+LowestPositionSearch::Nodes LowestPositionSearch::take_nodes()
+{
+    for (const std::uint64_t key : begun_with_) {
+        nodes_.erase(key);
+    }
+    begun_with_.clear();
+    return std::exchange(nodes_, {});
+}
+
+// halvings  of the grid's pitch
+const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings,
+                                                                    std::int64_t i,
+                                                                    std::int64_t j)
+{
+    const std::uint64_t key = key_of(halvings, i, j);
+    if (known_ != nullptr) {
+        const auto known = known_->find(key);
+        if (known != known_->end()) {
+            return known->second;
+        }
+    }
+    const auto found = nodes_.find(key);
+    if (found != nodes_.end()) {
+        return found->second;
+    }
+    if (nodes_.size() > kMostNodes) {
+        nodes_.clear();
+    }
+    const double pitch = std::ldexp(pitch_, -halvings);
+    return nodes_
+        .emplace(key, drop_(static_cast<double>(i) * pitch, static_cast<double>(j) * pitch))
+        .first->second;
+}
+
+// The nearest node of a grid whose pitch is at most `length`.
+const LowestPositionSearch::DroppedTool& LowestPositionSearch::node_near(double x,
+                                                                         double y,
+                                                                         double length)
+{
+    int halvings = 0;
+    while (halvings < kMostHalvings && std::ldexp(pitch_, -halvings) > length) {
+        ++halvings;
+    }
+    const double pitch = std::ldexp(pitch_, -halvings);
+    return node(halvings, std::llround(x / pitch), std::llround(y / pitch));
+}
+
+std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Vec3d place)
+{
+    contacts_.clear();
+    std::vector<Position> all;
+    for (std::int64_t i = cell(place.x - radius_) + 1; i <= cell(place.x + radius_); ++i) {
+        for (std::int64_t j = cell(place.y - radius_) + 1; j <= cell(place.y + radius_); ++j) {
+            const double x = static_cast<double>(i) * pitch_;
+            const double y = static_cast<double>(j) * pitch_;
+            if (square_off_flat(flat_, {x, y}, place) > square(corner_)) {
+                continue;
+            }
+            const DroppedTool& at = node(0, i, j);
+            if (std::isfinite(at.centre.z)) {
+                contacts_.push_back(at.contact);
+                all.push_back({at.centre, height_under(at.centre, place)});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Position& a, const Position& b) { return a.height < b.height; });
+    std::vector<Position> out;
+    for (const Position& start : all) {
+        const bool apart = std::all_of(out.begin(), out.end(), [&](const Position& other) {
+            return std::hypot(start.centre.x - other.centre.x, start.centre.y - other.centre.y) >
+                   kApart * radius_;
+        });
+        if (apart) {
+            out.push_back(start);
+        }
+        if (out.size() == kMostStarts) {
+            break;
+        }
+    }
+    return out;
+}
+
+// How low a tool resting on the known contacts cuts over the point: a lower bound.
+double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
+{
+    double centre = -kInfinite;
+    for (const Vec3d& contact : contacts_) {
+        const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
+        if (up >= 0) {
+            centre = std::max(centre, contact.z + std::sqrt(up));
+        }
+    }
+    return height_under({at.x, at.y, centre}, place);
+}
+
+// Whether lowest_known() is `height` or more.
+//
+// first  number of the contact to ask first: the one that decided last usually decides again
+bool LowestPositionSearch::known_blocks(double height,
+                                        Vec3d place,
+                                        Vec2d at,
+                                        std::size_t& first) const
+{
+    const double under = square(corner_) - square_off_flat(flat_, at, place);
+    if (under < 0) {
+        return true;
+    }
+    const double depth = std::sqrt(under);
+    const auto blocks = [&](Vec3d contact) {
+        const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
+        return up >= 0 && contact.z + std::sqrt(up) - depth >= height;
+    };
+    if (first < contacts_.size() && blocks(contacts_[first])) {
+        return true;
+    }
+    const auto found = std::find_if(contacts_.begin(), contacts_.end(), blocks);
+    first = static_cast<std::size_t>(found - contacts_.begin());
+    return found != contacts_.end();
+}
+
+// A local minimum of lowest_known() near `at`.
+Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
+{
+    double best = lowest_known(place, at);
+    const double corner_square = square(contact_corner_);
+    const double flat = flat_;
+    // True where no contact keeps the tool as high as `best`. A contact that does moves to the
+    // front: usually the same few decide.
+    const auto lower = [&](Vec2d to) {
+        const double under = square(corner_) - square_off_flat(flat_, to, place);
+        if (under < 0) {
+            return false;
+        }
+        const double depth = std::sqrt(under);
+        const double limit = best + depth;
+        double centre = -kInfinite;
+        for (std::size_t i = 0; i < contacts_.size(); ++i) {
+            const Vec3d c = contacts_[i];
+            const double up = corner_square - square_off_flat(flat, to, c);
+            const bool higher = up >= 0 && (c.z > centre || up > square(centre - c.z));
+            centre = higher ? c.z + std::sqrt(up) : centre;
+            if (centre >= limit) {
+                std::swap(contacts_[i], contacts_[i / 2]);
+                return false;
+            }
+        }
+        // Rounding may give an equal height, which must not count: the search would never end.
+        const bool found = centre - depth < best;
+        best = std::min(best, centre - depth);
+        return found;
+    };
+    return pattern_search(at, pitch_, kFinest * pitch_, lower);
+}
+
+void LowestPositionSearch::improve_from(const Position& start,
+                                        Vec3d place,
+                                        double exact_below,
+                                        std::optional<Position>& best)
+{
+    const auto take = [&](const Position& answer) {
+        if (!best || answer.height < best->height) {
+            best = answer;
+        }
+    };
+    take(start);
+    Vec2d at{start.centre.x, start.centre.y};
+    for (int drops = 0; drops < kMostDrops; ++drops) {
+        const Vec2d to = improved(place, at);
+        const double bound = lowest_known(place, to);
+        // From this start nothing lower than the best or `exact_below` can be reached.
+        if (bound > exact_below || bound > best->height - agreement_) {
+            return;
+        }
+        const DroppedTool rest = drop_(to.x, to.y);
+        if (!std::isfinite(rest.centre.z)) {
+            return;
+        }
+        const double height = height_under(rest.centre, place);
+        take({rest.centre, height});
+        contacts_.push_back(rest.contact);
+        if (height - bound < agreement_) {
+            return;
+        }
+        at = to;
+    }
+}
+
+// For a tool without a corner radius the bound by contacts is piecewise constant, without a slope
+// to follow: the search uses drops instead.
+void LowestPositionSearch::improve_by_drops(Vec3d place, Position& best)
+{
+    const auto lower = [&](Vec2d to) {
+        const Vec3d centre = drop_(to.x, to.y).centre;
+        const double height = height_under(centre, place);
+        const bool found = height < best.height;
+        best = found ? Position{centre, height} : best;
+        return found;
+    };
+    pattern_search({best.centre.x, best.centre.y}, pitch_, kFinest * pitch_, lower);
+}
+
+std::int64_t LowestPositionSearch::cell(double at) const
+{
+    return static_cast<std::int64_t>(std::floor(at / pitch_));
+}
+
+std::uint64_t LowestPositionSearch::key_of(int halvings, std::int64_t i, std::int64_t j)
+{
+    constexpr std::uint64_t kPlaces = (1U << 29) - 1;
+    return (static_cast<std::uint64_t>(halvings) << 58) ^
+           ((static_cast<std::uint64_t>(i) & kPlaces) << 29) ^
+           (static_cast<std::uint64_t>(j) & kPlaces);
+}
+
+// Contacts that block nothing are left out.
+LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPart> blocked,
+                                                           const ApproachDirections& directions)
+{
+    Proof proof;
+    std::unordered_map<std::size_t, std::size_t> numbers;
+    for (BlockedPart& part : blocked) {
+        const auto [at, is_new] = numbers.try_emplace(part.contact, proof.contacts.size());
+        if (is_new) {
+            proof.contacts.push_back(directions.contact(part.contact));
+        }
+        part.contact = at->second;
+    }
+    blocked.shrink_to_fit();
+    proof.contacts.shrink_to_fit();
+    proof.parts = std::move(blocked);
+    return proof;
+}
+
+void LowestPositionSearch::store(Vec3d place, Proof proof)
+{
+    if (parts_ > kMostParts) {
+        proofs_.clear();
+        parts_ = 0;
+    }
+    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    parts_ = parts_ - last.parts.size() + proof.parts.size();
+    last = std::move(proof);
+}
+
+// A position of the ball lower than `height`, if one is found. A descent from a few starts misses
+// narrow gaps between cliffs. So directions that no contact blocks are divided into four, large
+// parts first, and the ball is dropped at their middles. The blocked parts are kept for the next
+// point nearby, where usually the same contacts block the same directions.
+//
+// exact  drops are made exactly at the middles, not at the nearest node of a grid
+//
+// Over 60 lines: the steps of one search share the parts that are open and blocked.
+// Precondition: the tool is a ball
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(double height,
+                                                                            Vec3d place,
+                                                                            bool exact,
+                                                                            bool& proved)
+{
+    ApproachDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
+    const Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    contacts_.insert(contacts_.begin(), last.contacts.begin(), last.contacts.end());
+    for (const Vec3d& contact : contacts_) {
+        directions.add(contact);
+    }
+    std::vector<BlockedPart> blocked;
+    std::vector<ApproachDirections::Triangle> open;
+    for (const BlockedPart& part : last.parts) {
+        if (directions.blocks(part.contact, part.triangle)) {
+            blocked.push_back(part);
+        } else {
+            open.push_back(part.triangle);
+        }
+    }
+    if (last.parts.empty()) {
+        const auto whole = ApproachDirections::half_sphere();
+        open.assign(whole.begin(), whole.end());
+    }
+    const std::size_t most = open.size() + kMostTriangles;
+    int improvements = 0;
+    int tries = 0;
+    std::size_t blocking = 0;
+    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
+        const ApproachDirections::Triangle triangle = open[k];
+        if (const auto contact = directions.blocking(triangle)) {
+            blocked.push_back({triangle, *contact});
+            continue;
+        }
+        const Vec3d middle = directions.centre(ApproachDirections::middle(triangle));
+        Vec2d at{middle.x, middle.y};
+        const bool open_middle = !known_blocks(height, place, at, blocking);
+        const double edge = norm(triangle[0] - triangle[1]) * radius_;
+        std::optional<Position> lower;
+        // Returns whether the contact blocks the triangle.
+        const auto try_drop = [&](const DroppedTool& rest) {
+            if (!std::isfinite(rest.centre.z)) {
+                return false;
+            }
+            const Position there{rest.centre, height_under(rest.centre, place)};
+            lower = there.height < height ? std::optional{there} : std::nullopt;
+            contacts_.push_back(rest.contact);
+            const std::size_t contact = directions.add(rest.contact);
+            const bool is_blocked = !lower && directions.blocks(contact, triangle);
+            if (is_blocked) {
+                blocked.push_back({triangle, contact});
+            }
+            return is_blocked;
+        };
+        bool is_blocked = false;
+        if (open_middle) {
+            at = ++improvements < kMostImprovements ? improved(place, at) : at;
+            is_blocked = try_drop(drop_(at.x, at.y));
+        } else if (edge < pitch_ && ++tries < kMostTries) {
+            // Parts smaller than the grid need contacts between its nodes. One near the middle is
+            // usually known from another point.
+            is_blocked =
+                try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
+        }
+        if (lower) {
+            return lower;
+        }
+        if (is_blocked) {
+            continue;
+        }
+        const auto parts = ApproachDirections::quarters(triangle);
+        open.insert(open.end(), parts.begin(), parts.end());
+    }
+    proved = open.size() <= most;
+    if (proved) {
+        store(place,
+              blocked.size() <= kLongestProof ? proof_of(std::move(blocked), directions) : Proof{});
+    }
+    return std::nullopt;
+}
+
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_than(double height,
+                                                                               Vec3d place,
+                                                                               bool& proved)
+{
+    const std::optional<Position> found = divided(height, place, false, proved);
+    return found || proved ? found : divided(height, place, true, proved);
+}
+
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
+    Vec3d place, double exact_below, double sufficient, std::optional<Vec2d> guess)
+{
+    std::optional<Position> first;
+    if (guess) {
+        const DroppedTool rest = drop_(guess->x, guess->y);
+        if (std::isfinite(rest.centre.z)) {
+            first = Position{rest.centre, height_under(rest.centre, place)};
+            if (first->height <= sufficient) {
+                return first;
+            }
+        }
+    }
+    std::vector<Position> starts = starts_over(place);
+    if (first && std::isfinite(first->height)) {
+        starts.push_back(*first);
+    }
+    const bool ball = flat_ == 0;
+    std::optional<Position> best;
+    // Fast rejection: usually nothing lower exists.
+    if (ball && !starts.empty() &&
+        std::none_of(starts.begin(), starts.end(),
+                     [&](const Position& start) { return start.height < exact_below; })) {
+        bool proved = false;
+        best = lower_than(exact_below - agreement_, place, proved);
+        if (!best && proved) {
+            return starts.front();
+        }
+    }
+    for (const Position& start : starts) {
+        improve_from(start, place, exact_below, best);
+        if (best->height <= sufficient) {
+            return best;
+        }
+    }
+    if (best && corner_ == 0) {
+        improve_by_drops(place, *best);
+    }
+    while (ball && best && best->height > sufficient && best->height < exact_below) {
+        const double gained = exact_below - best->height;
+        bool proved = false;
+        const auto lower =
+            lower_than(best->height - std::max(agreement_, kMoreGained * gained), place, proved);
+        if (!lower) {
+            break;
+        }
+        improve_from(*lower, place, exact_below, best);
+    }
+    return best;
+}
+
+LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, double y)
+{
+    const std::optional<DropCutter::ClPoint> cl = floor.drop({x, y});
+    if (!cl) {
+        return {{x, y, kInfinite}, {}};
+    }
+    const Tool& tool = floor.tool();
+    const Vec2d touched = floor.cc_place({x, y}, *cl);
+    const double away = std::min(tool.radius, std::hypot(touched.x - x, touched.y - y));
+    return {{x, y, cl->z + tool.corner_radius},
+            {touched.x, touched.y, cl->z + profile_height(tool, away)}};
+}
+
+}  // namespace cusp::drop_cutter

@@ -1,0 +1,31 @@
+// Holes of a CAD model: vertical cylinders with material around them, open above.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/job/import/cad_surfaces.hpp"
+#include "host_tools/job/import/similarity.hpp"
+#include "host_tools/job/job/prismatic_keys.hpp"
+
+namespace cusp::import {
+
+struct CadHoles {
+    // By diameter, then by place. Cylinders of one axis and diameter are one hole.
+    std::vector<job::Hole> holes;
+    std::size_t closed_above{};  // others, that begin below
+};
+
+// Round to 1e-4 of the radius, or 0.001 mm; complete but for a fiftieth of their side. A hole is
+// blind where a face of the solid closes its lower end: level, a cone or a ball; a narrower hole below
+// it makes it blind too. Slots and rounded corners are none.
+//
+// model  with all of its faces (read_cad_model())
+CadHoles holes_of(const CadModel& model);
+
+// The holes of a file, placed; z is the tool's axis.
+//
+// Errors: as read_cad_model().
+CadHoles read_cad_holes(const std::string& file, const Similarity& placed);
+
+}  // namespace cusp::import

@@ -1,0 +1,79 @@
+// Faces of STEP, IGES and BREP models as trimmed NURBS surfaces, by Open CASCADE.
+//
+// Open CASCADE is loaded when the first such file is read: linking it would add 25 ms to the start
+// of every command. Only the module libcusp_cad.so uses it; it is built where Open CASCADE is
+// installed.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/job/import/similarity.hpp"
+
+namespace cusp::import {
+
+// The file names its unit, but BREP, which is in mm; the result is in mm, turned and moved by `placed`
+// before any face is left out. Analytic faces become rational B-splines, exactly; the trimming
+// curves in (u, v) are those of Open CASCADE. Faces of solids without an upward normal are left out:
+// a tool from above cannot reach them, and the faces above them are in the model. Loose faces that
+// close a volume count as a solid.
+//
+// Errors: InputError with the file and the reason: no such file, not STEP, IGES or BREP, no upward
+// face, contradicting trims, no libcusp_cad.so.
+//
+// notes  what is wrong in the file and was mended, in words; may be null
+std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
+                                              const Similarity& placed = {},
+                                              std::vector<std::string>* notes = nullptr);
+
+// What is wrong with some faces of a file, and was mended or taken: of how many, and by how much, mm.
+struct FaceFault {
+    static constexpr double kReported = 0.01;  // mm: less is rounding
+
+    std::size_t faces{};
+    double most{};
+
+    void add(double off)
+    {
+        if (off > kReported) {
+            add(FaceFault{1, off});
+        }
+    }
+    void add(const FaceFault& other)
+    {
+        faces += other.faces;
+        most = other.most > most ? other.most : most;
+    }
+};
+
+// The faces of a model, and facts about the file.
+struct CadModel {
+    std::string unit;      // of length, as named in the file; "": it names none
+    std::size_t solids{};  // volumes that faces close
+    std::size_t unread{};  // faces of solids without an upward normal and with broken edges
+    FaceFault points;      // edges without length in the file that have one on the surface
+    FaceFault gaps;        // ends of edges that should meet
+    FaceFault lobes;       // cut off where edges cross each other
+    FaceFault beside;      // edges beside their surface
+    std::vector<nurbs::Surface> faces;  // all others, in mm
+    std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1
+                                        // if into it; 0: the face belongs to no solid
+};
+
+// What is wrong in the file and was mended, in words.
+std::vector<std::string> notes_of(const CadModel& model, const std::string& file);
+
+// As read_cad_surfaces(), but faces of solids without an upward normal are kept.
+CadModel read_cad_model(const std::string& file);
+
+}  // namespace cusp::import
+
+// The entry point of libcusp_cad.so. Its undefined symbols are resolved by the program.
+//
+// all_faces  also those of solids without an upward normal
+extern "C" void cusp_read_cad_model(const std::string& file,
+                                    const cusp::import::Similarity& placed,
+                                    bool all_faces,
+                                    cusp::import::CadModel& model);

@@ -1,0 +1,17 @@
+// The keys of an operation about the load of its tool.
+#pragma once
+
+#include "host_tools/job/import/job_table.hpp"
+#include "host_tools/job/job/job.hpp"
+
+namespace cusp::import {
+
+// clearing, max_engagement; with step_over in a pocket. The tool has been read.
+void read_clearing(JobTable& table, job::Operation& operation);
+
+// chip_load, feed_min, feed_max. The tools have been read.
+//
+// unit  mm in a unit of the job
+void read_chip_load(JobTable& table, double unit, job::Operation& operation);
+
+}  // namespace cusp::import

@@ -1,0 +1,30 @@
+// A table [[fixture]] of a job.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/job/import/job_table.hpp"
+#include "host_tools/job/import/setup_reader.hpp"
+#include "host_tools/job/job/job.hpp"
+
+namespace cusp::import {
+
+// Those that are in the set-up, or in all.
+//
+// top          of the job
+// file         of the job, for messages
+// setup        place of the set-up among all
+// millimetres  of one unit of the job
+//
+// Errors: InputError with line and key.
+std::vector<job::Fixture> read_fixtures(JobTable& top,
+                                        const std::string& file,
+                                        const SetupTables& setups,
+                                        std::size_t setup,
+                                        double millimetres);
+
+// Raises the job's clearance over the highest fixture, with a note. Rapid moves go over every fixture.
+void rise_over_fixtures(job::Job& job);
+
+}  // namespace cusp::import

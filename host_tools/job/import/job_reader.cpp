@@ -1,0 +1,497 @@
+// Reads the TOML job: every key with its range, inches to millimetres, the parts it names.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "firmware/base/inch.hpp"
+#include "firmware/base/math.hpp"
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/geometry/part_model/model_intersection.hpp"
+#include "host_tools/job/import/clearing_keys.hpp"
+#include "host_tools/job/import/fixture_reader.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/job_table.hpp"
+#include "host_tools/job/import/job_tools.hpp"
+#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/operation_check.hpp"
+#include "host_tools/job/import/part_files.hpp"
+#include "host_tools/job/import/placing_reader.hpp"
+#include "host_tools/job/import/post_reader.hpp"
+#include "host_tools/job/import/prismatic_reader.hpp"
+#include "host_tools/job/import/setup_reader.hpp"
+#include "host_tools/job/import/stock_table.hpp"
+#include "host_tools/job/import/tool_reader.hpp"
+#include "host_tools/job/import/trim_loops.hpp"
+#include "host_tools/job/job/job.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::import {
+
+using job::CutDirection;
+using job::EntryKind;
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using job::Traversal;
+using nurbs::Curve;
+using nurbs::Surface;
+using part_model::intersection_of;
+using toolpath::Tool;
+
+namespace {
+
+constexpr double kDefaultTolerance = 0.02;  // mm
+constexpr double kDefaultLargestArcRadius = 1000.0;
+
+class JobReader {
+public:
+    // folder  base of relative paths
+    JobReader(const std::string& file, const std::filesystem::path& folder, PartFiles& parts)
+        : file_{file}, folder_{folder}, parts_{parts}
+    {
+        job_.file = file;
+    }
+
+    // setup  the place among the set-ups of the one to read; counts them
+    Job read(const std::string& text, std::size_t setup, std::size_t& setups);
+
+private:
+    void read_units(JobTable& top);
+    void read_cutting(JobTable& top);
+    void read_operation(const toml::table& table, std::size_t index);
+    std::vector<Operation> read_pockets(JobTable& table, Operation operation);
+    void read_common(JobTable& table, Operation& operation);
+    void read_rest(JobTable& table, Operation& operation);
+    void read_depths(JobTable& table, Operation& operation);
+    void read_tool_choice(JobTable& table, Operation& operation);
+    void read_strategy_keys(JobTable& table, Operation& operation);
+    void read_grid(JobTable& table, Operation& operation);
+    bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
+    const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
+    void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
+    void read_parts(JobTable& table, Operation& operation);
+    void place_files(JobTable& top,
+                     const std::vector<const toml::table*>& operations,
+                     const std::string& outline);
+    void use_tools(const toml::table& table, std::size_t index);
+    std::string path_of(const std::string& name) const { return path_in(folder_, name); }
+
+    std::optional<double> length(JobTable& table, const char* key, Range range) const
+    {
+        return table.length(key, range, unit_);
+    }
+    double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
+    {
+        return length(table, key, range).value_or(otherwise_mm);
+    }
+
+    std::string file_;
+    std::filesystem::path folder_;
+    PartFiles& parts_;
+    double unit_{1.0};  // mm
+    Job job_;
+    std::optional<JobTools> tools_;
+    // Keys: files of the floor, files it was intersected with, tolerance.
+    using Names = std::vector<std::string>;
+    std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
+};
+
+void JobReader::read_units(JobTable& top)
+{
+    job_.inch = top.one_of("units", {"mm", "inch"}).value_or("mm") == "inch";
+    unit_ = job_.inch ? kMillimetresPerInch : 1.0;
+}
+
+void JobReader::read_cutting(JobTable& top)
+{
+    static const toml::table kNothing;
+    const toml::table* table = top.table("cutting");
+    const bool needed = !tools_->has_feeds();
+    if (table == nullptr && needed) {
+        top.refuse("cutting", "is missing: a table [cutting] with at least feed");
+    }
+    JobTable keys{table == nullptr ? kNothing : *table, file_, "cutting", cutting_keys()};
+    job_.feed =
+        (needed ? keys.required_number("feed", kFeed) : keys.number("feed", kFeed).value_or(0)) *
+        unit_;
+    // cutter makers recommend a quarter of the feed for plunging where they give no figure
+    job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
+    job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
+    keys.check_all_read();
+}
+
+void JobReader::read_tool_choice(JobTable& table, Operation& operation)
+{
+    operation.tool = tools_->tool(table);
+    operation.tools = tools_->tools(table);
+    if (operation.tools.empty()) {
+        operation.tools.push_back(operation.tool);
+    }
+    read_rates(table, unit_, operation.tool);
+    for (Tool& tool : operation.tools) {
+        read_rates(table, unit_, tool);
+    }
+}
+
+void JobReader::read_common(JobTable& table, Operation& operation)
+{
+    const auto output = table.one_of("output", {"lines", "arcs", "nurbs"}).value_or("lines");
+    operation.output = output == "lines"  ? OutputForm::kLines
+                       : output == "arcs" ? OutputForm::kArcs
+                                          : OutputForm::kNurbs;
+    operation.plan_tolerance = length(table, "plan_tolerance", kTolerance, kDefaultTolerance);
+    operation.join_gaps = length(table, "join_gaps", kNotNegative);
+    operation.floor_tolerance = length(table, "floor_tolerance", kTolerance, kDefaultTolerance);
+    operation.tolerance_side =
+        table.one_of("tolerance_side", {"outside", "both"}).value_or("outside") == "both"
+            ? ToleranceSide::kBoth
+            : ToleranceSide::kOutside;
+    operation.scallop = length(table, "scallop", kTolerance);
+    if (operation.scallop && operation.tolerance_side == ToleranceSide::kOutside &&
+        *operation.scallop <= operation.floor_tolerance) {
+        table.refuse("scallop",
+                     fmt::format("is {:g} mm, not above the floor_tolerance of {:g} mm that it "
+                                 "includes; raise it or set tolerance_side = \"both\"",
+                                 *operation.scallop, operation.floor_tolerance));
+    }
+    operation.direction_of_cut =
+        table.one_of("direction_of_cut", {"climb", "conventional"}).value_or("climb") == "climb"
+            ? CutDirection::kClimb
+            : CutDirection::kConventional;
+    const auto entry = table.one_of("entry", {"auto", "helix", "ramp", "plunge"}).value_or("auto");
+    operation.entry = entry == "auto"    ? EntryKind::kAuto
+                      : entry == "helix" ? EntryKind::kHelix
+                      : entry == "ramp"  ? EntryKind::kRamp
+                                         : EntryKind::kPlunge;
+    operation.traversal =
+        table.one_of("traversal", {"zigzag", "one_way"}).value_or("zigzag") == "zigzag"
+            ? Traversal::kZigzag
+            : Traversal::kOneWay;
+    operation.allowance = length(table, "allowance", kNotNegative, 0.0);
+}
+
+void JobReader::read_rest(JobTable& table, Operation& operation)
+{
+    constexpr Range kRestTolerance{0.001, 1};
+    operation.after = read_programs(table, "after", folder_);
+    operation.may_open = table.flag("may_open").value_or(false);
+    operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
+    if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
+        !job_.setup) {
+        table.refuse("rest_tolerance", "needs after, or program in [stock], or a set-up");
+    }
+}
+
+void JobReader::read_depths(JobTable& table, Operation& operation)
+{
+    operation.max_depth = length(table, "max_depth", kPositive);
+    operation.min_depth = length(table, "min_depth", kNotNegative);
+    if (operation.max_depth && operation.min_depth && *operation.min_depth > *operation.max_depth) {
+        table.refuse("min_depth", fmt::format("is {:g} mm, above the max_depth of {:g} mm",
+                                              *operation.min_depth, *operation.max_depth));
+    }
+    double above = 0;
+    for (const double depth : table.numbers("layers", kPositive).value_or(std::vector<double>{})) {
+        if (depth * unit_ <= above) {
+            table.refuse("layers", "depths below stock.top must grow from layer to layer");
+        }
+        above = depth * unit_;
+        operation.layers.push_back(above);
+    }
+}
+
+void JobReader::read_grid(JobTable& table, Operation& operation)
+{
+    const auto grid = table.numbers("grid", kPositive).value_or(std::vector<double>{});
+    if (!grid.empty()) {
+        operation.grid_x = grid[0] * unit_;
+        operation.grid_y = grid.back() * unit_;
+    }
+    if (grid.size() > 2) {
+        table.refuse("grid", "two numbers [gx, gy] are needed");
+    }
+    for (const std::string& axis : table.texts("zigzag").value_or(std::vector<std::string>{})) {
+        if (axis != "x" && axis != "y") {
+            table.refuse("zigzag", fmt::format("holds \"{}\", known are \"x\" and \"y\"", axis));
+        }
+        operation.zigzag.push_back(axis[0]);
+    }
+    operation.arc_tolerance = length(table, "arc_tolerance", kTolerance, operation.floor_tolerance);
+    operation.max_arc_radius = length(table, "max_arc_radius", kPositive, kDefaultLargestArcRadius);
+    operation.max_roughness = length(table, "max_roughness", kPositive);
+}
+
+void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
+{
+    constexpr Range kSubdivisions{0, 8};
+    operation.iso_distance = length(table, "iso_distance", kPositive);
+    operation.even_steps =
+        table.one_of("iso_spacing", {"halving", "even"}).value_or("halving") == "even";
+    operation.direction = table.one_of("direction", {"u", "v"}).value_or("u")[0];
+    operation.roughing = table.flag("roughing").value_or(false);
+    read_grid(table, operation);
+    operation.overlap = length(table, "overlap", kNotNegative, 0.0);
+    operation.extra_subdivision =
+        table.whole_number("extra_subdivision", kSubdivisions).value_or(0);
+    operation.step_over = length(table, "step_over", kPositive);
+    read_clearing(table, operation);
+    read_chip_load(table, unit_, operation);
+}
+
+// Whether the strategy plans on the triangles themselves, without a height field.
+bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
+{
+    return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
+           std::all_of(floor.begin(), floor.end(), is_mesh_file);
+}
+
+const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
+{
+    // half of the floor tolerance is the budget of a mesh's height field
+    return parts_.surfaces(path, unit_, floor_tolerance / 2);
+}
+
+// Intersects the floor with every one of `bodies`.
+void JobReader::intersect(JobTable& table,
+                          const std::vector<std::string>& bodies,
+                          Operation& operation)
+{
+    for (const std::string& name : bodies) {
+        operation.intersect_files.push_back(path_of(name));
+    }
+    const auto [found, is_new] = intersections_.try_emplace(
+        {operation.floor_files, operation.intersect_files, operation.floor_tolerance});
+    std::vector<Surface>& floor = found->second;
+    if (is_new) {
+        std::vector<std::vector<Surface>> models{operation.floor};
+        for (const std::string& file : operation.intersect_files) {
+            models.push_back(surfaces_of(file, operation.floor_tolerance));
+        }
+        floor = intersection_of(models);
+        for (Surface& surface : floor) {
+            std::vector<Curve> trims;
+            for (const std::vector<Curve>& loop : surface.trims) {
+                trims.insert(trims.end(), loop.begin(), loop.end());
+            }
+            surface.trims = trim_loops(trims, surface, file_ + ": intersect");
+        }
+    }
+    if (floor.empty()) {
+        table.refuse("intersect", "leaves nothing of the floor: in plan they do not overlap");
+    }
+    operation.floor = floor;
+}
+
+void JobReader::read_parts(JobTable& table, Operation& operation)
+{
+    const std::vector<std::string> floor =
+        table.texts("floor").value_or(std::vector<std::string>{});
+    const std::vector<std::string> bodies =
+        table.texts("intersect").value_or(std::vector<std::string>{});
+    const bool mesh = bodies.empty() && takes_mesh(operation, floor);
+    for (const std::string& name : floor) {
+        operation.floor_files.push_back(path_of(name));
+        if (mesh) {
+            const Triangles& triangles = parts_.mesh(operation.floor_files.back(), unit_);
+            operation.mesh.insert(operation.mesh.end(), triangles.begin(), triangles.end());
+        } else {
+            const std::vector<Surface>& surfaces =
+                surfaces_of(operation.floor_files.back(), operation.floor_tolerance);
+            operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
+        }
+    }
+    if (mesh) {
+        parts_.close_mesh(operation.floor_files, operation.mesh);
+    }
+    if (operation.floor.empty() && operation.mesh.empty()) {
+        table.refuse("floor", "is missing: files with the surfaces to cut");
+    }
+    if (!bodies.empty()) {
+        intersect(table, bodies, operation);
+    }
+}
+
+// One operation for each pocket; the operation itself where it has no boundary.
+std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
+{
+    const auto loops_of = [&](const std::string& name) {
+        return parts_.loops(path_of(name), unit_, {operation.plan_tolerance, operation.join_gaps});
+    };
+    std::vector<FileLoop> islands;
+    for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
+        for (const FileLoop& loop : loops_of(name)) {
+            if (loop.depth == 0) {
+                islands.push_back(loop);
+            }
+        }
+    }
+    if (const auto name = table.text("boundary")) {
+        operation.boundary_file = path_of(*name);
+        return pockets_of(operation, loops_of(*name), islands);
+    }
+    for (const FileLoop& island : islands) {
+        operation.islands.push_back(island.loop);
+        operation.island_files.push_back(island.name);
+    }
+    return {std::move(operation)};
+}
+
+// Once: parts that were read before the job was lie where it puts them.
+//
+// outline  the drawing of the stock; may be empty
+void JobReader::place_files(JobTable& top,
+                            const std::vector<const toml::table*>& operations,
+                            const std::string& outline)
+{
+    const auto placings = read_placings(top.tables("placing"), file_, folder_, unit_);
+    if (parts_.is_placed()) {
+        return;
+    }
+    PlacedFiles files = files_of_operations(operations, folder_);
+    if (!outline.empty()) {
+        files.drawings.push_back(outline);
+    }
+    try {
+        place_parts(placings, files, unit_, parts_);
+    } catch (const PlacingError& error) {
+        top.refuse("placing", error.what());
+    }
+}
+
+// Tools of other set-ups' operations: their programs may name them by their numbers alone.
+void JobReader::use_tools(const toml::table& table, std::size_t index)
+{
+    JobTable keys{table, file_, fmt::format("operation {}", index), operation_keys()};
+    tools_->tool(keys);
+    tools_->tools(keys);
+}
+
+void JobReader::read_operation(const toml::table& entry, std::size_t index)
+{
+    JobTable table{entry, file_, fmt::format("operation {}", index), operation_keys()};
+    Operation operation;
+    const auto strategy = table.one_of("strategy", strategy_names());
+    if (!strategy) {
+        table.refuse("strategy", "is missing");
+    }
+    operation.number = static_cast<int>(index);
+    operation.strategy = *strategy;
+    read_rest(table, operation);
+    read_tool_choice(table, operation);
+    read_common(table, operation);
+    read_depths(table, operation);
+    read_strategy_keys(table, operation);
+    refuse_keys_of_others(entry, table, operation.strategy);
+    read_prismatic_keys(table, unit_, operation);
+    if (operation.prismatic) {
+        if (table.has("floor")) {  // of an engraving
+            read_parts(table, operation);
+        }
+        table.leave({"floor", "intersect", "islands"});
+    } else {
+        read_parts(table, operation);
+    }
+    if (operation.prismatic && operation.strategy != "pocket") {
+        const auto name = table.text("boundary");
+        read_drawing(table, unit_, name ? path_of(*name) : "", parts_, operation);
+        job_.operations.push_back(std::move(operation));
+    } else {
+        for (Operation& pocket : read_pockets(table, std::move(operation))) {
+            check_operation(table, pocket);
+            job_.operations.push_back(std::move(pocket));
+        }
+    }
+    table.leave({"setup"});
+    table.check_all_read();
+}
+
+Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& setups)
+{
+    const toml::table document = parsed_toml(text, file_);
+    JobTable top{document, file_, "", job_keys()};
+    read_units(top);
+    tools_.emplace(top, file_, folder_, unit_);
+    read_cutting(top);
+    const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
+    const SetupTables tables{top, file_};
+    setups = tables.all().size();
+    job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
+    const std::string post = top.text("post").value_or("cusp");
+    try {
+        job_.post = read_post(post, folder_);
+    } catch (const InputError& error) {
+        top.refuse("post", error.what());
+    }
+    job_.group_by_tool = top.flag("group_by_tool").value_or(true);
+    const auto operations = top.tables("operation");
+    place_files(top, operations, stock.outline());
+    top.check_all_read();
+    if (operations.empty()) {
+        top.refuse("operation", "is missing: at least one [[operation]]");
+    }
+    tables.check_used(operations);
+    stock.read_outline(parts_, job_);
+    if (setups > 0) {
+        job_.setup = tables.all()[setup];
+        parts_.turn_all(tables.turn_of(*job_.setup, job_, stock.has_top()));
+        stock.read_outline(parts_, job_);
+    }
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+        if (tables.place_of(*operations[i], i + 1) == setup) {
+            read_operation(*operations[i], i + 1);
+        } else {
+            use_tools(*operations[i], i + 1);
+        }
+    }
+    tools_->store(job_);
+    stock.settle(job_);
+    check_sheet(job_);
+    settle_levels(job_);
+    // files that several operations name say the same again
+    for (const std::string& note : parts_.notes()) {
+        if (std::find(job_.notes.begin(), job_.notes.end(), note) == job_.notes.end()) {
+            job_.notes.push_back(note);
+        }
+    }
+    rise_over_fixtures(job_);
+    return std::move(job_);  // meshes are large
+}
+
+}  // namespace
+
+std::vector<Job> read_setups(const std::string& file)
+{
+    const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
+    const std::string text = files::text_of_file(file);
+    std::vector<Job> jobs;
+    std::size_t setups = 1;
+    for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
+        PartFiles parts;
+        jobs.push_back(JobReader{file, folder, parts}.read(text, place, setups));
+    }
+    return jobs;
+}
+
+Job read_job(const std::string& file)
+{
+    std::vector<Job> jobs = read_setups(file);
+    if (jobs.size() > 1) {
+        throw InputError(
+            fmt::format("{}: has {} set-ups, only one can be read here", file, jobs.size()));
+    }
+    return std::move(jobs.front());  // meshes are large
+}
+
+Job read_job(const JobText& job, PartFiles& parts)
+{
+    std::size_t setups = 1;
+    return JobReader{job.name, job.folder, parts}.read(job.text, 0, setups);
+}
+
+}  // namespace cusp::import

@@ -1,0 +1,345 @@
+// Typed access to a TOML table; every error names its place.
+#include "host_tools/job/import/job_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/job_text.hpp"
+#include "host_tools/job/import/nearest_name.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+namespace {
+
+std::string range_in_words(Range range)
+{
+    const char* low = range.above_low ? "above" : "at least";
+    return fmt::format("it must be {} {:g} and at most {:g}", low, range.low, range.high);
+}
+
+}  // namespace
+
+toml::table parsed_toml(const std::string& text, const std::string& file)
+{
+    check_plain_text(text, file);
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}:{}: not TOML: {}", file, error.source().begin.line,
+                                     error.description()));
+    }
+}
+
+JobTable::JobTable(const toml::table& table,
+                   std::string file,
+                   std::string place,
+                   std::vector<std::string> known)
+    : table_{table}, file_{std::move(file)}, place_{std::move(place)}, known_{std::move(known)}
+{
+    refuse_unknown_keys();
+}
+
+void JobTable::refuse(const char* key, const std::string& reason) const
+{
+    const toml::node* node = table_.get(key);
+    const auto line = (node != nullptr ? node->source() : table_.source()).begin.line;
+    const std::string dot = place_.empty() ? "" : place_ + ": ";
+    throw InputError(fmt::format("{}:{}: {}{}: {}", file_, std::max(line, toml::source_index{1}),
+                                 dot, key, reason));
+}
+
+const toml::node* JobTable::find(const char* key)
+{
+    read_.insert(key);
+    return table_.get(key);
+}
+
+double JobTable::checked(const toml::node& node, const char* key, Range range) const
+{
+    const auto value = node.value<double>();
+    if (!value || !node.is_number()) {
+        refuse(key, "a number is needed");
+    }
+    const bool low_enough = *value <= range.high;
+    const bool high_enough = range.above_low ? *value > range.low : *value >= range.low;
+    if (!low_enough || !high_enough) {
+        refuse(key, fmt::format("is {:g}, {}", *value, range_in_words(range)));
+    }
+    return *value;
+}
+
+std::optional<double> JobTable::number(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional{checked(*node, key, range)};
+}
+
+std::optional<double> JobTable::length(const char* key, Range range, double millimetres)
+{
+    const auto value = number(key, range);
+    return value ? std::optional{*value * millimetres} : std::nullopt;
+}
+
+std::optional<int> JobTable::whole_number(const char* key, Range range)
+{
+    const std::optional<double> value = number(key, range);
+    if (!value) {
+        return std::nullopt;
+    }
+    if (*value != std::floor(*value)) {
+        refuse(key, fmt::format("is {:g}, a whole number is needed", *value));
+    }
+    return static_cast<int>(*value);
+}
+
+std::optional<bool> JobTable::flag(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_boolean()) {
+        refuse(key, "true or false is needed");
+    }
+    return node->value<bool>();
+}
+
+bool JobTable::is_text(const char* key) const
+{
+    const toml::node* node = table_.get(key);
+    const toml::array* list = node == nullptr ? nullptr : node->as_array();
+    return list == nullptr ? node != nullptr && node->is_string()
+                           : !list->empty() && list->front().is_string();
+}
+
+std::optional<std::string> JobTable::text(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_string()) {
+        refuse(key, "a text in quotes is needed");
+    }
+    return node->value<std::string>();
+}
+
+std::optional<std::string> JobTable::one_of(const char* key,
+                                            const std::vector<std::string>& allowed)
+{
+    const std::optional<std::string> value = text(key);
+    if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
+        refuse(key,
+               fmt::format("is \"{}\", known are \"{}\"", *value, fmt::join(allowed, "\", \"")));
+    }
+    return value;
+}
+
+std::optional<std::vector<double>> JobTable::one_or_more(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && node->is_number()) {
+        return std::vector<double>{checked(*node, key, range)};
+    }
+    return numbers(key, range);
+}
+
+std::optional<std::vector<double>> JobTable::numbers(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_array()) {
+        refuse(key, "a list of numbers is needed");
+    }
+    std::vector<double> out;
+    for (const toml::node& entry : *node->as_array()) {
+        out.push_back(checked(entry, key, range));
+    }
+    return out;
+}
+
+std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* key,
+                                                                  Range range,
+                                                                  const char* words)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    const auto refuse_form = [&] {
+        refuse(key, fmt::format("a list of pairs is needed: [{}, ...]", words));
+    };
+    if (!node->is_array()) {
+        refuse_form();
+    }
+    std::vector<std::array<double, 2>> out;
+    for (const toml::node& entry : *node->as_array()) {
+        const toml::array* pair = entry.as_array();
+        if (pair == nullptr || pair->size() != 2) {
+            refuse_form();
+        }
+        out.push_back({checked((*pair)[0], key, range), checked((*pair)[1], key, range)});
+    }
+    return out;
+}
+
+std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_array()) {
+        const double value = checked(*node, key, range);
+        return std::array{value, value};
+    }
+    const std::vector<double> ends = *numbers(key, range);
+    if (ends.size() != 2 || ends[0] > ends[1]) {
+        refuse(key, "a number is needed, or two: [least, greatest]");
+    }
+    return std::array{ends[0], ends[1]};
+}
+
+std::optional<std::array<double, 2>> JobTable::extent(const char* key, double millimetres)
+{
+    const auto ends = numbers(key, kAnyNumber);
+    if (!ends) {
+        return std::nullopt;
+    }
+    if (ends->size() != 2 || !((*ends)[0] < (*ends)[1])) {
+        refuse(key, "two numbers [min, max] are needed, min below max");
+    }
+    return std::array{(*ends)[0] * millimetres, (*ends)[1] * millimetres};
+}
+
+std::optional<std::vector<std::string>> JobTable::texts(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (const auto single = node->value<std::string>(); single && node->is_string()) {
+        return std::vector<std::string>{*single};
+    }
+    std::vector<std::string> out;
+    if (node->is_array()) {
+        for (const toml::node& entry : *node->as_array()) {
+            if (entry.is_string()) {
+                out.push_back(*entry.value<std::string>());
+            }
+        }
+    }
+    if (!node->is_array() || out.size() != node->as_array()->size()) {
+        refuse(key, "a list of texts in quotes is needed");
+    }
+    return out;
+}
+
+const toml::table* JobTable::table(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) {
+        refuse(key, fmt::format("a table [{}] is needed", key));
+    }
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+const toml::table* JobTable::inline_table(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) {
+        refuse(key, fmt::format("values in braces are needed: {} = {{ ... }}", key));
+    }
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+JobTable JobTable::inner(const toml::table& table,
+                         const char* key,
+                         std::vector<std::string> known) const
+{
+    return {table, file_, fmt::format("{}: {}", place_, key), std::move(known)};
+}
+
+std::vector<const toml::table*> JobTable::tables(const char* key)
+{
+    const toml::node* node = find(key);
+    std::vector<const toml::table*> out;
+    if (node == nullptr) {
+        return out;
+    }
+    if (node->is_table()) {
+        out.push_back(node->as_table());
+    } else if (node->is_array_of_tables()) {
+        for (const toml::node& entry : *node->as_array()) {
+            out.push_back(entry.as_table());
+        }
+    } else {
+        refuse(key, fmt::format("tables [[{}]] are needed", key));
+    }
+    return out;
+}
+
+std::string JobTable::required_text(const char* key)
+{
+    const std::optional<std::string> value = text(key);
+    if (!value) {
+        refuse(key, "is missing");
+    }
+    return *value;
+}
+
+std::vector<std::string> JobTable::required_texts(const char* key)
+{
+    const auto value = texts(key);
+    if (!value) {
+        refuse(key, "is missing: a list of lines, [] for none");
+    }
+    return *value;
+}
+
+bool JobTable::required_flag(const char* key)
+{
+    const std::optional<bool> value = flag(key);
+    if (!value) {
+        refuse(key, "is missing: true or false");
+    }
+    return *value;
+}
+
+double JobTable::required_number(const char* key, Range range)
+{
+    const std::optional<double> value = number(key, range);
+    if (!value) {
+        refuse(key, "is missing");
+    }
+    return *value;
+}
+
+void JobTable::refuse_unknown_keys() const
+{
+    for (const auto& entry : table_) {
+        const std::string key{entry.first.str()};
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
+            continue;
+        }
+        refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}",
+                                        nearest_names(key, known_, 1).front()));
+    }
+}
+
+void JobTable::check_all_read() const
+{
+    for (const std::string& key : known_) {
+        if (read_.count(key) == 0) {
+            throw std::logic_error("the key " + key + " is known but never read");
+        }
+    }
+}
+
+}  // namespace cusp::import

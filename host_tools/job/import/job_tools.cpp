@@ -1,0 +1,226 @@
+// Finds tools by number and by name.
+#include "host_tools/job/import/job_tools.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/inch.hpp"
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/files/program_data.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/nearest_name.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using job::Job;
+using toolpath::Tool;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLibraries = "tool_libraries";
+constexpr std::size_t kNearest = 3;
+
+// A path, or the library of that name that comes with the program.
+std::string library_path(const std::string& name, const fs::path& folder)
+{
+    if (path_ending(name) == ".toml") {
+        return (folder / name).string();
+    }
+    const bool plain = name.find('/') == std::string::npos;
+    const auto found = plain ? files::program_data(kLibraries, name + ".toml") : std::nullopt;
+    if (!found) {
+        throw InputError(fmt::format(
+            "library \"{}\": none of that name comes with the program; a library of one's own is a "
+            "path that ends in .toml",
+            name));
+    }
+    return (*found / (name + ".toml")).string();
+}
+
+}  // namespace
+
+JobTools::JobTools(JobTable& top, const std::string& file, const fs::path& folder, double unit)
+{
+    const auto tables = top.tables("tool");
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const ReadTool read = read_tool(*tables[i], file, i + 1, unit);
+        for (const Entry& other : own_) {
+            if (other.read.tool.number == read.tool.number) {
+                top.refuse("tool", fmt::format("two tools have the number {}", read.tool.number));
+            }
+            if (!read.facts.name.empty() && other.read.facts.name == read.facts.name) {
+                top.refuse("tool", fmt::format("two tools are named \"{}\"", read.facts.name));
+            }
+        }
+        own_.push_back({read, true});
+    }
+    if (const auto library = top.text("library")) {
+        try {
+            read_library(*library, folder);
+        } catch (const InputError& error) {
+            top.refuse("library", error.what());
+        }
+    } else if (own_.empty()) {
+        top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
+    }
+}
+
+void JobTools::read_library(const std::string& name, const fs::path& folder)
+{
+    library_file_ = library_path(name, folder);
+    const toml::table document = parsed_toml(files::text_of_file(library_file_), library_file_);
+    JobTable top{document, library_file_, "", library_keys()};
+    const auto units = top.one_of("units", {"mm", "inch"});
+    if (!units) {
+        top.refuse("units", "is missing: \"mm\" or \"inch\", of the library's lengths and feeds");
+    }
+    const auto tables = top.tables("tool");
+    if (tables.empty()) {
+        top.refuse("tool", "is missing: several [[tool]]");
+    }
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const ReadTool read = read_tool(*tables[i], library_file_, i + 1,
+                                        *units == "inch" ? kMillimetresPerInch : 1.0);
+        JobTable place{*tables[i], library_file_, fmt::format("tool {}", i + 1), tool_keys()};
+        if (read.facts.name.empty()) {
+            place.refuse("name", "is missing: operations name the tools of a library");
+        }
+        for (const Entry& other : library_) {
+            if (other.read.facts.name == read.facts.name) {
+                place.refuse("name", fmt::format("two tools are \"{}\"", read.facts.name));
+            }
+            if (other.read.tool.number == read.tool.number) {
+                place.refuse("number", fmt::format("tool \"{}\" has the number {} too",
+                                                   other.read.facts.name, read.tool.number));
+            }
+        }
+        library_.push_back({read, false});
+    }
+}
+
+bool JobTools::has_feeds() const
+{
+    const auto has_feed = [](const Entry& entry) {
+        return entry.read.tool.rates.feed > 0;
+    };
+    return std::all_of(own_.begin(), own_.end(), has_feed) &&
+           std::all_of(library_.begin(), library_.end(), has_feed);
+}
+
+JobTools::Entry& JobTools::by_number(const JobTable& table, const char* key, int number)
+{
+    for (std::vector<Entry>* entries : {&own_, &library_}) {
+        for (Entry& entry : *entries) {
+            if (entry.read.tool.number == number) {
+                return entry;
+            }
+        }
+    }
+    table.refuse(key, fmt::format("is {}, no [[tool]] has that number", number));
+}
+
+JobTools::Entry& JobTools::by_name(const JobTable& table, const char* key, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (std::vector<Entry>* entries : {&own_, &library_}) {
+        for (Entry& entry : *entries) {
+            if (entry.read.facts.name == name) {
+                return entry;
+            }
+            if (!entry.read.facts.name.empty()) {
+                names.push_back(entry.read.facts.name);
+            }
+        }
+    }
+    if (names.empty()) {
+        table.refuse(key, fmt::format("is \"{}\", but no tool has a name", name));
+    }
+    table.refuse(key,
+                 fmt::format("is \"{}\", no tool has that name{}; the nearest are \"{}\"", name,
+                             library_file_.empty() ? "" : ", in " + library_file_ + " either",
+                             fmt::join(nearest_names(name, names, kNearest), "\", \"")));
+}
+
+// A tool of the library is known by its number in the program: the job's own must not have it.
+const Tool& JobTools::use(const JobTable& table, const char* key, Entry& entry)
+{
+    const Tool& tool = entry.read.tool;
+    for (const Entry& own : own_) {
+        if (&own != &entry && own.read.tool.number == tool.number) {
+            table.refuse(key, fmt::format("the library's tool \"{}\" has the number {}, and so has "
+                                          "a [[tool]] of the job: give that another number",
+                                          entry.read.facts.name, tool.number));
+        }
+    }
+    entry.used = true;
+    return tool;
+}
+
+Tool JobTools::tool(JobTable& table)
+{
+    constexpr const char* kKey = "tool";
+    if (table.is_text(kKey)) {
+        return use(table, kKey, by_name(table, kKey, *table.text(kKey)));
+    }
+    if (const auto number = table.whole_number(kKey, kToolNumber)) {
+        return use(table, kKey, by_number(table, kKey, *number));
+    }
+    if (own_.empty()) {
+        table.refuse(kKey, "is missing: name a tool of the library " + library_file_);
+    }
+    return own_.front().read.tool;
+}
+
+std::vector<Tool> JobTools::tools(JobTable& table)
+{
+    constexpr const char* kKey = "tools";
+    std::vector<Tool> tools;
+    const auto add = [&](Entry& entry) {
+        const Tool& tool = use(table, kKey, entry);
+        for (const Tool& other : tools) {
+            if (other.number == tool.number) {
+                table.refuse(kKey, fmt::format("holds tool {} twice", tool.number));
+            }
+        }
+        tools.push_back(tool);
+    };
+    if (table.is_text(kKey)) {
+        const std::vector<std::string> names = table.texts(kKey).value();
+        for (const std::string& name : names) {
+            add(by_name(table, kKey, name));
+        }
+        return tools;
+    }
+    const auto numbers = table.numbers(kKey, kToolNumber);
+    for (const double number : numbers.value_or(std::vector<double>{})) {
+        if (number != std::floor(number)) {
+            table.refuse(kKey, fmt::format("holds {:g}, whole numbers are needed", number));
+        }
+        add(by_number(table, kKey, static_cast<int>(number)));
+    }
+    if (numbers && tools.empty()) {
+        table.refuse(kKey, "names no tool");
+    }
+    return tools;
+}
+
+void JobTools::store(Job& job) const
+{
+    for (const std::vector<Entry>* entries : {&own_, &library_}) {
+        for (const Entry& entry : *entries) {
+            if (entry.used) {
+                job.tools.push_back(entry.read.tool);
+                job.tool_facts[entry.read.tool.number] = entry.read.facts;
+            }
+        }
+    }
+}
+
+}  // namespace cusp::import

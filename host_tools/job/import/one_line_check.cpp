@@ -1,0 +1,160 @@
+// Checks files, then numbers, then tools.
+#include "host_tools/job/import/one_line_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/number_ranges.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::import {
+namespace {
+
+void check_range(const char* option, std::optional<double> value, double low, bool above_low)
+{
+    if (value && !(std::isfinite(*value) && *value <= kLargest &&
+                   (above_low ? *value > low : *value >= low))) {
+        throw InputError(fmt::format("{}: is {:g}, it must be {} {:g} and at most {:g}", option,
+                                     *value, above_low ? "above" : "at least", low, kLargest));
+    }
+}
+
+void check_parts(const OneLineRequest& request)
+{
+    for (const std::string& part : request.parts) {
+        if (path_ending(part.substr(0, layer_mark(part))) == ".dxf") {
+            throw InputError(fmt::format(
+                "{}: a drawing is a boundary, not a part: cusp plan FLOOR.json --boundary {} "
+                "... with the surfaces of the floor",
+                part, part));
+        }
+        if (!is_part_file(part)) {
+            throw InputError(fmt::format("{}: parts end in {}, jobs in .toml, not in \"{}\"", part,
+                                         kPartEndings, path_ending(part)));
+        }
+    }
+    if (!request.islands.empty() && !request.boundary) {
+        throw InputError("--island: needs --boundary, the loop round the pocket");
+    }
+}
+
+void check_numbers(const OneLineRequest& request)
+{
+    check_range("--scallop", request.scallop, kTolerance.low, true);
+    check_range("--tolerance", request.tolerance, kTolerance.low, false);
+    check_range("--max-depth", request.max_depth, 0, true);
+    check_range("--allowance", request.allowance, 0, false);
+    check_range("--feed", request.feed, kFeed.low, false);
+    check_range("--plunge-feed", request.plunge_feed, kFeed.low, false);
+    check_range("--spindle", request.spindle, 0, false);
+    check_range("--stock-top", request.stock_top, -kLargest, false);
+    check_range("--clearance", request.clearance, 0, true);
+    if (request.tolerance && *request.tolerance >= *request.scallop) {
+        throw InputError(
+            fmt::format("--tolerance: is {:g}, it must be below the --scallop of "
+                        "{:g}, which includes it",
+                        *request.tolerance, *request.scallop));
+    }
+    if (!request.roughing && (request.max_depth || request.allowance)) {
+        throw InputError(fmt::format("{}: is for roughing, --no-roughing leaves that out",
+                                     request.max_depth ? "--max-depth" : "--allowance"));
+    }
+}
+
+void check_placing(const OneLineRequest& request)
+{
+    constexpr double kTurn = 360;  // degrees
+    check_range("--scale", request.scale, kScale.low, false);
+    const auto check_count = [](const char* option, const char* needed,
+                                const std::vector<double>& values, bool also_one) {
+        if (!values.empty() && values.size() != 3 && !(also_one && values.size() == 1)) {
+            throw InputError(fmt::format("{}: has {} numbers, {}", option, values.size(), needed));
+        }
+    };
+    check_count("--rotate", "degrees about z are needed, or about x, y and z", request.rotate,
+                true);
+    check_count("--move", "x, y and z are needed", request.move, false);
+    const auto check_size = [](const char* option, const std::vector<double>& values,
+                               double limit) {
+        for (const double value : values) {
+            if (!(std::abs(value) <= limit)) {
+                throw InputError(
+                    fmt::format("{}: is {:g}, the limit is {:g}", option, value, limit));
+            }
+        }
+    };
+    check_size("--rotate", request.rotate, kTurn);
+    check_size("--move", request.move, kLargest);
+}
+
+void check_strategy(const OneLineRequest& request)
+{
+    const bool pocket = request.strategy.empty() ? request.boundary.has_value()
+                                                 : request.strategy == "contour_pocket";
+    if (pocket && !request.boundary) {
+        throw InputError("--strategy contour_pocket: needs --boundary, the loop round the pocket");
+    }
+    if (!pocket && request.boundary) {
+        throw InputError(
+            fmt::format("--boundary: is for contour_pocket, not for {}", request.strategy));
+    }
+    if (request.strategy == "parallel_planes" && request.roughing) {
+        throw InputError(
+            "--strategy parallel_planes: only finishes: add --no-roughing, or leave --strategy "
+            "out");
+    }
+}
+
+}  // namespace
+
+bool is_part_file(const std::string& file)
+{
+    return is_cad_file(file) || is_mesh_file(file) || path_ending(file) == ".json";
+}
+
+void check_request(const OneLineRequest& request)
+{
+    check_parts(request);
+    if (request.tools.empty()) {
+        throw InputError(
+            "--tool: is missing: the tools in the order of their use, such as --tool ball:6 or "
+            "--tool flat:8 ball:6");
+    }
+    if (!request.scallop) {
+        throw InputError(
+            "--scallop: is missing: the height of the scallops that may remain, such as --scallop "
+            "0.02 (mm)");
+    }
+    check_numbers(request);
+    check_placing(request);
+    check_strategy(request);
+}
+
+void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)
+{
+    if (!request.roughing && tools.size() > 1) {
+        throw InputError(
+            fmt::format("--tool {}: only roughs, and --no-roughing leaves that out: "
+                        "give one tool, which finishes",
+                        request.tools.front()));
+    }
+    if (request.boundary && tools.size() > 2) {
+        throw InputError(
+            fmt::format("--tool {}: in a pocket one tool roughs and one finishes: "
+                        "give two at most",
+                        request.tools[1]));
+    }
+    if (!request.boundary && tools.back().shape != "ball") {
+        throw InputError(fmt::format(
+            "--tool {}: comes last and so finishes, for which a part needs a ball: --tool {} "
+            "ball:6; inside a --boundary any tool finishes",
+            request.tools.back(), request.tools.back()));
+    }
+}
+
+}  // namespace cusp::import

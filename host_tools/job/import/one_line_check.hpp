@@ -1,0 +1,20 @@
+// Checks the request of a one-line job.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/job/import/one_line_job.hpp"
+#include "host_tools/job/import/tool_text.hpp"
+
+namespace cusp::import {
+
+// Errors: InputError that names the option or the file, its value, its limit and what to do.
+void check_request(const OneLineRequest& request);
+
+// Throws InputError where the last tool can't finish the part as requested.
+void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);
+
+// Whether files of this ending hold parts (kPartEndings).
+bool is_part_file(const std::string& file);
+
+}  // namespace cusp::import

@@ -1,0 +1,228 @@
+// One cache for each kind of geometry.
+#include "host_tools/job/import/part_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/mesh_holes.hpp"
+#include "host_tools/job/import/nurbs_validity.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using nurbs::Curve;
+using nurbs::Surface;
+
+namespace {
+
+// Seen from above: curves of drawings lie in x and y.
+void move_curves(const Similarity& placed, std::vector<Curve>& curves)
+{
+    for (Curve& curve : curves) {
+        for (Vec3d& point : curve.points) {
+            point = placed.of(point);
+        }
+    }
+}
+
+void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
+{
+    // seen from below, a loop goes the other way round
+    const bool mirrors = placed.axes[0].x * placed.axes[1].y < placed.axes[0].y * placed.axes[1].x;
+    for (FileLoop& found : loops) {
+        move_curves(placed, found.loop);
+        if (mirrors) {
+            found.loop = job::reversed(found.loop);
+        }
+    }
+}
+
+// Drawings may be far away until they are placed.
+void check_place(const std::vector<Curve>& curves, const std::string& name)
+{
+    for (const Curve& curve : curves) {
+        for (const Vec3d& p : curve.points) {
+            if (std::max(std::abs(p.x), std::abs(p.y)) > kLargestCoordinate) {
+                throw InputError(fmt::format(
+                    "{}: drawn at x {:.10g} y {:.10g} mm, the limit is {:g}: [placing] with origin "
+                    "= \"corner\" moves it to the origin",
+                    name, p.x, p.y, kLargestCoordinate));
+            }
+        }
+    }
+}
+
+std::string without_layer(const std::string& name) { return name.substr(0, layer_mark(name)); }
+
+}  // namespace
+
+Similarity PartFiles::placed(const std::string& file) const
+{
+    const auto found = placed_.find(file);
+    return found == placed_.end() ? turn_ : found->second.then(turn_);
+}
+
+const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
+                                                double millimetres,
+                                                double mesh_tolerance)
+{
+    // Only a mesh depends on the tolerance.
+    const double tolerance = is_mesh_file(file) ? mesh_tolerance : 0;
+    const auto [found, is_new] = surfaces_.try_emplace({file, tolerance});
+    if (is_new) {
+        found->second = read_surfaces(file, millimetres, tolerance, &notes_, placed(file));
+    }
+    return found->second;
+}
+
+const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
+{
+    const auto [found, is_new] = meshes_.try_emplace(file);
+    if (is_new) {
+        found->second = read_mesh(file, millimetres, &notes_, placed(file));
+    }
+    return found->second;
+}
+
+void PartFiles::close_mesh(const std::vector<std::string>& files, Triangles& mesh)
+{
+    cover_holes(fmt::format("{}", fmt::join(files, ", ")), mesh, notes_);
+}
+
+const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
+                                              double millimetres,
+                                              EndDistance gaps)
+{
+    const auto [found, is_new] = loops_.try_emplace({file, gaps.least, gaps.given.value_or(-1)});
+    if (is_new) {
+        found->second = read_loops(file, millimetres, gaps, notes_);
+        move_loops(placed_drawing(file), found->second);
+        for (const FileLoop& loop : found->second) {
+            check_place(loop.loop, file);
+        }
+    }
+    return found->second;
+}
+
+std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres) const
+{
+    std::vector<Curve> curves = read_curves(file, millimetres, nullptr);
+    move_curves(placed_drawing(file), curves);
+    return curves;
+}
+
+Similarity PartFiles::placed_drawing(const std::string& name) const
+{
+    const std::string file = without_layer(name);
+    return placed(placed_.count(file) > 0 ? file : name);
+}
+
+std::vector<job::Hole> PartFiles::holes(const std::string& file,
+                                        double millimetres,
+                                        DiameterRange range,
+                                        bool only_circles)
+{
+    const Similarity move = placed_drawing(file);
+    if (is_cad_file(file)) {
+        return model_holes(file, range);
+    }
+    const double scale = norm(move.axes[0]);
+    const DiameterRange drawn{range.least / scale, range.greatest / scale};
+    std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
+    for (job::Hole& hole : holes) {
+        hole = {in_plan(move.of({hole.at.x, hole.at.y, 0})), scale * hole.diameter};
+        check_place({line_curve(hole.at, hole.at)}, file);
+    }
+    return holes;
+}
+
+std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterRange range)
+{
+    const auto [known, is_new] = cad_holes_.try_emplace(file);
+    CadHoles& found = known->second;
+    if (is_new) {
+        found = read_cad_holes(file, placed(file));
+        if (found.closed_above > 0) {
+            notes_.push_back(fmt::format("{}: {} below alone and {} not drilled", file,
+                                         found.closed_above == 1
+                                             ? "1 hole opens"
+                                             : fmt::format("{} holes open", found.closed_above),
+                                         found.closed_above == 1 ? "is" : "are"));
+        }
+    }
+    std::vector<job::Hole> holes;
+    std::set<double> diameters;
+    for (const job::Hole& hole : found.holes) {
+        diameters.insert(std::round(hole.diameter * 1e4) / 1e4);
+        if (hole.diameter >= range.least && hole.diameter <= range.greatest) {
+            holes.push_back(hole);
+        }
+    }
+    if (holes.empty()) {
+        throw InputError(diameters.empty()
+                             ? file + ": no vertical hole to drill"
+                             : fmt::format("{}: no hole of the wanted diameter; there are {:g} mm",
+                                           file, fmt::join(diameters, ", ")));
+    }
+    return holes;
+}
+
+std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres)
+{
+    const Similarity move = placed_drawing(file);
+    std::vector<job::Chain> chains = read_chains(file, millimetres, notes_);
+    for (job::Chain& chain : chains) {
+        move_curves(move, chain);
+        check_place(chain, file);
+    }
+    return chains;
+}
+
+void PartFiles::place(const std::string& file, const Similarity& placed) { placed_[file] = placed; }
+
+void PartFiles::turn_all(const Similarity& turn)
+{
+    turn_ = turn;
+    surfaces_.clear();
+    meshes_.clear();
+    loops_.clear();
+    cad_holes_.clear();
+    notes_.clear();
+}
+
+void PartFiles::shift(const std::string& file, Vec3d by)
+{
+    placed_[file].shift = placed_[file].shift + by;
+    for (auto& [key, surfaces] : surfaces_) {
+        for (Surface& surface : surfaces) {
+            for (Vec3d& point : surface.points) {
+                point = key.first == file ? point + by : point;
+            }
+        }
+    }
+    if (const auto found = meshes_.find(file); found != meshes_.end()) {
+        for (auto& triangle : found->second) {
+            for (Vec3d& corner : triangle) {
+                corner = corner + by;
+            }
+        }
+    }
+    cad_holes_.erase(file);
+    for (auto& [key, loops] : loops_) {
+        if (std::get<0>(key) == file || without_layer(std::get<0>(key)) == file) {
+            Similarity move;
+            move.shift = by;
+            move_loops(move, loops);
+        }
+    }
+}
+
+}  // namespace cusp::import

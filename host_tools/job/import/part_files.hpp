@@ -1,0 +1,83 @@
+// PartFiles: a cache of the parts of a job; each file is read once.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "host_tools/job/import/cad_holes.hpp"
+#include "host_tools/job/import/dxf_holes.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/similarity.hpp"
+
+namespace cusp::import {
+
+using Triangles = std::vector<std::array<Vec3d, 3>>;
+
+// Files lie as they are, or as `place` and `shift` say (placing.hpp).
+//
+// Errors, here and below: InputError, as `read_surfaces`, `read_mesh` and `read_loops` throw it.
+//
+// millimetres  of one unit of a file that names no unit: 1 or 25.4; equal in all calls
+class PartFiles {
+public:
+    // mesh_tolerance  mm: as in `read_surfaces`
+    const std::vector<nurbs::Surface>& surfaces(const std::string& file,
+                                                double millimetres,
+                                                double mesh_tolerance);
+    const Triangles& mesh(const std::string& file, double millimetres);
+    // Closes the holes of the mesh that all these files make, and notes it (mesh_holes.hpp).
+    void close_mesh(const std::vector<std::string>& files, Triangles& mesh);
+    // gaps  as in `read_loops`
+    const std::vector<FileLoop>& loops(const std::string& file,
+                                       double millimetres,
+                                       EndDistance gaps);
+    // All curves of a drawing, or of a JSON file, wherever they are.
+    std::vector<nurbs::Curve> curves(const std::string& file, double millimetres) const;
+
+    // As read_holes() and read_chains(), placed. Of a model the holes have their heights
+    // (cad_holes.hpp).
+    std::vector<job::Hole> holes(const std::string& file,
+                                 double millimetres,
+                                 DiameterRange range,
+                                 bool only_circles);
+    std::vector<job::Chain> chains(const std::string& file, double millimetres);
+
+    void note(const std::string& sentence) { notes_.push_back(sentence); }
+
+    // Places a file that was not read yet; its name has no "#layer".
+    void place(const std::string& file, const Similarity& placed);
+    // Moves what was read of the file, and what will be. mm
+    void shift(const std::string& file, Vec3d by);
+    // Turns all files that lie as the above say, in space; what was read is forgotten.
+    void turn_all(const Similarity& turn);
+    // After the last of both: a job that finds its files placed leaves them there.
+    void finish_placing() { is_placed_ = true; }
+    bool is_placed() const { return is_placed_; }
+
+    // Sentences on what the readers left out or changed so far.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
+    Similarity placed(const std::string& file) const;
+    // The placing of a drawing, the same for all layers.
+    Similarity placed_drawing(const std::string& name) const;
+
+    // keys: file, tolerance
+    std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
+    std::map<std::string, Triangles> meshes_;
+    // keys: file, limits of gaps; below 0: not given
+    std::map<std::tuple<std::string, double, double>, std::vector<FileLoop>> loops_;
+    std::map<std::string, CadHoles> cad_holes_;
+    std::map<std::string, Similarity> placed_;  // by file; others lie as they are
+    Similarity turn_;                           // of all files, last
+    bool is_placed_{false};
+    std::vector<std::string> notes_;
+};
+
+}  // namespace cusp::import

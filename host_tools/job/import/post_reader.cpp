@@ -1,0 +1,177 @@
+// One key a member of Post.
+#include "host_tools/job/import/post_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "host_tools/base/files/files.hpp"
+#include "host_tools/base/files/program_data.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/job_table.hpp"
+#include "host_tools/job/import/nearest_name.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using toolpath::ArcForm;
+using toolpath::CommentForm;
+using toolpath::Post;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFolder = "posts";
+constexpr const char* kDefault = "cusp";
+constexpr std::size_t kLongestLine = 200;
+// Fewer would round by more than tolerances are; a controller reads no more than six.
+constexpr Range kMillimetreDecimals{3, 6};
+constexpr Range kInchDecimals{4, 6};
+constexpr Range kLineNumbers{0, 1000};
+
+// A list of lines, and the fields that its lines may have.
+struct LineKey {
+    const char* key;
+    std::vector<std::string> Post::*lines;
+    std::vector<std::string> fields;
+};
+
+const std::vector<LineKey>& line_keys()
+{
+    static const std::vector<std::string> kOfTool{"tool", "comment", "clearance"};
+    static const std::vector<LineKey> kKeys{
+        {"begin", &Post::begin, {}},
+        {"modes", &Post::modes, {"units", "offset", "clearance"}},
+        {"exact_path", &Post::exact_path, {}},
+        {"blend", &Post::blend, {"tolerance"}},
+        {"header", &Post::header, {}},
+        {"first_tool", &Post::first_tool, kOfTool},
+        {"next_tool", &Post::next_tool, kOfTool},
+        {"spindle_on", &Post::spindle_on, {"rpm"}},
+        {"mist", &Post::mist, {}},
+        {"flood", &Post::flood, {}},
+        {"coolant_off", &Post::coolant_off, {}},
+        {"after_tool", &Post::after_tool, {"tool", "clearance"}},
+        {"footer", &Post::footer, {}},
+        {"end", &Post::end, {}},
+    };
+    return kKeys;
+}
+
+std::vector<std::string> known_post_keys()
+{
+    std::vector<std::string> keys{"mm_decimals",  "inch_decimals", "arcs",     "nurbs",
+                                  "drill_cycles", "point",         "comments", "line_numbers"};
+    for (const LineKey& key : line_keys()) {
+        keys.emplace_back(key.key);
+    }
+    return keys;
+}
+
+void check_line(const JobTable& table, const LineKey& key, const std::string& line)
+{
+    const auto printable = [](char c) {
+        return c >= ' ' && c <= '~';
+    };
+    if (line.empty() || line.size() > kLongestLine ||
+        !std::all_of(line.begin(), line.end(), printable)) {
+        table.refuse(key.key, fmt::format("a line has 1 to {} printable ASCII characters, this "
+                                          "one {} bytes",
+                                          kLongestLine, line.size()));
+    }
+    for (std::size_t at = line.find('{'); at != std::string::npos; at = line.find('{', at + 1)) {
+        const std::size_t end = line.find('}', at);
+        const std::string field = end == std::string::npos ? "" : line.substr(at + 1, end - at - 1);
+        if (std::find(key.fields.begin(), key.fields.end(), field) == key.fields.end()) {
+            table.refuse(key.key, fmt::format("{} in \"{}\" is no field of it{}{}",
+                                              end == std::string::npos ? "{" : "{" + field + "}",
+                                              line, key.fields.empty() ? "" : "; known are: ",
+                                              fmt::join(key.fields, ", ")));
+        }
+    }
+}
+
+Post post_of(const toml::table& document, const std::string& file, const std::string& name)
+{
+    JobTable table{document, file, "", known_post_keys()};
+    Post post;
+    post.name = name;
+    post.mm_decimals = table.whole_number("mm_decimals", kMillimetreDecimals).value_or(0);
+    post.inch_decimals = table.whole_number("inch_decimals", kInchDecimals).value_or(0);
+    if (post.mm_decimals == 0 || post.inch_decimals == 0) {
+        table.refuse(post.mm_decimals == 0 ? "mm_decimals" : "inch_decimals", "is missing");
+    }
+    const auto arcs = table.one_of("arcs", {"IJ", "R"});
+    const auto comments = table.one_of("comments", {"()", ";", "none"});
+    if (!arcs || !comments) {
+        table.refuse(arcs ? "comments" : "arcs", arcs ? "is missing: \"()\", \";\" or \"none\""
+                                                      : "is missing: \"IJ\" or \"R\"");
+    }
+    post.arcs = *arcs == "R" ? ArcForm::kRadius : ArcForm::kCentre;
+    post.comments = *comments == "()"  ? CommentForm::kParentheses
+                    : *comments == ";" ? CommentForm::kSemicolon
+                                       : CommentForm::kNone;
+    post.nurbs = table.required_flag("nurbs");
+    post.drill_cycles = table.flag("drill_cycles").value_or(false);
+    post.point = table.required_flag("point");
+    post.line_numbers = table.whole_number("line_numbers", kLineNumbers).value_or(0);
+    for (const LineKey& key : line_keys()) {
+        post.*key.lines = table.required_texts(key.key);
+        for (const std::string& line : post.*key.lines) {
+            check_line(table, key, line);
+        }
+    }
+    table.check_all_read();
+    return post;
+}
+
+Post post_in(const fs::path& file, const std::string& name)
+{
+    const toml::table document = parsed_toml(files::text_of_file(file.string()), file.string());
+    return post_of(document, file.string(), name);
+}
+
+}  // namespace
+
+std::vector<std::string> post_names()
+{
+    std::vector<std::string> names;
+    std::error_code failed;
+    if (const auto folder = files::program_data(kFolder, std::string{kDefault} + ".toml")) {
+        for (const fs::directory_entry& entry : fs::directory_iterator{*folder, failed}) {
+            if (entry.path().extension() == ".toml") {
+                names.push_back(entry.path().stem().string());
+            }
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Post read_post(const std::string& name, const fs::path& folder)
+{
+    if (name == kDefault) {
+        return {};
+    }
+    if (path_ending(name) == ".toml") {
+        return post_in(folder / name, fs::path{name}.stem().string());
+    }
+    const bool plain = name.find('/') == std::string::npos;
+    const auto found = plain ? files::program_data(kFolder, name + ".toml") : std::nullopt;
+    if (!found) {
+        const std::vector<std::string> names = post_names();
+        const auto nearest = nearest_names(name, names, 1);
+        throw InputError(fmt::format(
+            "post \"{}\": there is none of that name{}; there are: {}; a post of one's own is a "
+            "path that ends in .toml",
+            name, nearest.empty() ? "" : ", the nearest is \"" + nearest.front() + "\"",
+            fmt::join(names, ", ")));
+    }
+    return post_in(*found / (name + ".toml"), name);
+}
+
+}  // namespace cusp::import

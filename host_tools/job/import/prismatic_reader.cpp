@@ -1,0 +1,345 @@
+// Keys first, then the drawing; levels last, for they follow from the stock's top.
+#include "host_tools/job/import/prismatic_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "host_tools/base/input_error/counted.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/dxf_holes.hpp"
+#include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/job/hole_depth.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::import {
+
+using job::Hole;
+using job::Job;
+using job::NestedLoop;
+using job::Operation;
+using job::Prismatic;
+using job::ProfileSide;
+using job::Tabs;
+using toolpath::Tool;
+
+namespace {
+
+constexpr std::array kPrismaticStrategies{"pocket",  "profile", "drill",  "face",
+                                          "engrave", "v_carve", "chamfer"};
+// mm: circles and tools whose diameters differ by no more are of one size.
+constexpr double kSameDiameter = 0.01;
+constexpr double kCarvedRidges = 0.05;  // mm: on the floor of a v_carve
+
+Tabs read_tabs(JobTable& keys, double unit)
+{
+    constexpr Range kCount{1, 1000};
+    Tabs tabs;
+    tabs.count = keys.whole_number("count", kCount).value_or(0);
+    const auto places = keys.numbers("places", kAnyNumber);
+    if (places && places->size() % 2 != 0) {
+        keys.refuse("places", "an even count of numbers is needed: [x, y, x, y]");
+    }
+    for (std::size_t i = 0; places && i < places->size(); i += 2) {
+        tabs.places.push_back({(*places)[i] * unit, (*places)[i + 1] * unit});
+    }
+    if ((tabs.count > 0) == places.has_value()) {
+        keys.refuse("count", "either count or places is needed, such as count = 4");
+    }
+    tabs.width = keys.required_number("width", kPositive) * unit;
+    tabs.height = keys.required_number("height", kPositive) * unit;
+    tabs.ramped = keys.one_of("shape", {"ramp", "square"}).value_or("ramp") == "ramp";
+    keys.check_all_read();
+    return tabs;
+}
+
+// A level floor costs nothing more where it is followed closely. The height of ridges says how far
+// apart the loops of a round end are; with a flat end there are none.
+void choose_pocket_tolerances(const JobTable& table, Operation& operation)
+{
+    constexpr double kFloorTolerance = 0.002;  // mm
+    constexpr double kRidges = 0.04;           // mm
+    if (!table.has("floor_tolerance")) {
+        operation.floor_tolerance = kFloorTolerance;
+        operation.default_floor_tolerance = true;
+    }
+    if (!operation.scallop) {
+        operation.default_scallop = true;
+        operation.scallop =
+            operation.tool.corner_radius > 0 ? kRidges : 2 * operation.floor_tolerance;
+    }
+}
+
+void check_tool(const JobTable& table, const Operation& operation)
+{
+    const Tool& tool = operation.tool;
+    const bool drills = operation.strategy == "drill";
+    const bool flank = operation.strategy == "chamfer" || operation.strategy == "v_carve";
+    if (flank && tool.shape != toolpath::ToolShape::kVee &&
+        tool.shape != toolpath::ToolShape::kTaper) {
+        table.refuse("tool", fmt::format("{} needs a vee or a taper, tool {} is {}",
+                                         operation.strategy, tool.number, name_of(tool.shape)));
+    }
+    if (flank && tool.corner_radius > 0) {
+        table.refuse("tool",
+                     fmt::format("tool {} has a ball at its tip: {} needs a sharp or a flat one",
+                                 tool.number, operation.strategy));
+    }
+    if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
+        table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
+                                         "sideways",
+                                         tool.number, operation.strategy));
+    }
+    const bool level = operation.strategy == "pocket" || operation.strategy == "face" ||
+                       operation.strategy == "profile";
+    if (level && is_conical(tool)) {
+        table.refuse("tool", fmt::format("tool {} is {}: {} needs vertical flanks: a flat, bull or "
+                                         "ball end",
+                                         tool.number, name_of(tool.shape), operation.strategy));
+    }
+}
+
+void check_profile(const JobTable& table, const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    if (cut.side == ProfileSide::kOn && operation.allowance > 0) {
+        table.refuse("allowance",
+                     "belongs to a profile inside or outside: on the line there is no "
+                     "wall to finish");
+    }
+    if (cut.tabs && cut.tabs->height >= cut.depth) {
+        table.refuse("tabs", fmt::format("height is {:g} mm, the cut is only {:g} mm deep: tabs "
+                                         "are lower than the cut",
+                                         cut.tabs->height, cut.depth));
+    }
+}
+
+// Loops of the drawing, with which of them are holes.
+std::vector<NestedLoop> nested(const std::vector<FileLoop>& loops)
+{
+    std::vector<NestedLoop> out;
+    for (const FileLoop& loop : loops) {
+        out.push_back({loop.loop, loop.name, loop.depth % 2 == 1});
+    }
+    return out;
+}
+
+// Takes out the holes that the tool doesn't fit into.
+void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
+{
+    const Tool& tool = operation.tool;
+    Prismatic& cut = *operation.prismatic;
+    const auto fits = [&](const Hole& hole) {
+        return !(hole.diameter > 0 && hole.diameter < 2 * tool.radius - kSameDiameter);
+    };
+    const auto narrower = std::stable_partition(cut.holes.begin(), cut.holes.end(), fits);
+    cut.narrower_holes.assign(narrower, cut.holes.end());
+    cut.holes.erase(narrower, cut.holes.end());
+    if (cut.holes.empty()) {
+        const Hole& hole = cut.narrower_holes.front();
+        table.refuse(
+            "boundary",
+            fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
+                        "tool {} of {:g} mm, as are all; diameter chooses holes",
+                        hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius));
+    }
+    const auto larger = std::count_if(cut.holes.begin(), cut.holes.end(), [&](const Hole& hole) {
+        return hole.diameter > 2 * tool.radius + kSameDiameter;
+    });
+    if (larger > 0) {
+        parts.note(fmt::format(
+            "operation {}: drill: {} of {} {} wider than tool {} of {:g} mm: {} its diameter",
+            operation.number, larger, counted(cut.holes.size(), "hole"), larger == 1 ? "is" : "are",
+            tool.number, 2 * tool.radius, larger == 1 ? "it gets" : "they get"));
+    }
+}
+
+// The depth of the deepest one, where they are a model's.
+void settle_holes(const Job& job, Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    if (operation.strategy != "drill" || cut.given_depth) {
+        return;
+    }
+    for (const Hole& hole : cut.holes) {
+        const double depth = cut.top - job::tip_in_hole(cut, hole, operation.tool);
+        if (!(depth > 0)) {
+            throw InputError(fmt::format(
+                "{}: operation {}: drill: the hole at x {:.6g} y {:.6g} mm ends {:.4g} mm above "
+                "the top of z {:.6g} mm; raise top",
+                job.file, operation.number, hole.at.x, hole.at.y, -depth, cut.top));
+        }
+        cut.depth = std::max(cut.depth, depth);
+    }
+}
+
+// A level rectangle around the boundary.
+nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
+{
+    const PartExtent box = extent_of_curves(boundary);
+    const double x0 = box.low.x - margin;
+    const double y0 = box.low.y - margin;
+    const double x1 = box.high.x + margin;
+    const double y1 = box.high.y + margin;
+    return {1,
+            1,
+            {0, 0, 1, 1},
+            {0, 0, 1, 1},
+            2,
+            2,
+            {{x0, y0, z}, {x0, y1, z}, {x1, y0, z}, {x1, y1, z}},
+            {1, 1, 1, 1},
+            {}};
+}
+
+}  // namespace
+
+bool is_prismatic(const std::string& strategy)
+{
+    return std::find(kPrismaticStrategies.begin(), kPrismaticStrategies.end(), strategy) !=
+           kPrismaticStrategies.end();
+}
+
+void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
+{
+    Prismatic cut;
+    const auto depth = table.length("depth", kPositive, unit);
+    cut.given_top = table.length("top", kAnyNumber, unit);
+    const std::string side = table.one_of("side", {"outside", "inside", "on"}).value_or("outside");
+    cut.side = side == "outside"  ? ProfileSide::kOutside
+               : side == "inside" ? ProfileSide::kInside
+                                  : ProfileSide::kOn;
+    if (const toml::table* tabs = table.inline_table("tabs")) {
+        JobTable keys = table.inner(*tabs, "tabs", tabs_keys());
+        cut.tabs = read_tabs(keys, unit);
+    }
+    cut.lead_in = table.length("lead_in", kNotNegative, unit);
+    cut.lead_out = table.length("lead_out", kNotNegative, unit);
+    cut.peck = table.length("peck", kPositive, unit);
+    cut.overhang = table.length("overhang", kNotNegative, unit);
+    const auto width = table.length("width", kPositive, unit);
+    if (const auto wanted = table.interval("diameter", kPositive)) {
+        cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
+    }
+    if (!is_prismatic(operation.strategy)) {
+        return;
+    }
+    const bool chamfers = operation.strategy == "chamfer";
+    const bool carves = operation.strategy == "v_carve";
+    // holes of a model have a depth of their own
+    const bool drills = operation.strategy == "drill";
+    if (!depth && !chamfers && !carves && !drills) {
+        table.refuse("depth",
+                     fmt::format("is missing: {} needs how deep it cuts", operation.strategy));
+    }
+    if (!width && chamfers) {
+        table.refuse("width", "is missing: chamfer needs its width, seen from above");
+    }
+    check_tool(table, operation);
+    if (table.has("floor") && cut.given_top) {
+        table.refuse("top", "does not go with floor: an engraving begins at its surface");
+    }
+    cut.width = width.value_or(0);
+    cut.given_depth = depth.has_value();
+    const double slope = 1 / std::tan(operation.tool.tip_angle / 2);
+    if (carves) {
+        const double flank = (operation.tool.radius - operation.tool.tip_radius) * slope;
+        if (depth && *depth > flank) {
+            table.refuse("depth", fmt::format("is {:g} mm, the flank of tool {} is only {:.4g} mm "
+                                              "high",
+                                              *depth, operation.tool.number, flank));
+        }
+        cut.depth = depth.value_or(flank);
+        operation.scallop = operation.scallop.value_or(kCarvedRidges);
+    } else {
+        cut.depth = chamfers ? cut.width * slope : depth.value_or(0);
+    }
+    operation.prismatic = cut;
+    if (operation.strategy == "pocket") {
+        choose_pocket_tolerances(table, operation);
+    }
+    check_profile(table, operation);
+}
+
+void read_drawing(const JobTable& table,
+                  double unit,
+                  const std::string& file,
+                  PartFiles& parts,
+                  Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    if (file.empty() && operation.strategy != "face") {
+        table.refuse("boundary", fmt::format("is missing: {} needs a drawing, such as "
+                                             "\"plate.dxf#layer\"",
+                                             operation.strategy));
+    }
+    cut.file = file;
+    if (operation.strategy == "drill") {
+        const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, kLargest});
+        cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
+                                cut.diameters.has_value());
+        check_holes(table, operation, parts);
+        if (!cut.given_depth && !cut.holes.front().span) {
+            table.refuse("depth",
+                         "is missing: drill needs how deep it cuts where the holes are "
+                         "those of a drawing");
+        }
+    } else if (operation.strategy == "engrave") {
+        cut.chains = parts.chains(file, unit);
+    } else if (!file.empty()) {
+        cut.loops =
+            nested(parts.loops(file, unit, {operation.plan_tolerance, operation.join_gaps}));
+    }
+}
+
+void check_sheet(const Job& job)
+{
+    if (job.stock_x && job.stock_y) {
+        return;
+    }
+    const auto is_open = [](const Operation& o) {
+        return !o.prismatic && !o.boundary;
+    };
+    const auto is_beside = [](const Operation& o) {
+        return o.strategy == "profile" && o.prismatic->side != ProfileSide::kInside;
+    };
+    const auto& all = job.operations;
+    const auto open = std::find_if(all.begin(), all.end(), is_open);
+    const auto beside = std::find_if(all.begin(), all.end(), is_beside);
+    if (open != all.end() && beside != all.end()) {
+        throw InputError(
+            fmt::format("{}: operation {}: profile: there is stock around the part, but operation "
+                        "{} ({}) takes the "
+                        "part's box for the stock and would move in rapids through it: give x and "
+                        "y, or margin, in [stock]",
+                        job.file, beside->number, open->number, open->strategy));
+    }
+}
+
+void settle_levels(Job& job)
+{
+    double level = job.stock_top;
+    for (Operation& operation : job.operations) {
+        if (!operation.prismatic) {
+            continue;
+        }
+        Prismatic& cut = *operation.prismatic;
+        cut.top = cut.given_top.value_or(level);
+        settle_holes(job, operation);
+        if (operation.strategy == "face" && cut.loops.empty()) {
+            level = cut.top - cut.depth;
+        }
+        if (operation.strategy == "pocket") {
+            operation.floor = {
+                flat_floor(*operation.boundary, 2 * operation.tool.radius, cut.top - cut.depth)};
+            operation.floor_files = {
+                fmt::format("{}: level at {:.9g}", operation.boundary_file, cut.top - cut.depth)};
+        }
+    }
+}
+
+}  // namespace cusp::import

@@ -1,0 +1,34 @@
+// A table [tool] of a job, or of a library of tools.
+#pragma once
+
+#include <string>
+
+#include "host_tools/job/import/job_table.hpp"
+#include "host_tools/job/import/number_ranges.hpp"
+#include "host_tools/job/job/job.hpp"
+
+namespace cusp::import {
+
+// Tool numbers that controllers accept.
+inline constexpr Range kToolNumber{1, 255};
+
+struct ReadTool {
+    toolpath::Tool tool;
+    job::ToolFacts facts;
+};
+
+// file         of the job or library, for messages
+// index        of the tool's table, from 1: the default of its number
+// millimetres  of one unit of the file
+//
+// Errors: InputError with line and key.
+ReadTool read_tool(const toml::table& table,
+                   const std::string& file,
+                   std::size_t index,
+                   double millimetres);
+
+// The keys `feed`, `plunge_feed`, `spindle` and `coolant` of a tool, or of an operation, which
+// override the tool's. A feed without a plunge feed makes that a quarter of itself.
+void read_rates(JobTable& keys, double millimetres, toolpath::Tool& tool);
+
+}  // namespace cusp::import

@@ -1,0 +1,100 @@
+// Fields between colons; lengths with or without their unit.
+#include "host_tools/job/import/tool_text.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "firmware/base/inch.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/number_ranges.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::import {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& what)
+{
+    throw InputError(fmt::format("--tool {}: {}", text, what));
+}
+
+std::vector<std::string> fields_of(const std::string& text)
+{
+    std::vector<std::string> fields;
+    std::istringstream in{text + ':'};  // an empty last field counts
+    for (std::string field; std::getline(in, field, ':');) {
+        fields.push_back(field);
+    }
+    return fields;
+}
+
+double length_of(const std::string& text, const char* what, const std::string& field, bool inch)
+{
+    if (field.empty()) {
+        refuse(text, fmt::format("the {} is missing: ball:6, flat:8, bull:10:1.5", what));
+    }
+    double value = 0;
+    const char* end = field.data() + field.size();
+    const auto [rest, error] = std::from_chars(field.data(), end, value);
+    const std::string unit{rest, end};
+    if (error != std::errc{} || !std::isfinite(value)) {
+        refuse(text,
+               fmt::format("\"{}\" is no {}: a number is needed, such as ball:6", field, what));
+    }
+    if (!unit.empty() && unit != "mm" && unit != "in") {
+        refuse(text, fmt::format("\"{}\" is no unit of length: mm or in", unit));
+    }
+    if (!(value > 0 && value <= kLargest)) {
+        refuse(text, fmt::format("the {} is {:g}, it must be above 0 and at most {:g}", what, value,
+                                 kLargest));
+    }
+    if (unit == "in" && !inch) {
+        return value * kMillimetresPerInch;
+    }
+    return unit == "mm" && inch ? value / kMillimetresPerInch : value;
+}
+
+}  // namespace
+
+NamedTool tool_of_text(const std::string& text, bool inch)
+{
+    const std::vector<std::string> fields = fields_of(text);
+    NamedTool tool;
+    tool.shape = fields[0];
+    if (tool.shape != "ball" && tool.shape != "flat" && tool.shape != "bull") {
+        refuse(text, fmt::format("no shape is named \"{}\": ball:DIAMETER, flat:DIAMETER or "
+                                 "bull:DIAMETER:CORNER_RADIUS",
+                                 tool.shape));
+    }
+    tool.diameter = length_of(text, "diameter", fields.size() > 1 ? fields[1] : "", inch);
+    const bool bull = tool.shape == "bull";
+    if (fields.size() > (bull ? 3U : 2U)) {
+        refuse(text, bull ? "a bull-nose end has a diameter and a corner radius: bull:10:1.5"
+                          : fmt::format("a {} end has a diameter only: {}:6; bull:10:1.5 has "
+                                        "round corners",
+                                        tool.shape, tool.shape));
+    }
+    if (bull) {
+        tool.corner_radius =
+            length_of(text, "corner radius", fields.size() > 2 ? fields[2] : "", inch);
+        if (tool.corner_radius > tool.diameter / 2) {
+            refuse(text, fmt::format("the corner radius is {:g}, the tool's radius only {:g}",
+                                     tool.corner_radius, tool.diameter / 2));
+        }
+    }
+    return tool;
+}
+
+std::string words_of(const NamedTool& tool, bool inch)
+{
+    const char* unit = inch ? "inch" : "mm";
+    std::string words = fmt::format("{} {:.6g} {}", tool.shape, tool.diameter, unit);
+    if (tool.corner_radius > 0) {
+        words += fmt::format(" with corners of {:.6g} {}", tool.corner_radius, unit);
+    }
+    return words;
+}
+
+}  // namespace cusp::import

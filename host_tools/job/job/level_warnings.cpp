@@ -1,0 +1,108 @@
+// Compares the levels of each operation with the stock's and with its tool.
+#include "host_tools/job/job/level_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fmt/format.h"
+
+namespace cusp::job {
+
+namespace {
+
+constexpr double kSameLevel = 1e-6;  // mm
+
+std::string warning_of(const Job& job, const Operation& operation)
+{
+    const double top = operation.prismatic->top;
+    const double end = top - operation.prismatic->depth;
+    const std::string name = fmt::format("operation {} ({})", operation.number, operation.strategy);
+    if (end > job.stock_top - kSameLevel) {
+        return fmt::format(
+            "{} ends at z = {:.6g} mm, not below the stock's top, z = {:.6g} mm: it "
+            "cuts air",
+            name, end, job.stock_top);
+    }
+    if (!job.stock_bottom) {
+        return {};
+    }
+    if (top < *job.stock_bottom + kSameLevel) {
+        return fmt::format(
+            "{} begins at z = {:.6g} mm, not above the stock's bottom, z = {:.6g} "
+            "mm: it cuts what is below",
+            name, top, *job.stock_bottom);
+    }
+    // drills and outlines go through by less
+    const double below = *job.stock_bottom - end;
+    if (below > 2 * operation.tool.radius) {
+        return fmt::format(
+            "{} goes {:.6g} mm below the stock's bottom, z = {:.6g} mm: it cuts what "
+            "is below",
+            name, below, *job.stock_bottom);
+    }
+    return {};
+}
+
+bool goes_in_one_level(const Operation& operation)
+{
+    const bool in_slots = operation.strategy == "profile" || operation.strategy == "pocket" ||
+                          operation.strategy == "face" || operation.strategy == "engrave";
+    return in_slots && !operation.max_depth && operation.layers.empty() &&
+           !operation.max_engagement;
+}
+
+// Whether what an earlier operation or program left is all that there is to cut: how deep that is
+// is not known here.
+bool is_cut_before(const Job& job, const Operation& operation)
+{
+    const auto cuts_it = [&](const Operation& before) {
+        return before.number < operation.number && before.prismatic && before.strategy != "drill" &&
+               before.strategy != "chamfer" &&
+               before.prismatic->file == operation.prismatic->file &&
+               before.prismatic->top - before.prismatic->depth <=
+                   operation.prismatic->top - operation.prismatic->depth + kSameLevel;
+    };
+    return !job.stock_programs.empty() || !operation.after.empty() ||
+           std::any_of(job.operations.begin(), job.operations.end(), cuts_it);
+}
+
+// A slot deeper than the mill is wide, cut at once.
+std::string depth_warning(const Job& job, const Operation& operation)
+{
+    const double across = 2 * operation.tool.radius;
+    const double depth = operation.prismatic->depth;
+    if (depth <= across + kSameLevel || !goes_in_one_level(operation) ||
+        is_cut_before(job, operation)) {
+        return {};
+    }
+    const double levels = std::ceil(depth / across - kSameLevel);
+    return fmt::format(
+        "operation {} ({}): tool {} of {:.6g} mm cuts {:.6g} mm deep in one level, {:.3g} times "
+        "its "
+        "diameter: a max_depth of {:.6g} mm would make {:g} levels of {:.4g} mm",
+        operation.number, operation.strategy, operation.tool.number, across, depth, depth / across,
+        across, levels, depth / levels);
+}
+
+}  // namespace
+
+std::vector<std::string> level_warnings(const Job& job)
+{
+    std::vector<std::string> warnings;
+    int last = 0;  // several pockets of a drawing are one operation
+    for (const Operation& operation : job.operations) {
+        const bool follows_floor = operation.strategy == "engrave" && !operation.floor.empty();
+        if (!operation.prismatic || follows_floor || operation.number == last) {
+            continue;
+        }
+        last = operation.number;
+        for (std::string text : {warning_of(job, operation), depth_warning(job, operation)}) {
+            if (!text.empty()) {
+                warnings.push_back(std::move(text));
+            }
+        }
+    }
+    return warnings;
+}
+
+}  // namespace cusp::job

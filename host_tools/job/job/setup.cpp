@@ -1,0 +1,21 @@
+// Programs of other set-ups, in the coordinates of a job.
+#include "host_tools/job/job/setup.hpp"
+
+#include "host_tools/job/job/job.hpp"
+
+namespace cusp::job {
+
+void add_earlier_program(Job& job, const Setup& of, const std::string& file)
+{
+    SetupFlip turn{turn_signs(of.flip, job.setup ? job.setup->flip : Flip::kNone)};
+    if (turn.is_none()) {
+        job.stock_programs.push_back(file);
+        return;
+    }
+    turn.middle = {((*job.stock_x)[0] + (*job.stock_x)[1]) / 2,
+                   ((*job.stock_y)[0] + (*job.stock_y)[1]) / 2,
+                   (*job.stock_bottom + job.stock_top) / 2};
+    job.turned_programs.push_back({file, turn});
+}
+
+}  // namespace cusp::job

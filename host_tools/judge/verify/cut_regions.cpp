@@ -1,0 +1,360 @@
+// Each operation by its words in docs/job_file.md: sides, depths, shapes of tools.
+#include "host_tools/judge/verify/cut_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/job/job/hole_depth.hpp"
+#include "host_tools/job/job/loop_shape.hpp"
+#include "host_tools/judge/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/part_heights.hpp"
+
+namespace cusp::verify {
+
+using job::Chain;
+using job::Hole;
+using job::Job;
+using job::loop_polyline;
+using job::NestedLoop;
+using job::Operation;
+using job::Prismatic;
+using job::ProfileSide;
+using toolpath::end_height;
+using toolpath::Tool;
+
+namespace {
+
+constexpr double kBoxChord = 0.01;  // mm
+
+// mm: the widest that a profile clears beside its wall: the tool, the allowance, its leads. A lead is a quarter of a
+// circle, and its far end the square root of two radii from where it meets the contour: beside convex walls and
+// corners that is how far it may lead away from the wall.
+double widest(const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    const double radius = operation.tool.radius;
+    const double lead =
+        std::sqrt(2.0) * std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
+    return 2 * radius + operation.allowance + lead + cut.width;
+}
+
+// loop_polyline() closes what it is given, by the last point.
+std::vector<Vec2d> open_polyline(const Chain& chain)
+{
+    std::vector<Vec2d> line = loop_polyline(chain, kBoxChord / 10);
+    line.back() = in_plan(point_at(chain.back(), chain.back().domain_end()));
+    return line;
+}
+
+// A closed loop on an open chain: no line from its end to its start.
+Chain there_and_back(Chain chain)
+{
+    for (std::size_t k = chain.size(); k-- > 0;) {
+        chain.push_back(reversed(chain[k]));
+    }
+    return chain;
+}
+
+// The tip of an engraving on a floor, by drops at places along its curves.
+class EngravedTips {
+public:
+    EngravedTips(const Operation& operation, double spacing)
+        : tip_{toolpath::tip_of(operation.tool)},
+          depth_{operation.prismatic->depth},
+          spacing_{spacing},
+          model_{operation.floor}
+    {
+    }
+
+    std::vector<Vec3d> along(const std::vector<Vec2d>& line)
+    {
+        out_.clear();
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const Vec2d way = line[i + 1] - line[i];
+            const int steps = std::max(1, static_cast<int>(std::ceil(norm(way) / spacing_)));
+            for (int k = i == 0 ? 0 : 1; k <= steps; ++k) {
+                if (const auto at = dropped(line[i] + (static_cast<double>(k) / steps) * way)) {
+                    if (!out_.empty()) {
+                        refine(out_.back(), *at);
+                    }
+                    out_.push_back(*at);
+                }
+            }
+        }
+        return out_;
+    }
+
+    double top() const { return top_; }
+
+private:
+    std::optional<Vec3d> dropped(Vec2d at)
+    {
+        const std::optional<double> z = model_.drop_height(tip_, at.x, at.y, guess_);
+        if (!z) {
+            return std::nullopt;
+        }
+        guess_ = z;
+        top_ = std::max(top_, *z);
+        return Vec3d{at.x, at.y, *z - depth_};
+    }
+
+    // Over creases positions lie so close that the straight line between them is the tip's way.
+    void refine(Vec3d from, Vec3d to)
+    {
+        constexpr double kStraight = 5e-5;  // mm
+        constexpr double kShortest = 5e-4;  // mm
+        const auto middle = dropped(0.5 * (in_plan(from) + in_plan(to)));
+        if (!middle || norm(in_plan(to) - in_plan(from)) < kShortest ||
+            std::abs(middle->z - 0.5 * (from.z + to.z)) <= kStraight) {
+            return;
+        }
+        refine(from, *middle);
+        out_.push_back(*middle);
+        refine(*middle, to);
+    }
+
+    toolpath::Tool tip_;
+    double depth_;
+    double spacing_;
+    part_model::PartModel model_;
+    std::optional<double> guess_;
+    std::vector<Vec3d> out_;
+    double top_{-kUnbounded};
+};
+
+// What an engraving on a floor leaves: a stock cut by its tool, the tip wherever the curves say, as deep below the
+// surfaces as it has to be.
+std::vector<double> engraved_heights(const Operation& operation, const HeightGrid& grid)
+{
+    const toolpath::Tool tip = toolpath::tip_of(operation.tool);
+    const double spacing =
+        std::min(grid.pitch / 2, tip.radius > 0.01 ? tip.radius / 10 : grid.pitch / 4);
+    EngravedTips tips{operation, spacing};
+    std::vector<ToolPositions> runs;
+    for (const Chain& chain : operation.prismatic->chains) {
+        ToolPositions run{operation.tool, tips.along(open_polyline(chain)), {}};
+        run.rapid.resize(run.tips.size(), false);
+        runs.push_back(std::move(run));
+    }
+    MachinedStock stock{grid, tips.top() + operation.prismatic->depth + end_height(operation.tool)};
+    for (const ToolPositions& run : runs) {
+        stock.cut(run, spacing, [](double) {});
+    }
+    return stock.heights();
+}
+
+}  // namespace
+
+CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
+    : operation_{&operation},
+      cap_{operation.prismatic ? widest(operation) + 2 * grid.pitch
+                               : 2 * operation.tool.radius + 2 * grid.pitch}
+{
+    if (operation.boundary) {
+        walls_.emplace_back(*operation.boundary, true, cap_);
+        for (const auto& island : operation.islands) {
+            walls_.emplace_back(island, false, cap_);
+        }
+    } else if (operation.prismatic) {
+        for (const NestedLoop& loop : operation.prismatic->loops) {
+            walls_.emplace_back(loop.loop, true, cap_);
+        }
+        for (const Chain& chain : operation.prismatic->chains) {
+            walls_.emplace_back(there_and_back(chain), true, cap_);
+        }
+    }
+    if (operation.strategy == "engrave" && !operation.floor.empty()) {
+        heights_ = engraved_heights(operation, grid);
+    }
+    if (!operation.prismatic) {
+        heights_ = part_heights(operation.floor, operation.mesh, grid).z;
+    }
+}
+
+double CutRegion::from_curves(double x, double y) const
+{
+    double least = cap_;
+    for (const WallDistance& wall : walls_) {
+        least = std::min(least, std::abs(wall.at(x, y)));
+    }
+    return least;
+}
+
+double CutRegion::into_material(double x, double y) const
+{
+    double least = cap_;
+    bool inside = false;
+    for (const WallDistance& wall : walls_) {
+        const double d = wall.at(x, y);
+        inside = inside != (d > 0);
+        least = std::min(least, std::abs(d));
+    }
+    return inside ? least : -least;
+}
+
+std::size_t CutRegion::nearest_loop(double x, double y) const
+{
+    std::size_t best = 0;
+    double least = kUnbounded;
+    for (std::size_t n = 0; n < walls_.size(); ++n) {
+        const double d = std::abs(walls_[n].at(x, y));
+        best = d < least ? n : best;
+        least = std::min(least, d);
+    }
+    return best;
+}
+
+double CutRegion::room(double x, double y) const
+{
+    if (operation_->boundary) {
+        double least = cap_;
+        for (const WallDistance& wall : walls_) {
+            least = std::min(least, wall.at(x, y));
+        }
+        return least;
+    }
+    const double inward = into_material(x, y);
+    return operation_->prismatic->side == ProfileSide::kInside ? inward : -inward;
+}
+
+RegionAt CutRegion::profile_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    const double bottom = cut.top - cut.depth;
+    if (cut.side == ProfileSide::kOn) {
+        return {operation_->tool.radius - from_curves(x, y), bottom};
+    }
+    const double away = room(x, y);
+    return {std::min(away, widest(*operation_) - away), bottom};
+}
+
+RegionAt CutRegion::hole_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    double nearest = kUnbounded;
+    double tip = cut.top - cut.depth;
+    for (const Hole& hole : cut.holes) {
+        const double away = norm(Vec2d{x, y} - hole.at);
+        tip = away < nearest ? tip_in_hole(cut, hole, operation_->tool) : tip;
+        nearest = std::min(nearest, away);
+    }
+    const double radius = operation_->tool.radius;
+    return {radius - nearest, tip + profile_height(operation_->tool, std::min(nearest, radius))};
+}
+
+// Flanks of the vee rise to the outlines. The tip's flat leaves no more beside the axis than its
+// radius over the slope.
+RegionAt CutRegion::carved_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
+    const double inward = into_material(x, y);
+    const bool on_floor = inward * slope >= cut.depth;
+    const double beside = operation_->plan_tolerance * slope;
+    const double deep = std::clamp(inward * slope, 0.0, cut.depth);
+    return {inward, cut.top - deep,
+            operation_->tool.tip_radius * slope + (on_floor ? *operation_->scallop : 0.0),
+            std::min(beside, cut.depth - deep), std::min(beside, deep)};
+}
+
+// The groove of the tool's profile; a path within its tolerance has it so much nearer or farther.
+RegionAt CutRegion::engraved_at(double x, double y) const
+{
+    const Tool& tool = operation_->tool;
+    const double away = from_curves(x, y);
+    const double tolerance = operation_->plan_tolerance;
+    const auto height = [&](double distance) {
+        return profile_height(tool, std::clamp(distance, 0.0, tool.radius));
+    };
+    const double exact = height(away);
+    return {tool.radius - away, operation_->prismatic->top - operation_->prismatic->depth + exact,
+            0.0, exact - height(std::min(away, tool.radius) - tolerance),
+            away + tolerance < tool.radius ? height(away + tolerance) - exact : kUnbounded};
+}
+
+RegionAt CutRegion::at(double x, double y, std::size_t k) const
+{
+    if (!operation_->prismatic) {
+        return {walls_.empty() ? cap_ : room(x, y),
+                std::isfinite(heights_[k]) ? heights_[k] : -kUnbounded};
+    }
+    const Prismatic& cut = *operation_->prismatic;
+    const double bottom = cut.top - cut.depth;
+    const double radius = operation_->tool.radius;
+    if (operation_->strategy == "pocket") {
+        return {room(x, y), bottom,
+                operation_->tool.corner_radius > 0 ? *operation_->scallop : 0.0};
+    }
+    if (operation_->strategy == "v_carve") {
+        return carved_at(x, y);
+    }
+    if (operation_->strategy == "profile") {
+        return profile_at(x, y);
+    }
+    if (operation_->strategy == "drill") {
+        return hole_at(x, y);
+    }
+    if (operation_->strategy == "engrave") {
+        if (!heights_.empty()) {
+            return {radius - from_curves(x, y), heights_[k]};
+        }
+        return engraved_at(x, y);
+    }
+    if (operation_->strategy == "chamfer") {
+        const double inward = into_material(x, y);
+        const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
+        return {std::min(cut.width - inward, 2 * radius + inward),
+                cut.top - (cut.width - inward) * slope, 0.0, operation_->plan_tolerance * slope,
+                0.0};
+    }
+    return {cap_, bottom};  // face
+}
+
+std::vector<CutRegion> cut_regions(const Job& job, const HeightGrid& grid)
+{
+    std::vector<CutRegion> regions;
+    for (const Operation& operation : job.operations) {
+        regions.emplace_back(operation, grid);
+    }
+    return regions;
+}
+
+std::optional<PlanBox> prismatic_box(const Job& job)
+{
+    PlanBox box{{kUnbounded, kUnbounded}, {-kUnbounded, -kUnbounded}};
+    const auto widen = [&](Vec2d p, double by) {
+        box.low = {std::min(box.low.x, p.x - by), std::min(box.low.y, p.y - by)};
+        box.high = {std::max(box.high.x, p.x + by), std::max(box.high.y, p.y + by)};
+    };
+    for (const Operation& operation : job.operations) {
+        if (!operation.prismatic) {
+            continue;
+        }
+        const double around =
+            operation.strategy == "profile" && operation.prismatic->side != ProfileSide::kInside
+                ? widest(operation)
+                : operation.tool.radius;
+        const auto add = [&](const Chain& chain) {
+            for (const Vec2d p : loop_polyline(chain, kBoxChord)) {
+                widen(p, around);
+            }
+        };
+        for (const NestedLoop& loop : operation.prismatic->loops) {
+            add(loop.loop);
+        }
+        std::for_each(operation.prismatic->chains.begin(), operation.prismatic->chains.end(), add);
+        for (const Hole& hole : operation.prismatic->holes) {
+            widen(hole.at, around);
+        }
+        if (operation.boundary) {
+            add(*operation.boundary);
+        }
+    }
+    return box.low.x < box.high.x ? std::optional{box} : std::nullopt;
+}
+
+}  // namespace cusp::verify

@@ -1,0 +1,311 @@
+// Point by point; where a tool has room is a distance transform of the points where its centre may
+// be.
+#include "host_tools/judge/verify/level_judgement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/judge/verify/bands.hpp"
+#include "host_tools/judge/verify/distance_transform.hpp"
+
+namespace cusp::verify {
+
+using job::Operation;
+using job::Prismatic;
+using job::ProfileSide;
+
+namespace {
+
+struct Cuts {
+    double gouge{};
+    double wall{};
+};
+
+// The least of what a cut to z at a point breaks: below a floor, or beyond a wall. Near a wall that is cut too deep the
+// greater of the two distances counts, not the whole depth.
+Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top)
+{
+    double least = top - z;
+    Cuts cuts{least, 0};
+    for (const RegionAt& region : regions) {
+        const double below = std::max(0.0, region.floor - region.below - z);
+        const double beyond = std::max(0.0, -region.inside);
+        if (std::max(below, beyond) < least) {
+            least = std::max(below, beyond);
+            cuts = beyond > below ? Cuts{0, beyond} : Cuts{below, 0};
+        }
+    }
+    return cuts;
+}
+
+class LevelJudge {
+public:
+    LevelJudge(const LevelQuestion& question, VerifyFigures& figures)
+        : q_{question},
+          figures_{figures},
+          regions_{cut_regions(q_.job, q_.grid)},
+          maps_{std::vector<double>(q_.grid.size(), kNoValue),
+                std::vector<double>(q_.grid.size(), 0.0),
+                std::vector<double>(q_.grid.size(), q_.job.stock_top)}
+    {
+    }
+
+    LevelMaps judge()
+    {
+        find_gouges();
+        for (const CutRegion& region : regions_) {
+            if (region.operation().prismatic) {
+                find_left(region);
+            }
+        }
+        return std::move(maps_);
+    }
+
+private:
+    double x(std::size_t k) const { return q_.grid.x(k / q_.grid.ny, k % q_.grid.ny); }
+    double y(std::size_t k) const { return q_.grid.y(k / q_.grid.ny, k % q_.grid.ny); }
+
+    void find_gouges()
+    {
+        std::vector<Cuts> worst(kBands);
+        std::vector<std::size_t> walls(kBands);  // points of the deepest cuts through walls
+        for_each_band(q_.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
+            std::vector<RegionAt> here(regions_.size());
+            for (std::size_t k = begin * q_.grid.ny; k < end * q_.grid.ny; ++k) {
+                for (std::size_t n = 0; n < regions_.size(); ++n) {
+                    here[n] = regions_[n].at(x(k), y(k), k);
+                    if (here[n].inside >= 0 && here[n].floor > -kUnbounded) {
+                        maps_.part[k] = std::min(maps_.part[k], here[n].floor);
+                    }
+                }
+                if (!(q_.cut[k] < q_.job.stock_top)) {
+                    continue;
+                }
+                const Cuts cuts = cuts_at(here, q_.cut[k], q_.job.stock_top);
+                worst[band].gouge = std::max(worst[band].gouge, cuts.gouge);
+                if (cuts.wall > worst[band].wall) {
+                    worst[band].wall = cuts.wall;
+                    walls[band] = k;
+                }
+                maps_.gouge[k] = cuts.gouge;
+            }
+        });
+        figures_.gouge_max = 0;
+        figures_.wall_gouge_max = 0;
+        for (std::size_t band = 0; band < kBands; ++band) {
+            figures_.gouge_max = std::max(figures_.gouge_max, worst[band].gouge);
+            if (worst[band].wall > std::max(*figures_.wall_gouge_max, q_.plan_tolerance)) {
+                const std::size_t k = walls[band];
+                figures_.wall_gouge_at = {{x(k), y(k), q_.cut[k]}};
+            }
+            figures_.wall_gouge_max = std::max(*figures_.wall_gouge_max, worst[band].wall);
+        }
+    }
+
+    // Points that the operation has to cut to its floor.
+    std::vector<char> required(const CutRegion& region) const
+    {
+        const Operation& operation = region.operation();
+        const bool walled =
+            operation.strategy == "pocket" ||
+            (operation.strategy == "profile" && operation.prismatic->side != ProfileSide::kOn);
+        std::vector<char> out(q_.grid.size(), 0);
+        const double pitch = q_.grid.pitch;
+        const double radius = operation.tool.radius;
+        if (!walled) {
+            for_each_band(q_.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t k = begin * q_.grid.ny; k < end * q_.grid.ny; ++k) {
+                    out[k] = is_inside(region, k) ? 1 : 0;
+                }
+            });
+            return out;
+        }
+        std::vector<double> room(q_.grid.size());
+        for_each_band(q_.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t k = begin * q_.grid.ny; k < end * q_.grid.ny; ++k) {
+                room[k] = region.room(x(k), y(k));
+            }
+        });
+        std::vector<char> centres(q_.grid.size());
+        for (std::size_t k = 0; k < room.size(); ++k) {
+            centres[k] = room[k] >= radius ? 1 : 0;
+        }
+        const std::vector<double> away = distances_from(centres, q_.grid);
+        const double reach = std::max(0.0, flat_radius(operation.tool) - 2 * pitch);
+        // of a profile, the way of the tool along the wall; a point nearer than its radius is on it
+        const double deepest = operation.strategy == "profile" ? radius : kUnbounded;
+        for (std::size_t k = 0; k < room.size(); ++k) {
+            out[k] = room[k] > pitch && room[k] <= deepest && away[k] <= reach ? 1 : 0;
+        }
+        return out;
+    }
+
+    bool is_inside(const CutRegion& region, std::size_t k) const
+    {
+        const Operation& operation = region.operation();
+        if (operation.strategy == "chamfer") {
+            // corners into which the cone does not come are left to the gouge alone
+            return false;
+        }
+        if (operation.strategy == "face" && operation.prismatic->loops.empty()) {
+            return (*q_.job.stock_x)[0] <= x(k) && x(k) <= (*q_.job.stock_x)[1] &&
+                   (*q_.job.stock_y)[0] <= y(k) && y(k) <= (*q_.job.stock_y)[1];
+        }
+        if (operation.strategy == "face") {
+            return region.room(x(k), y(k)) < 0;
+        }
+        return region.at(x(k), y(k), k).inside > q_.grid.pitch / 4;
+    }
+
+    void find_left(const CutRegion& region)
+    {
+        const Operation& operation = region.operation();
+        const Prismatic& cut = *operation.prismatic;
+        std::vector<char> high(q_.grid.size(), 0);
+        const std::vector<char> here = required(region);
+        std::size_t cells = 0;
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            if (here[k] == 0 || std::isnan(q_.cut[k])) {
+                continue;
+            }
+            ++cells;
+            const RegionAt at = region.at(x(k), y(k), k);
+            const double left = q_.cut[k] - at.floor;
+            maps_.left[k] = std::isnan(maps_.left[k]) ? left : std::min(maps_.left[k], left);
+            high[k] = left - at.above > q_.floor_tolerance + at.left ? 1 : 0;
+        }
+        figures_.cells += cells;
+        if (cut.tabs) {
+            count_tabs(region, here, high);
+        }
+        for (std::size_t k = 0; k < high.size(); ++k) {
+            if (high[k] == 0) {
+                continue;
+            }
+            const RegionAt at = region.at(x(k), y(k), k);
+            const double left = q_.cut[k] - at.floor - at.above;
+            if (!figures_.level_left || left > figures_.level_left->height) {
+                figures_.level_left =
+                    LevelLeft{left, {x(k), y(k)}, operation.number, operation.strategy};
+            }
+        }
+    }
+
+    // Tabs are islands of stock as high as asked for; points near their tops are taken out of `high`.
+    void count_tabs(const CutRegion& region, const std::vector<char>& here, std::vector<char>& high)
+    {
+        const Prismatic& cut = *region.operation().prismatic;
+        const double full = cut.top - cut.depth + cut.tabs->height;
+        std::vector<std::size_t> island;
+        std::vector<char> open = high;
+        std::vector<char> tops(high.size(), 0);
+        std::vector<std::size_t> of_tabs;
+        const std::ptrdiff_t near = points_between_slivers(region.operation().tool.radius);
+        for (std::size_t k = 0; k < open.size(); ++k) {
+            if (open[k] == 0) {
+                continue;
+            }
+            island.assign(1, k);
+            open[k] = 0;
+            double highest = q_.cut[k];
+            for (std::size_t n = 0; n < island.size(); ++n) {
+                add_neighbours(island[n], near, open, island);
+                highest = std::max(highest, q_.cut[island[n]]);
+            }
+            if (std::abs(highest - full) <= q_.floor_tolerance &&
+                extent_of(island) >= cut.tabs->width / 2) {
+                ++figures_.tabs_standing;
+                for (const std::size_t at : island) {
+                    tops[at] = std::abs(q_.cut[at] - full) <= q_.floor_tolerance ? 1 : 0;
+                    of_tabs.push_back(at);
+                }
+            }
+        }
+        if (!of_tabs.empty()) {
+            const std::vector<double> away = distances_from(tops, q_.grid);
+            const double foot = tab_foot(region.operation());
+            for (const std::size_t at : of_tabs) {
+                high[at] = away[at] <= foot ? 0 : high[at];
+            }
+        }
+        std::vector<char> loops(cut.loops.size(), 0);
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            if (here[k] != 0) {
+                loops[region.nearest_loop(x(k), y(k))] = 1;
+            }
+        }
+        const auto cut_loops = std::count(loops.begin(), loops.end(), 1);
+        figures_.tabs_wanted += cut.tabs->count > 0 ? static_cast<int>(cut_loops) * cut.tabs->count
+                                                    : static_cast<int>(cut.tabs->places.size());
+    }
+
+    // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool. What is left farther
+    // away is no tab, be it joined to one.
+    static double tab_foot(const Operation& operation)
+    {
+        constexpr double kRun = 2;   // of a slope, over its height
+        constexpr double kWall = 2;  // a wall is longer than the path inside it
+        const job::Tabs& tabs = *operation.prismatic->tabs;
+        return 2 * operation.tool.radius + (tabs.ramped ? kWall * kRun * tabs.height : 0.0);
+    }
+
+    // Between a wall and the circle that the tool leaves beside an vertical end of a tab stock gets narrow as a square.
+    // The raster meets it again, where it is a pitch wider than the pitch beside the wall, after no more points than this.
+    std::ptrdiff_t points_between_slivers(double radius) const
+    {
+        return 2 + static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(2 * radius / q_.grid.pitch)));
+    }
+
+    // mm: the longer side of the box around the points.
+    double extent_of(const std::vector<std::size_t>& island) const
+    {
+        Vec2d low{kUnbounded, kUnbounded};
+        Vec2d high{-kUnbounded, -kUnbounded};
+        for (const std::size_t k : island) {
+            low = {std::min(low.x, x(k)), std::min(low.y, y(k))};
+            high = {std::max(high.x, x(k)), std::max(high.y, y(k))};
+        }
+        return std::max(high.x - low.x, high.y - low.y);
+    }
+
+    void add_neighbours(std::size_t k,
+                        std::ptrdiff_t near,
+                        std::vector<char>& open,
+                        std::vector<std::size_t>& island) const
+    {
+        const auto i = static_cast<std::ptrdiff_t>(k / q_.grid.ny);
+        const auto j = static_cast<std::ptrdiff_t>(k % q_.grid.ny);
+        for (std::ptrdiff_t di = -near; di <= near; ++di) {
+            for (std::ptrdiff_t dj = -near; dj <= near; ++dj) {
+                const std::ptrdiff_t a = i + di;
+                const std::ptrdiff_t b = j + dj;
+                if (a < 0 || b < 0 || a >= static_cast<std::ptrdiff_t>(q_.grid.nx) ||
+                    b >= static_cast<std::ptrdiff_t>(q_.grid.ny)) {
+                    continue;
+                }
+                const std::size_t at =
+                    q_.grid.index(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+                if (open[at] != 0) {
+                    open[at] = 0;
+                    island.push_back(at);
+                }
+            }
+        }
+    }
+
+    const LevelQuestion& q_;
+    VerifyFigures& figures_;
+    std::vector<CutRegion> regions_;
+    LevelMaps maps_;
+};
+
+}  // namespace
+
+LevelMaps judge_levels(const LevelQuestion& question, VerifyFigures& figures)
+{
+    return LevelJudge{question, figures}.judge();
+}
+
+}  // namespace cusp::verify

@@ -1,0 +1,382 @@
+// Each thread cuts its own band of columns along the whole path.
+#include "host_tools/judge/verify/machined_stock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "host_tools/judge/verify/bands.hpp"
+#include "host_tools/judge/verify/end_sweeps.hpp"
+#include "host_tools/judge/verify/engagement_trace.hpp"
+#include "host_tools/judge/verify/tool_contact.hpp"
+
+namespace cusp::verify {
+
+using toolpath::Tool;
+
+namespace {
+
+// Behind the last position of the rapid move that begins at a position.
+std::size_t end_of_move(const ToolPositions& positions, std::size_t k)
+{
+    std::size_t end = k + 1;
+    while (end < positions.tips.size() && positions.rapid[end] &&
+           (positions.lines.empty() || positions.lines[end] == positions.lines[k])) {
+        ++end;
+    }
+    return end;
+}
+
+// Keeps the deeper rapid cut; of two alike the one that comes first.
+void take_deeper(const CutFigures& other, CutFigures& figures)
+{
+    if (other.rapid_cut > figures.rapid_cut ||
+        (other.rapid_cut == figures.rapid_cut && other.rapid_position < figures.rapid_position)) {
+        figures.rapid_cut = other.rapid_cut;
+        figures.rapid_position = other.rapid_position;
+    }
+}
+
+}  // namespace
+
+MachinedStock::MachinedStock(const HeightGrid& grid, double top)
+    : grid_{grid}, top_{top}, heights_(grid.size(), top), row_x_(grid.ny), row_y_(grid.ny)
+{
+    for (std::size_t j = 0; j < grid.ny; ++j) {
+        row_x_[j] = grid.shift(j);
+        row_y_[j] = grid.y0 + static_cast<double>(j) * grid.pitch;
+    }
+}
+
+CutFigures MachinedStock::cut_band(const ToolPositions& positions,
+                                   double spacing,
+                                   EngagementTrace* trace,
+                                   ContactTrace* contact,
+                                   std::size_t band,
+                                   std::size_t begin,
+                                   std::size_t end)
+{
+    const Tool& tool = positions.tool;
+    const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
+    // Tools with round corners leave no more between positions than the square of their distance.
+    const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
+    const bool is_cylinder = flat_radius(tool) >= tool.radius && !is_conical(tool);
+    CutFigures figures;
+    std::size_t measured = 0;  // rapid positions before this one are
+    for (std::size_t k = 0; k < positions.tips.size(); ++k) {
+        if (positions.rapid[k] && k >= measured) {
+            measured = end_of_move(positions, k);
+            take_deeper(deepest_of(positions, k, measured, shrink, begin, end), figures);
+        }
+        const Vec3d tip = positions.tips[k];
+        if (tip.z >= top_ || !is_looked_at(tool, tip)) {
+            continue;
+        }
+        if (trace != nullptr) {
+            trace->look(heights_, k, band, begin, end);
+        }
+        if (contact != nullptr) {
+            contact->look(heights_, k, band, begin, end);
+        }
+        const bool goes_on = is_cylinder && k > 0 && positions.tips[k - 1].z <= tip.z;
+        const double depth =
+            cut_at(tool, tip, shrink, goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
+        if (trace != nullptr && depth > 0) {
+            trace->add_cut(k, band);
+        }
+        if (edged && k > 0 && positions.tips[k - 1].z < top_) {
+            sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
+        }
+        if (is_conical(tool) && k > 0 && positions.tips[k - 1].z < top_) {
+            sweep_cone(tool, positions.tips[k - 1], tip, begin, end);
+        }
+        if (!positions.rapid[k]) {
+            figures.cut_depth = std::max(figures.cut_depth, depth);
+        }
+    }
+    return figures;
+}
+
+CutFigures MachinedStock::deepest_of(const ToolPositions& positions,
+                                     std::size_t first,
+                                     std::size_t last,
+                                     double shrink,
+                                     std::size_t begin,
+                                     std::size_t end) const
+{
+    CutFigures deepest;
+    for (std::size_t k = first; k < last; ++k) {
+        if (positions.tips[k].z >= top_) {
+            continue;
+        }
+        const double depth = depth_at(positions.tool, positions.tips[k], shrink, begin, end);
+        if (depth > deepest.rapid_cut) {
+            deepest = {depth, k, 0};
+        }
+    }
+    return deepest;
+}
+
+double MachinedStock::depth_at(
+    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end) const
+{
+    const Profile probe{tool, shrink};
+    double deepest = 0;
+    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
+        for (std::size_t j = grid_.first_row(tip.y - tool.radius);
+             j < grid_.end_row(tip.y + tool.radius); ++j) {
+            const double dx = grid_.x(i, j) - tip.x;
+            const double dy = grid_.y(i, j) - tip.y;
+            const double squared = dx * dx + dy * dy;
+            const double over = heights_[grid_.index(i, j)] - tip.z - shrink;
+            if (over > deepest && squared <= probe.reach) {
+                deepest = std::max(deepest, over - probe.at(squared));
+            }
+        }
+    }
+    if (tool.corner_radius > 0 || is_conical(tool)) {
+        deepest = std::max(deepest, level_around(tip.x, tip.y, begin, end) - tip.z - shrink);
+    }
+    // What the tool was raised by is in stock too.
+    return deepest > kRapidCutAllowed ? deepest + shrink : deepest;
+}
+
+double MachinedStock::level_around(double x, double y, std::size_t begin, std::size_t end) const
+{
+    constexpr double kLevel = 0.01;  // mm
+    // Several points at all sides, so that a groove of a vee is never level.
+    const double reach = 2 * grid_.pitch;
+    const std::size_t first = grid_.first_column(x - reach);
+    const std::size_t last = grid_.end_column(x + reach);
+    if (first < begin || last > end) {
+        return -kUnbounded;  // other bands are cut at the same time
+    }
+    double least = kUnbounded;
+    double most = -kUnbounded;
+    for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t j = grid_.first_row(y - reach); j < grid_.end_row(y + reach); ++j) {
+            least = std::min(least, heights_[grid_.index(i, j)]);
+            most = std::max(most, heights_[grid_.index(i, j)]);
+        }
+    }
+    return least <= most && most - least <= kLevel ? least : -kUnbounded;
+}
+
+bool MachinedStock::look_at_rapids_alone(const std::vector<ToolPositions>& runs)
+{
+    bool any = false;
+    // Each box of points adds 1 at one corner and takes it away behind the others; sums fill it.
+    std::vector<std::int32_t> corners((grid_.nx + 1) * (grid_.ny + 1), 0);
+    const auto corner = [&](std::size_t i, std::size_t j) -> std::int32_t& {
+        return corners[i * (grid_.ny + 1) + j];
+    };
+    for (const ToolPositions& run : runs) {
+        for (std::size_t k = 0; k < run.tips.size(); ++k) {
+            const Vec3d tip = run.tips[k];
+            if (!run.rapid[k] || tip.z >= top_) {
+                continue;
+            }
+            any = true;
+            const std::size_t i0 = grid_.first_column(tip.x - run.tool.radius);
+            const std::size_t i1 = grid_.end_column(tip.x + run.tool.radius);
+            const std::size_t j0 = grid_.first_row(tip.y - run.tool.radius);
+            const std::size_t j1 = grid_.end_row(tip.y + run.tool.radius);
+            ++corner(i0, j0);
+            --corner(i1, j0);
+            --corner(i0, j1);
+            ++corner(i1, j1);
+        }
+    }
+    looked_at_.assign(any ? corners.size() : 0, 0);
+    for (std::size_t i = 0; any && i < grid_.nx; ++i) {
+        for (std::size_t j = 0; j < grid_.ny; ++j) {
+            if (i > 0) {
+                corner(i, j) += corner(i - 1, j);
+            }
+        }
+    }
+    for (std::size_t i = 0; any && i < grid_.nx; ++i) {
+        std::int32_t boxes = 0;
+        std::uint32_t count = 0;
+        for (std::size_t j = 0; j < grid_.ny; ++j) {
+            boxes += corner(i, j);
+            count += boxes > 0 ? 1U : 0U;
+            looked_at_[(i + 1) * (grid_.ny + 1) + j + 1] =
+                looked_at_[i * (grid_.ny + 1) + j + 1] + count;
+        }
+    }
+    return any;
+}
+
+bool MachinedStock::is_looked_at(const Tool& tool, Vec3d tip) const
+{
+    if (looked_at_.empty()) {
+        return true;
+    }
+    const auto sum = [&](std::size_t i, std::size_t j) {
+        return looked_at_[i * (grid_.ny + 1) + j];
+    };
+    // with the sweep from the position before
+    const double reach = tool.radius + 2 * grid_.pitch;
+    const std::size_t i0 = grid_.first_column(tip.x - reach);
+    const std::size_t i1 = grid_.end_column(tip.x + reach);
+    const std::size_t j0 = grid_.first_row(tip.y - reach);
+    const std::size_t j1 = grid_.end_row(tip.y + reach);
+    return i0 < i1 && j0 < j1 && sum(i1, j1) - sum(i0, j1) - sum(i1, j0) + sum(i0, j0) > 0;
+}
+
+// Over 60 lines: the loops over rows share what holds for a column, and are vectorised with it.
+double MachinedStock::cut_at(const Tool& tool,
+                             Vec3d tip,
+                             double shrink,
+                             const Vec3d* before,
+                             std::size_t begin,
+                             std::size_t end)
+{
+    // Rows that are compared together: most are below the tool.
+    constexpr std::size_t kRun = 16;
+    const Profile profile{tool, 0};
+    const Profile probe{tool, shrink};
+    const double steepness = profile.steepness();
+    const double* row_x = row_x_.data();
+    const double* row_y = row_y_.data();
+    double deepest = 0;
+    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
+        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+        const double column_x = x - tip.x;
+        const double column_y = grid_.shift(i) - tip.y;
+        const auto squared_at = [=](std::size_t j) {
+            const double dx = column_x + row_x[j];
+            const double dy = column_y + row_y[j];
+            return dx * dx + dy * dy;
+        };
+        double* height = heights_.data() + i * grid_.ny;
+        const auto cut_rows = [&](std::size_t first, std::size_t high) {
+            for (std::size_t j0 = first; j0 < high; j0 += kRun) {
+                const std::size_t j1 = std::min(high, j0 + kRun);
+                double over = 0;
+#pragma omp simd reduction(max : over)
+                for (std::size_t j = j0; j < j1; ++j) {
+                    const double squared = squared_at(j);
+                    over = std::max(over, std::min(profile.reach - squared,
+                                                   height[j] - tip.z - steepness * squared));
+                }
+                if (over <= 0) {
+                    continue;
+                }
+#pragma omp simd reduction(max : deepest)
+                for (std::size_t j = j0; j < j1; ++j) {
+                    const double squared = squared_at(j);
+                    const double tracked = height[j] - tip.z - shrink - probe.at(squared);
+                    deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
+                    const double lower = tip.z + profile.at(squared);
+                    height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
+                }
+            }
+        };
+        const double max_error = grid_.pitch / 2;
+        const double half =
+            half_chord(profile.reach, std::max(0.0, std::abs(column_x) - max_error));
+        const std::size_t first = grid_.first_row(tip.y - half);
+        const std::size_t high = grid_.end_row(tip.y + half);
+        if (before == nullptr) {
+            cut_rows(first, high);
+            continue;
+        }
+        const double inner = half_chord(profile.reach, std::abs(x - before->x) + max_error);
+        const std::size_t done = grid_.end_row(before->y - inner);
+        const std::size_t open = std::max(done, grid_.first_row(before->y + inner));
+        cut_rows(first, std::min(done, high));
+        cut_rows(std::max(open, first), high);
+    }
+    return deepest;
+}
+
+// Only a crescent beside the lower of the two end positions is still uncut.
+void MachinedStock::sweep_flat(
+    const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
+{
+    const double radius = flat_radius(tool);
+    const double squared = radius * radius;
+    const double max_error = grid_.pitch / 2;
+    const FlatSweep sweep{from, to, radius};
+    const Vec3d lower = from.z < to.z ? from : to;
+    const auto [x_low, x_high] = std::minmax(from.x, to.x);
+    const auto [y_low, y_high] = std::minmax(from.y, to.y);
+    const std::size_t last = std::min(end, grid_.end_column(x_high + radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(x_low - radius)); i < last; ++i) {
+        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+        const double outer =
+            half_chord(squared, std::max({0.0, x_low - x - max_error, x - x_high - max_error}));
+        const double inner = half_chord(squared, std::abs(x - lower.x) + max_error);
+        const std::size_t high = grid_.end_row(y_high + outer);
+        const std::size_t done = grid_.end_row(lower.y - inner);
+        const std::size_t open = std::max(done, grid_.first_row(lower.y + inner));
+        const double shift = grid_.shift(i);
+        const auto cut_rows = [&](std::size_t first, std::size_t stop) {
+            for (std::size_t j = first; j < stop; ++j) {
+                double& height = heights_[grid_.index(i, j)];
+                if (height > lower.z) {
+                    height = std::min(height, sweep.lowest(x + row_x_[j], row_y_[j] + shift));
+                }
+            }
+        };
+        cut_rows(grid_.first_row(y_low - outer), std::min(done, high));
+        cut_rows(open, high);
+    }
+}
+
+// Exact on straight moves: where a cone goes down or up, a point is cut lowest from a position ahead of the nearest.
+void MachinedStock::sweep_cone(
+    const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
+{
+    const double rise = 1 / std::tan(tool.tip_angle / 2);
+    const double reach = std::min(
+        tool.radius, tool.tip_radius + tool.corner_radius + (top_ - std::min(from.z, to.z)) / rise);
+    const ConeSweep sweep{tool, from, to};
+    const auto [x_low, x_high] = std::minmax(from.x, to.x);
+    const auto [y_low, y_high] = std::minmax(from.y, to.y);
+    const std::size_t last = std::min(end, grid_.end_column(x_high + reach));
+    for (std::size_t i = std::max(begin, grid_.first_column(x_low - reach)); i < last; ++i) {
+        for (std::size_t j = grid_.first_row(y_low - reach); j < grid_.end_row(y_high + reach);
+             ++j) {
+            double& height = heights_[grid_.index(i, j)];
+            height = std::min(height, sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
+        }
+    }
+}
+
+CutFigures MachinedStock::cut(const ToolPositions& positions,
+                              double spacing,
+                              const Progress& progress,
+                              EngagementTrace* trace,
+                              ContactTrace* contact)
+{
+    std::vector<CutFigures> bands(kBands);
+    std::mutex guard;
+    std::size_t done = 0;
+    for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
+        bands[band] = cut_band(positions, spacing, trace, contact, band, begin, end);
+        const std::lock_guard lock{guard};
+        progress(static_cast<double>(++done) / static_cast<double>(kBands));
+    });
+    CutFigures sum;
+    for (const CutFigures& band : bands) {
+        take_deeper(band, sum);
+        sum.cut_depth = std::max(sum.cut_depth, band.cut_depth);
+    }
+    return sum;
+}
+
+double MachinedStock::removed_volume() const
+{
+    double depths = 0;
+    for (const double height : heights_) {
+        depths += height > -kUnbounded ? top_ - height : 0.0;
+    }
+    return depths * grid_.pitch * grid_.pitch;
+}
+
+}  // namespace cusp::verify

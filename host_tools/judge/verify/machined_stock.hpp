@@ -1,0 +1,110 @@
+// Material removal: the stock as a height map, and the cut of each position of a tool.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/judge/verify/height_grid.hpp"
+#include "host_tools/judge/verify/tool_positions.hpp"
+
+namespace cusp::verify {
+
+class ContactTrace;
+class EngagementTrace;
+
+// mm: rapid moves may cut as deep as slivers and rounding.
+inline constexpr double kRapidCutAllowed = 0.005;
+
+struct CutFigures {
+    double rapid_cut{};  // mm: deepest cut of a rapid move into stock, along the whole move
+    std::size_t rapid_position{};  // the first where it is that deep
+    double cut_depth{};            // mm: deepest cut of a feed move, at one position
+};
+
+// Called with the share done, from time to time.
+using Progress = std::function<void(double)>;
+
+// A Z-map of its own, not clearing::StockHeightMap, whose planners it judges: docs/decisions/0009.
+class MachinedStock {
+public:
+    MachinedStock(const HeightGrid& grid, double top);
+
+    // Removes the volume of the tool at each position; for a flat bottom with a sharp edge, and for
+    // a cone, also its sweep between positions.
+    //
+    // spacing  mm between positions: depths are measured with a tool reduced by the height of the
+    //          slivers between two positions
+    // trace    looks at the stock before each position; may be null
+    // contact  likewise
+    CutFigures cut(const ToolPositions& positions,
+                   double spacing,
+                   const Progress& progress,
+                   EngagementTrace* trace = nullptr,
+                   ContactTrace* contact = nullptr);
+
+    // From now on only what rapid moves of these runs meet is kept true: positions far from all of their
+    // moves below the stock's top are not cut. False where there is no such move.
+    bool look_at_rapids_alone(const std::vector<ToolPositions>& runs);
+
+    // From now on there is no stock over the point of the grid: its height is
+    // -kUnbounded.
+    void clear(std::size_t point) { heights_[point] = -kUnbounded; }
+
+    const std::vector<double>& heights() const { return heights_; }
+    double top() const { return top_; }
+    double removed_volume() const;  // mm^3, without what was cleared
+
+private:
+    CutFigures cut_band(const ToolPositions& positions,
+                        double spacing,
+                        EngagementTrace* trace,
+                        ContactTrace* contact,
+                        std::size_t band,
+                        std::size_t begin,
+                        std::size_t end);
+    // The deepest of the positions [first, last) in the stock before the first of them, and which it is.
+    CutFigures deepest_of(const ToolPositions& positions,
+                          std::size_t first,
+                          std::size_t last,
+                          double shrink,
+                          std::size_t begin,
+                          std::size_t end) const;
+    // mm: how deep the tool, reduced by `shrink`, is in the stock.
+    double depth_at(const toolpath::Tool& tool,
+                    Vec3d tip,
+                    double shrink,
+                    std::size_t begin,
+                    std::size_t end) const;
+    // z of the stock around a place where it is level: what a pointed tool meets at its axis, between the points.
+    // -kUnbounded elsewhere.
+    double level_around(double x, double y, std::size_t begin, std::size_t end) const;
+    bool is_looked_at(const toolpath::Tool& tool, Vec3d tip) const;
+    // Returns the depth, mm.
+    //
+    // shrink  mm: reduction of the measuring tool
+    // before  of a cylinder: where it has just cut, no higher. Only what lies outside is cut. May be
+    //         null.
+    double cut_at(const toolpath::Tool& tool,
+                  Vec3d tip,
+                  double shrink,
+                  const Vec3d* before,
+                  std::size_t begin,
+                  std::size_t end);
+    void sweep_flat(
+        const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+
+    void sweep_cone(
+        const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+
+    HeightGrid grid_;
+    double top_;
+    std::vector<double> heights_;
+    std::vector<double> row_x_;  // mm: offset of a row's points from their columns
+    std::vector<double> row_y_;  // mm: of rows in a column without a shift
+    // How many points left of and below a point, both included, are looked at; empty: all are.
+    std::vector<std::uint32_t> looked_at_;
+};
+
+}  // namespace cusp::verify

@@ -1,0 +1,37 @@
+// A program as the moves of the controller's own interpreter, each with its tool.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "firmware/path/move.hpp"
+#include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+
+namespace cusp::verify {
+
+struct ProgramMove {
+    path::Move move;
+    int tool;  // the last T word before it, else the last comment "(tool N ..."; 0 if none
+};
+
+struct Program {
+    std::vector<ProgramMove> moves;
+    std::set<int> offsets;                // of its moves: 54 for G54, to 59; 60 for G59.1 to G59.3
+    std::map<int, toolpath::Tool> tools;  // that comments describe: tool_comment.hpp
+    toolpath::MoveCounts counts;          // a NURBS of many pieces counts once
+};
+
+// Machine coordinates are program coordinates: offsets are those of a fresh controller, with the
+// tool at x = y = 0 and at `start_z`.
+//
+// Errors: InputError with the line and the controller's error, or where comments describe one tool
+// in two ways.
+Program read_program(const std::string& file, double start_z);
+
+// Points of a move, mm, at most `spacing` apart; with its end, without its start.
+void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points);
+
+}  // namespace cusp::verify

@@ -1,0 +1,118 @@
+// Bundles the pages: one HTML file each, script (deflated) and style inside, and a policy that forbids every request.
+//
+//   node build.mjs --out FOLDER [--core CORE.wasm] [--cpp FILE.cpp]
+//
+// src/NAME_page.ts, NAME.html and page.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
+// `import wasm from "core-wasm"` gives as base64 ("" without). `import text from "worker:./x.ts"` gives the bundle of
+// a worker as text. --cpp: also writes the pages as strings of C++.
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { deflateRawSync } from "node:zlib";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const option = (name) => {
+  const at = process.argv.indexOf("--" + name);
+  return at < 0 ? "" : process.argv[at + 1];
+};
+const out = resolve(option("out") || "out");
+const core = option("core");
+
+const settings = {
+  bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none",
+  absWorkingDir: here, loader: { ".css": "text", ".ngc": "text" },
+};
+
+async function bundled(entry) {
+  const result = await build({ ...settings, entryPoints: [entry], plugins: [inlined] });
+  return result.outputFiles[0].text;
+}
+
+// Imports that are bundled as text.
+const inlined = {
+  name: "inlined",
+  setup(build) {
+    build.onResolve({ filter: /^worker:/ }, (a) => ({ path: resolve(a.resolveDir, a.path.slice(7)), namespace: "worker" }));
+    build.onLoad({ filter: /.*/, namespace: "worker" }, async (a) => ({ contents: await bundled(a.path), loader: "text" }));
+    build.onResolve({ filter: /^(core-wasm|licences)$/ }, (a) => ({ path: a.path, namespace: "inlined" }));
+    build.onLoad({ filter: /^core-wasm$/, namespace: "inlined" }, () => ({
+      contents: core ? readFileSync(core).toString("base64") : "", loader: "text",
+    }));
+    build.onLoad({ filter: /^licences$/, namespace: "inlined" }, () => ({ contents: licences(), loader: "text" }));
+  },
+};
+
+// The licences of bundled packages.
+function licences() {
+  return ["three", "uplot"].map((name) => {
+    const folder = join(here, "node_modules", name);
+    const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    return `${name} ${version}\n\n${readFileSync(join(folder, "LICENSE"), "utf8").trim()}\n`;
+  }).join("\n\n");
+}
+
+const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+
+// `start` unpacks `script` and runs it; the content security policy permits these two.
+function page(name, start, script, style) {
+  for (const closing of ["</script", "<!--"]) {
+    if (start.toLowerCase().includes(closing)) throw new Error(`${name}: the script holds ${closing}`);
+  }
+  const policy = `default-src 'none'; script-src ${hash(start)} ${hash(script)} 'wasm-unsafe-eval' blob:; style-src ${hash(style)}; ` +
+    "worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'";
+  return readFileSync(join(here, name + ".html"), "utf8")
+    .replace("@POLICY@", () => policy)
+    .replace("@STYLE@", () => style)
+    .replace("@PACKED_SCRIPT@", () => deflateRawSync(script, { level: 9 }).toString("base64"))
+    .replace("@START@", () => start);
+}
+
+// A string literal of C++ in short pieces.
+function literal(text) {
+  const escaped = [...Buffer.from(text)].map((byte) =>
+    byte === 10 ? "\\n" : byte === 34 || byte === 92 ? "\\" + String.fromCharCode(byte)
+      : byte === 63 || byte < 32 || byte > 126 ? "\\" + byte.toString(8).padStart(3, "0") : String.fromCharCode(byte));
+  const pieces = [];
+  for (let k = 0; k < escaped.length; k += 4000) pieces.push(`    "${escaped.slice(k, k + 4000).join("")}"`);
+  return pieces.join("\n") || '    ""';
+}
+
+mkdirSync(out, { recursive: true });
+const start = (await bundled(join(here, "src", "start.ts"))).trim();
+const pages = {};
+for (const name of ["view", "playground"]) {
+  const entry = join(here, "src", name + "_page.ts");
+  pages[name] = "";
+  if (existsSync(entry)) {
+    const style = ["node_modules/uplot/dist/uPlot.min.css", "page.css", name + ".css"].filter((file) => existsSync(join(here, file)))
+      .map((file) => readFileSync(join(here, file), "utf8").trim()).join("\n");
+    pages[name] = page(name, start, (await bundled(entry)).trim(), style);
+    writeFileSync(join(out, name + ".html"), pages[name]);
+    console.log(`${name}.html ${(pages[name].length / 1024).toFixed(0)} KiB`);
+  }
+}
+if (option("cpp")) {
+  writeFileSync(option("cpp"), `// Made by host_tools/judge/view/web/build.mjs.
+#include "host_tools/judge/view/page_text.hpp"
+
+namespace cusp::view {
+
+std::string_view page_text(Page page)
+{
+    static constexpr char kView[] =
+${literal(pages.view)};
+    static constexpr char kPlayground[] =
+${literal(pages.playground)};
+    return page == Page::kView ? std::string_view{kView, sizeof kView - 1}
+                               : std::string_view{kPlayground, sizeof kPlayground - 1};
+}
+
+std::string_view why_no_page() { return ""; }
+
+bool pages_hold_core() { return ${core ? "true" : "false"}; }
+
+}  // namespace cusp::view
+`);
+}
