@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Checks that each module has a front door: the header that docs/architecture.md names, with an example.
+"""Checks that each module has a front door: the header of its name, or that docs/architecture.md names, with an example.
 
 usage: front_doors.py TOP
 A module is a folder of firmware/ or host_tools/ with headers. Its front door begins with a comment, in which lines
 that are indented by three blanks or more are the example. The front door has the module's name. Another name needs a
-reason in the third column, and no header may have the module's name then; the reason "class `Streamer`" means that
-streamer.hpp defines Streamer.
+row with a reason in the third column, and no header may have the module's name then; the reason "class `Streamer`"
+means that streamer.hpp defines Streamer.
 Exit status: 0 all have one, 1 some do not, 2 there is no table or no module.
 """
 import pathlib
@@ -13,7 +13,7 @@ import re
 import sys
 
 FOLDERS = ("firmware", "host_tools")
-ROW = re.compile(r"^\| `((?:%s)/[\w/]+)` \| `(\w+\.hpp)` \|(?: ([^|\n]*?) ?\|)?$" % "|".join(FOLDERS), re.MULTILINE)
+ROW = re.compile(r"^\| `((?:%s)/[\w/]+)` \| `(\w+\.hpp)` \|(?: ([^|\n]*?) ?\|)$" % "|".join(FOLDERS), re.MULTILINE)
 CLASS = re.compile(r"^class `(\w+)`$")
 EXAMPLE = re.compile(r"^//   +\S", re.MULTILINE)
 
@@ -35,7 +35,7 @@ def complaint_of_name(folder, header, reason):
     """Why a front door may not have this name, or None."""
     module = folder.name
     if header == f"{module}.hpp":
-        return f"has the module's name: no reason needed, not \"{reason}\"" if reason else None
+        return "has the module's name: it needs no row"
     if not reason:
         return f"needs the name {module}.hpp, or a reason in the third column"
     if (folder / f"{module}.hpp").exists():
@@ -56,15 +56,12 @@ def main(arguments):
         return 2
     found = [f"docs/architecture.md: {module} is no module with headers" for module in table if module not in modules]
     for module in modules:
-        if module not in table:
-            found.append(f"docs/architecture.md: {module} has no row in \"Front doors\": | `{module}` | `HEADER.hpp` | |")
-            continue
-        name, reason = table[module]
+        name, reason = table.get(module, (module.split("/")[-1] + ".hpp", ""))
         header = top / module / name
         if not header.is_file():
-            found.append(f"docs/architecture.md: {module}/{name} does not exist")
+            found.append(f"{module}: has no {name}; another name needs a row in docs/architecture.md, \"Front doors\"")
             continue
-        wrong_name = complaint_of_name(top / module, name, reason)
+        wrong_name = complaint_of_name(top / module, name, reason) if module in table else None
         if wrong_name:
             found.append(f"docs/architecture.md: {module}/{name} {wrong_name}")
         if not EXAMPLE.search(opening_comment(header.read_text())):

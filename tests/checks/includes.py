@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Compares the arrows of docs/architecture.md with every #include of the tree and with CMake's DEPENDS.
+"""Compares every #include of the tree with the groups of docs/architecture.md and with CMake's DEPENDS.
 
 usage: includes.py TOP
-The table holds exactly the arrows that exist: an #include without an arrow, an arrow without an #include, and a module
-whose DEPENDS are not its row are refused. Modules that are linked without an #include are listed in LINKS.
+A module is a folder with a target. Between groups there are the arrows of the table alone: an #include without an
+arrow and an arrow without an #include are refused, and so is a way round that leads back. Between modules the
+DEPENDS of CMake are exactly what is included. Modules that are linked without an #include are listed in LINKS.
 Exit status: 0 they agree, 1 they do not, 2 the tree or its table can't be read.
 """
 import collections
@@ -17,38 +18,60 @@ FREESTANDING_HEADERS = {
     "algorithm", "array", "atomic", "cmath", "cstddef", "cstdint", "limits", "optional",
     "string_view", "tuple", "type_traits", "utility", "variant",
 }
-# Modules that one module alone may include, so that readers of files stay out of planning.
-SOLE_USER = {"host_tools/job/import": "host_tools/cli"}
+# Folders of modules that the modules of some folders alone may include: readers of files stay out of the planners.
+USERS = {"host_tools/job/import": ("host_tools/job/", "host_tools/cam/plan/", "host_tools/cli/")}
+# The core and its hardware are known to all of host_tools: no arrows.
+BELOW_ALL = ("firmware", "hal", "boards")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include\s*([<"])([^>"]+)[>"]', re.M)
-ROW = re.compile(r"^\|\s*((?:%s)/[\w/]+)\s*\|([^|]*)\|" % "|".join(TOP_FOLDERS), re.M)
+ROW = re.compile(r"^\|\s*((?:%s)(?:/[\w/]+)?)\s*\|([^|]*)\|" % "|".join(TOP_FOLDERS), re.M)
 
 
 def read_table(path):
-    """The allowed arrows: module -> set of modules."""
+    """The allowed arrows: group -> set of groups."""
     table = {}
-    for module, allowed in ROW.findall(path.read_text()):
-        if module in table:
-            raise ValueError(f"{path}: {module} has two rows")
-        table[module] = set(allowed.split())
+    for group, allowed in ROW.findall(path.read_text()):
+        if group in table:
+            raise ValueError(f"{path}: {group} has two rows")
+        table[group] = set(allowed.split())
     if not table:
         raise ValueError(f"{path}: no table of arrows")
-    for module, allowed in table.items():
+    for group, allowed in table.items():
         for other in sorted(allowed - table.keys()):
-            raise ValueError(f"{path}: {module} may include {other}, which has no row")
-        for other in sorted(allowed):
-            if SOLE_USER.get(other, module) != module:
-                raise ValueError(f"{path}: {module} may include {other}, which is for {SOLE_USER[other]} alone")
+            raise ValueError(f"{path}: {group} may include {other}, which has no row")
+    refuse_cycles(table, path)
     return table
 
 
-def module_of(place, table):
-    """The module that a file lies in, or None: the longest row that is a folder above it."""
-    folders = place.split("/")[:-1]
-    for size in range(len(folders), 0, -1):
-        name = "/".join(folders[:size])
-        if name in table:
+def refuse_cycles(arrows, place):
+    """Raises where following the arrows leads back."""
+    done = set()
+
+    def follow(name, way):
+        if name in way:
+            raise ValueError(f"{place}: a way round: {' -> '.join(way[way.index(name):] + [name])}")
+        if name not in done:
+            for other in sorted(arrows.get(name, ())):
+                follow(other, way + [name])
+            done.add(name)
+
+    for name in arrows:
+        follow(name, [])
+
+
+def folder_of(place, folders):
+    """The one of the folders that a file lies in, or None: the longest that is above it."""
+    parts = place.split("/")[:-1]
+    for size in range(len(parts), 0, -1):
+        name = "/".join(parts[:size])
+        if name in folders:
             return name
     return None
+
+
+def allows(table, group, other):
+    """Whether a file of the group may include one of the other."""
+    below = group.startswith("host_tools/") and other.split("/")[0] in BELOW_ALL
+    return other == group or below or other in table[group]
 
 
 def is_freestanding(module):
@@ -61,48 +84,56 @@ LINKED = re.compile(r"\bcusp::(\w+)")
 NOT_INCLUDED = re.compile(r"\bLINKS\b[^)]*")
 
 
-def cmake_lists(top, table):
-    """The text without comments of each CMakeLists.txt that declares a module, or the program of host_tools/cli.
+def modules_of(top):
+    """The text without comments of the CMakeLists.txt of each module, and of the program: folder -> text.
 
     Images are left out: they link what the headers of boards/ need, which are no target.
     """
-    files = {module: top / module / "CMakeLists.txt" for module in table}
-    texts = {module: re.sub(r"#.*", "", file.read_text()) for module, file in files.items() if file.exists()}
-    return {module: text for module, text in texts.items() if "cusp_module(" in text or "add_executable(" in text}
+    texts = {}
+    for folder in TOP_FOLDERS:
+        for file in sorted((top / folder).rglob("CMakeLists.txt")):
+            text = re.sub(r"#.*", "", file.read_text())
+            if "cusp_module(" in text or "add_executable(cusp" in text:
+                texts[file.parent.relative_to(top).as_posix()] = text
+    return texts
 
 
-def disagreements_with_cmake(top, table):
-    """Modules whose DEPENDS are not their row. A row without a target (headers only) is not linked."""
-    lists = cmake_lists(top, table)
-    target_folder = {name: module for module, text in lists.items() for name, _ in TARGET.findall(text)}
-    for module, text in sorted(lists.items()):
+def disagreements_with_cmake(modules, used):
+    """Modules whose DEPENDS are not what they include."""
+    target_folder = {name: module for module, text in modules.items() for name, _ in TARGET.findall(text)}
+    for module, text in sorted(modules.items()):
         named = set(LINKED.findall(NOT_INCLUDED.sub("", text)))
         linked = {target_folder[name] for name in named if name in target_folder} - {module}
-        allowed = {other for other in table[module] if other in target_folder.values()}
+        included = {other for other in used[module] if other in modules} - {module}
         place = f"{module}/CMakeLists.txt"
-        for other in sorted(linked - allowed):
-            yield f"{place}: {other} is not in the row of {module} in docs/architecture.md"
-        for other in sorted(allowed - linked):
+        for other in sorted(linked - included):
+            yield f"{place}: {module} includes nothing of {other}"
+        for other in sorted(included - linked):
             yield f"{place}: {other} is missing, {module} includes it"
 
 
-def complaints(file, place, table, used):
-    module = module_of(place, table)
-    if module is None:
-        yield f"{place}: lies in no module of docs/architecture.md"
+def complaints(file, place, table, modules, used):
+    """used: module or group -> the modules and groups that its files include."""
+    group, module = folder_of(place, table), folder_of(place, modules)
+    if group is None:
+        yield f"{place}: lies in no group of docs/architecture.md"
         return
     text = file.read_text()
     for match in INCLUDE.finditer(text):
         line = text.count("\n", 0, match.start()) + 1
         bracket, target = match.groups()
         if target.split("/")[0] in TOP_FOLDERS:
-            other = module_of(target, table)
+            other = folder_of(target, modules)
+            other_group = folder_of(target, table)
             used[module].add(other)
-            if other != module and other not in table[module]:
-                yield f"{place}:{line}: {module} may not include {target}"
+            used[group].add(other_group)
+            if other_group is None or not allows(table, group, other_group):
+                yield f"{place}:{line}: {group} may not include {target}"
+            if other in USERS and not place.startswith(USERS[other]):
+                yield f"{place}:{line}: {target} is for {' '.join(USERS[other])} alone"
         elif bracket == '"' and "/" not in target:
             yield f"{place}:{line}: {target}: includes start at the top of the tree"
-        elif is_freestanding(module) and target not in FREESTANDING_HEADERS:
+        elif is_freestanding(folder_of(place, modules) or group) and target not in FREESTANDING_HEADERS:
             yield f"{place}:{line}: <{target}> is not for firmware"
 
 
@@ -113,17 +144,22 @@ def main(arguments):
     except (OSError, ValueError) as error:
         print(f"includes: {error}", file=sys.stderr)
         return 2
+    modules = modules_of(top)
     count, found, used = 0, [], collections.defaultdict(set)
     for folder in TOP_FOLDERS:
         for file in sorted((top / folder).rglob("*.[hc]pp")):
             count += 1
-            found += complaints(file, file.relative_to(top).as_posix(), table, used)
+            found += complaints(file, file.relative_to(top).as_posix(), table, modules, used)
     if not count:
         print(f"includes: no sources below {top}", file=sys.stderr)
         return 2
-    for module, allowed in table.items():
-        found += [f"docs/architecture.md: {module} includes nothing of {other}" for other in sorted(allowed - used[module])]
-    found += disagreements_with_cmake(top, table)
+    for group, allowed in table.items():
+        found += [f"docs/architecture.md: {group} includes nothing of {other}" for other in sorted(allowed - used[group])]
+    found += disagreements_with_cmake(modules, used)
+    try:
+        refuse_cycles({module: used[module] - {module, None} for module in modules}, "modules")
+    except ValueError as error:
+        found.append(str(error))
     print("\n".join(found) if found else f"includes: {count} files keep to the arrows")
     return 1 if found else 0
 
