@@ -113,28 +113,6 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/job_file.md", "")
         self.assertEqual(self.run_check("job_keys.py")[0], 2)
 
-    def test_retired_words_are_refused_in_code_comments_documents_and_names_of_files(self):
-        self.write("host_tools/cam/clearing/loops.hpp", "// A standing_metalwork.\nint told_apart_from;  // Joint\n")
-        self.assertEqual(self.run_check("retired_words.py")[0], 0)
-        for place, text in (("docs/life.md", "`TipFloor::drop()`\n"), ("host_tools/cam/clearing/tip_floor_test.cpp", "\n"),
-                            ("host_tools/cam/clearing/loops.hpp", "// See StandingMetal.\n"),
-                            ("firmware/base/vec.hpp", "struct Joint;\n"),
-                            ("host_tools/cam/clearing/ball.hpp", "// A ball is let down.\n"),
-                            ("docs/walls.md", "The tool can feel the wall.\n"),
-                            ("host_tools/judge/view/web/src/scene.ts", "/** Where metal stands. */\n"),
-                            ("hal/sim/mill.hpp", "int a;  // The axis stands still.\n"),
-                            ("tests/support/box.hpp", "int a;  // upright\n"),
-                            ("tests/cli/box.py", 'def box():\n    """A box of metal."""\n'), ("tests/cli/tap.py", "a = 1  # what is told\n")):
-            self.write(place, text)
-            status, said = self.run_check("retired_words.py")
-            self.assertEqual(status, 1, place)
-            self.assertIn(place, said)
-            (self.top / place).unlink()
-
-    def test_retired_words_needs_sources(self):
-        shutil.rmtree(self.top / "docs")
-        self.assertEqual(self.run_check("retired_words.py")[0], 2)
-
     def test_format_refuses_a_badly_laid_out_file(self):
         shutil.copy(HERE.parent.parent / ".clang-format", self.top)
         self.write("firmware/base/vec.hpp", "#pragma once\nint  x ;\n")
@@ -239,16 +217,6 @@ class ChecksOfTheTree(unittest.TestCase):
             status, said = self.run_check("constants.py")
             self.assertEqual(status, 1 if wrong else 0, said)
             self.assertIn(f"{place}:2: {wrong}" if wrong else "1 files", said)
-
-    def test_glossary_refuses_a_noun_that_it_lacks(self):
-        self.assertEqual(self.run_check("glossary.py")[0], 2)
-        self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
-        self.write("host_tools/cam/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")
-        self.assertEqual(self.run_check("glossary.py")[0], 0)
-        self.write("host_tools/cam/clearing/rings.hpp", "\nclass RingFeeler {\n};\n")
-        status, text = self.run_check("glossary.py")
-        self.assertEqual(status, 1)
-        self.assertIn("rings.hpp:2: RingFeeler: define \"feeler\" in docs/glossary.md", text)
 
     def test_headers_refuses_one_that_leans_on_its_reader(self):
         self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")

@@ -1,4 +1,4 @@
-// Choi, Cho & Kim: the numbers of docs/evidence/2026-11-22-grid-pocket.md, from the jobs in examples/grid_pocket.
+// Choi, Cho & Kim: what the paper prints of its pockets, from the jobs in examples/grid_pocket.
 #include <map>
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-// Chuang & Pan: the numbers of docs/evidence/2026-11-21-hull-rough.md, from the job in examples/hull_rough.
+// Chuang & Pan: what the paper prints of its tap, from the job in examples/hull_rough.
 #include <map>
 #include <memory>
 #include <variant>
