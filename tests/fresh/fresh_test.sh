@@ -1,7 +1,7 @@
 #!/bin/sh
 # What a stranger does first, in bare roots: the demo from a clone, and the packages.
 # usage: fresh_test.sh FOLDER-OF-PACKAGES
-# Needs root, mmdebstrap and a way to Debian's packages. Says how long each took; the goals are in docs/testing.md.
+# Needs root, mmdebstrap and a way to Debian's packages. Says how long each took.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 packages=$(cd "$1" && pwd)

@@ -6,7 +6,7 @@ usage: checked_test.py CUSP [--lines N] [--rate R] [--seed S]
 The program runs twice over `cusp sim --serve`, once clean and once with bytes corrupted, dropped,
 doubled and delayed at the rate R each, both ways. The exact path (G61) makes the steps independent of
 the time at which lines arrive: the order of the steps of both runs must be equal, or the damaged run
-must have ended in a hold with its reason. CI runs it bounded; docs/senders.md has the full size.
+must have ended in a hold with its reason. CI runs it bounded; docs/sending.md has the full size.
 """
 import argparse
 import math

@@ -2,7 +2,7 @@
 //
 // usage: NODE_PATH=FOLDER/node_modules node cncjs_headless.js PORT SERVER_PORT SECRET
 // where FOLDER has `npm i cncjs`. Each step prints one line of JSON; the exit status is 0 where every
-// step ended as it should. docs/senders.md says how it is run.
+// step ended as it should. docs/sending.md says how it is run.
 'use strict';
 const jwt = require('jsonwebtoken');
 const io = require('socket.io-client');

@@ -3,7 +3,7 @@
 
 usage: senders_test.py CUSP [unittest options]
 
-Each sender's habits are those that its documents and source describe; docs/senders.md has the list and
+Each sender's habits are those that its documents and source describe; docs/sending.md has the list and
 the runs of the senders themselves. A tap counts every byte and answer.
 """
 import os

@@ -15,7 +15,7 @@ CUSP = sys.argv[1]
 
 
 class ControlPort(unittest.TestCase):
-    """Every command of docs/virtual_mill.md."""
+    """Every command of docs/sending.md."""
 
     def setUp(self):
         self.mill = VirtualMill(CUSP, tap=False)

@@ -1,5 +1,5 @@
 // Describes what a part file holds: unit, size, faces, loops, slopes, concave radii, faults. The front door of
-// `part_info`; docs/part_info.md explains each line.
+// `part_info`; docs/stats.md explains each figure.
 //
 //     const PartInfo info = inspect_part(import::read_part_geometry("part.step", 1.0), 0.01);
 //     fmt::print("{}", text_of(info));  // aligned lines
