@@ -51,7 +51,7 @@ struct ChipTraits {
     static constexpr std::uint32_t kMostStepsPerSecond = Table::kMostStepsPerSecond;
     static constexpr bool kSecondMotor = hal::stm32f4::has_second_motor(Table::kLines);
 
-    // Whether the end of a frame calls for the servo tick.
+    // True if the end of a frame calls for the servo tick.
     static constexpr bool live() noexcept { return true; }
     static constexpr unsigned player_interrupt() noexcept
     {

@@ -19,8 +19,8 @@ struct SpindlePin {
     unsigned channel;
 };
 
-// Pins of a panel. What stops the machine closes to ground when at rest: a broken wire, or none,
-// reads as tripped or pressed. Only the start button closes to 3.3 V when pressed.
+// Pins of a panel. Inputs that stop the machine close to ground when at rest: a broken wire, or
+// none, reads as tripped or pressed. Only the start button closes to 3.3 V when pressed.
 struct PanelPins {
     std::array<Pin, 4> switches;    // limits X Y Z, probe
     std::array<Pin, 4> buttons;     // door, hold, start, reset

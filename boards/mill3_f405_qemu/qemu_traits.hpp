@@ -93,7 +93,7 @@ struct QemuTraits {
         hal::qemu::exit_qemu(kFaultStatus);
     }
 
-    // Whether the player's interrupt calls for the servo tick; a program's run makes its own.
+    // True if the player's interrupt calls for the servo tick; a program's run makes its own.
     static bool live() noexcept { return live_; }
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
     static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }

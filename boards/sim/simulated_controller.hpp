@@ -52,7 +52,7 @@ private:
     hal::SimulatedBoard board_;
     std::optional<planner::PathQueue> queue_;  // empty at each power-up
     std::optional<App> app_;
-    // Whether poll() has nothing to do before the next tick or byte.
+    // True if poll() has nothing to do before the next tick or byte.
     bool settled_{false};
 };
 

@@ -53,7 +53,7 @@ public:
     // answers, keeps settings. A slice is short (a few dozen bytes or one move), so that realtime
     // bytes and the tick are never kept waiting.
     //
-    // Returns whether it made progress. Where it did not, nothing more happens until a byte
+    // Returns whether it made progress. If it did not, nothing more happens until a byte
     // arrives, the link takes bytes, or tick() runs: a simulator polls until false, then ticks.
     // Context: main loop; tick() may interrupt it at any place.
     bool poll() noexcept;
@@ -154,7 +154,7 @@ void App<Board>::want_outputs(const OutputLevels& outputs) noexcept
     board_.pulse_player.invert(outputs.inverted_lines);
 }
 
-// A stop in the bytes that the main loop does not come to read. Where it has ended a slice since the last
+// A stop in the bytes that the main loop does not come to read. If it has ended a slice since the last
 // tick it reads them next, and what follows is the same on every board.
 template <class Board>
 void App<Board>::scan_bytes() noexcept

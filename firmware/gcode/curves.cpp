@@ -37,7 +37,7 @@ Result<double> weight_of(const Command& command, char upper_case) noexcept
     return weight;
 }
 
-// Whether the first control point of a G6.2 is the position of the tool, apart from the rounding of
+// True if the first control point of a G6.2 is the position of the tool, apart from the rounding of
 // programs.
 bool is_at(const Position& start, const Position& point) noexcept
 {

@@ -33,7 +33,7 @@ Result<Decimal> read_decimal(std::string_view text, std::size_t& place) noexcept
 // The nearest double.
 double to_double(Decimal decimal) noexcept;
 
-// Whether it is a whole number from 0 to `maximum`.
+// True if it is a whole number from 0 to `maximum`.
 bool is_whole(Decimal decimal, std::int64_t maximum) noexcept;
 
 // The number without its decimals, towards 0.

@@ -74,7 +74,7 @@ Status check_dwell(LineContext& line, MotionPlan& plan) noexcept
     return kDone;
 }
 
-// Whether a P word of the line belongs to another command than G64.
+// True if a P word of the line belongs to another command than G64.
 bool motion_takes_p(const Command& command) noexcept
 {
     if (command.non_modal == NonModal::kDwell || command.non_modal == NonModal::kSetOffset) {
@@ -85,7 +85,7 @@ bool motion_takes_p(const Command& command) noexcept
            motion != Motion::kLine && (!is_cycle(motion) || dwells(motion));
 }
 
-// Whether a Q word of the line belongs to another command than G64.
+// True if a Q word of the line belongs to another command than G64.
 bool motion_takes_q(const Command& command) noexcept
 {
     return command.axis_use == AxisUse::kMotion &&

@@ -16,7 +16,7 @@ std::int64_t tool_length(const LineContext& line, unsigned axis) noexcept
     return axis == 2 ? line.parameters.tool_length_offset_nm : 0;
 }
 
-// Whether a line names an axis, a rotary one too.
+// True if a line names an axis, a rotary one too.
 bool names_axes(const Command& command) noexcept
 {
     return (command.words & (kAxisLetters | kRotaryLetters)) != 0;

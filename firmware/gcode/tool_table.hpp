@@ -14,7 +14,7 @@ public:
 
     static constexpr bool holds(unsigned tool) noexcept { return tool >= 1 && tool <= kTools; }
 
-    // Whether no tool was entered: then every length is 0.
+    // True if no tool was entered: then every length is 0.
     constexpr bool empty() const noexcept { return entered_ == 0; }
     // Precondition of these three: holds(tool).
     constexpr bool has(unsigned tool) const noexcept
@@ -35,7 +35,7 @@ private:
     std::uint16_t entered_{0};                    // one bit a tool, T1 in bit 0
 };
 
-// Whether a length fits into the table.
+// True if a length fits into the table.
 constexpr bool fits_tool_table(std::int64_t length_nm) noexcept
 {
     return length_nm <= ToolTable::kMostLengthNm && length_nm >= -ToolTable::kMostLengthNm;

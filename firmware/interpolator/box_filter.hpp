@@ -41,7 +41,7 @@ public:
     // Ticks until drained, if only zeros follow.
     std::uint32_t ticks_left() const noexcept { return filled_; }
 
-    // Whether all n values are 0.
+    // True if all n values are 0.
     bool drained() const noexcept { return filled_ == 0; }
 
     void clear() noexcept

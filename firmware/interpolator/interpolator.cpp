@@ -104,7 +104,7 @@ Position Interpolator::tick() noexcept
     return position_;
 }
 
-// Whether the path may continue after a stop: the tool is there, or is so near that the corner may
+// True if the path may continue after a stop: the tool is there, or is so near that the corner may
 // be cut. The last jerk of the old and the first of the new stretch take a tick each: with none
 // between them they fall on the same one, which only an overlap allows for. The axis filters need
 // not be empty: with no speed and no acceleration left they leave the corner by less than a

@@ -31,7 +31,7 @@ public:
     // The next set point, machine nanometres.
     Position tick() noexcept;
 
-    // Whether nothing moves: all filters are empty.
+    // True if nothing moves: all filters are empty.
     bool at_rest() const noexcept { return at_rest_; }
 
     // Feed hold: slows down on the path to a stop; at_rest() is true when it is complete.

@@ -31,7 +31,7 @@ float lower_root(float square, float speed) noexcept
 // tick's travel: v^2 <= end + 2 slope (distance - v tick/2), or past the end v^2 <= end. Braking by
 // slope from tick to tick follows it exactly: the travel from middle to middle is (v + v')/2 tick.
 //
-// So that the last tick before a stop brakes no harder, the slowest speeds are those from which n
+// The last tick before a stop may brake no harder. So the slowest speeds are those from which n
 // ticks that slow down by `slope` each end where the envelope does, after D mm, were it to fall on:
 // D/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
 [[gnu::noinline]] float speed_under_envelope(float end,
@@ -42,7 +42,7 @@ float lower_root(float square, float speed) noexcept
     constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
     const float half = 0.5F * slope * kServoTick;
     const float square = half * half + std::max(end + 2.0F * slope * distance, 0.0F);
-    // Where those are surely above `greatest`, too: they differ by an eighth of 2 half at most.
+    // Those are surely above `greatest` then, too: they differ by an eighth of 2 half at most.
     const float most = greatest + 1.25F * half;
     if (square >= most * most) {
         return greatest;

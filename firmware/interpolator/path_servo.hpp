@@ -21,10 +21,10 @@ public:
 
     struct Conditions {
         const OverrideFactors& factors;  // of squared speeds, by the overrides; all 0 holds
-        // Whether the present stop may be left: the filters are empty, but for the overlap that
+        // True if the present stop may be left: the filters are empty, but for the overlap that
         // the stop allows.
         bool may_pass;
-        // Whether it may slow down: not while a stretch before the stop still drains.
+        // True if it may slow down: not while a stretch before the stop still drains.
         bool may_brake;
         // Its travel one path filter ago, which leaves the filter in this tick, path units.
         std::int32_t oldest_step;
@@ -38,7 +38,7 @@ public:
 
     bool standing() const noexcept { return speed_ == 0; }
 
-    // Whether the last tick left a stop behind: the path filter starts anew.
+    // True if the last tick left a stop behind: the path filter starts anew.
     bool passed_stop() const noexcept { return passed_stop_; }
 
 private:

@@ -1,5 +1,5 @@
-// ShaperFilter: the stages of an input shaper, in exact integers. What goes in comes out to the last
-// unit once the filter is drained.
+// ShaperFilter: the stages of an input shaper, in exact integers. All that goes in comes out, to
+// the last unit, once the filter is drained.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ public:
     }
 
     bool on() const noexcept { return shaper_.on(); }
-    // Whether nothing is in it: what comes out next is what goes in.
+    // True if nothing is in it: what comes out next is what goes in.
     bool drained() const noexcept { return left_ <= 1; }
 
     // The shaped value of this tick: each stage sums up its taps, the remainder of the

@@ -201,7 +201,7 @@ bool make_node(const path::BezierPiece& piece, float u, ArcLengthNode& node) noe
     return state.du > 0;
 }
 
-// Whether the quintic between two nodes keeps the speed. Half of kMaxSpeedError is reserved
+// True if the quintic between two nodes keeps the speed. Half of kMaxSpeedError is reserved
 // for errors between the sample points and for rounding.
 bool keeps_speed(const path::BezierPiece& piece,
                  const ArcLengthNode& a,

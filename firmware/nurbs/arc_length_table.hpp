@@ -31,7 +31,7 @@ struct ArcLengthTable {
     float length() const noexcept { return nodes[size - 1U].s; }
 };
 
-// How much the speed along the curve may differ from ds/dt, relative.
+// Relative difference allowed between the speed along the curve and ds/dt.
 // tests/unit/nurbs/arc_length_table_test.cpp holds it on random pieces.
 inline constexpr float kMaxSpeedError = 1e-4F;
 
@@ -62,7 +62,7 @@ struct CurveState {
     float ddu;        // d2u/ds2, 1/mm^2
 };
 
-// At parameter u in [0, 1]. Where |dP/du| is below 1e-12 mm all derivatives are zero. Relative
+// At parameter u in [0, 1]. If |dP/du| is below 1e-12 mm all derivatives are zero. Relative
 // accuracy about 1e-5 of the derivatives by u. Context: main loop.
 CurveState state_at(const path::BezierPiece& piece, float u) noexcept;
 

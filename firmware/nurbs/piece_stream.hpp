@@ -83,7 +83,7 @@ public:
     // False once closing knots have begun.
     bool accepts_points() const noexcept { return is_open_ && closing_knots_ == 0; }
 
-    // Where the last piece taken ends; the start of the curve before the first.
+    // End of the last piece taken; before the first, the start of the curve.
     Position position() const noexcept { return position_; }
 
 private:

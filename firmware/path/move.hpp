@@ -1,4 +1,4 @@
-// Move: one parsed move, exact. What gcode hands to the planner.
+// Move: one parsed move, exact. gcode hands it to the planner.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace cusp::path {
 
-// What a move goes by, and with it the override that scales it.
+// The kind of speed of a move, and with it the override that scales it.
 enum class MoveKind : std::uint8_t {
     kRapid,      // as fast as the limits allow; rapid override
     kFeed,       // at most the feed; feed override
@@ -23,7 +23,7 @@ struct Move {
     Position start;  // machine coordinates
     Position end;
     float feed{0};  // mm/s along the path, > 0 but for kRapid
-    // How far the tool may leave the path, mm; 0 is the exact path (G61).
+    // Distance by which the tool may leave the path, mm; 0 is the exact path (G61).
     float tolerance{0};
     // Part of the tolerance that is used already: the distance of the path from the programmed one
     // that it replaces, mm.

@@ -131,8 +131,8 @@ LaneVec largest_of(LaneVec at_a, LaneVec at_m, LaneVec at_b, float part) noexcep
     return largest(at_a, at_m, at_b) + bend * part;
 }
 
-// Of |f|, where `change` bounds its second derivative: between places h apart a function exceeds
-// their larger by at most h^2/8 of that.
+// Bound of |f|, with `change` a bound of its second derivative: between places h apart a function
+// exceeds the larger of both by at most h^2/8 of that.
 LaneVec largest_of_slow(
     LaneVec at_a, LaneVec at_m, LaneVec at_b, LaneVec change, float length) noexcept
 {
@@ -160,7 +160,7 @@ LaneDerivatives curve_derivatives(const LaneDerivatives& a,
     return {largest_of_slow(a.first, m.first, b.first, third, length), second, third};
 }
 
-// Where the stretch `index` of a curve begins.
+// Start of the stretch `index` of a curve.
 struct CurvePlace {
     float s;
     float u;
@@ -371,7 +371,7 @@ LaneDerivatives StretchReader::bounds_to(const Place& to) const noexcept
     return to_lanes(line_derivatives(block_));
 }
 
-// Where a stretch ends that ends at a part of the block.
+// End of a stretch that ends at a part of the block.
 std::uint32_t StretchReader::end_at(float part) const noexcept
 {
     return next_ == count_ ? block_.length

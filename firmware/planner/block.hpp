@@ -42,7 +42,7 @@ struct CurveBlock {
     nurbs::ArcLengthTable table;  // its last_found is the servo tick's
 };
 
-// What path::Quintic adds to the chord.
+// The bulge that path::Quintic adds to the chord.
 struct QuinticBlock {
     std::array<Vec3f, 4> bulge;  // mm
 };
@@ -121,7 +121,8 @@ struct Stretch {
     LaneDerivatives derivatives;
 };
 
-// The stretches of a block in order. What one ends with begins the next, and is reckoned once.
+// The stretches of a block in order. The end of one is the beginning of the next, and is computed
+// once.
 class StretchReader {
 public:
     // From the stretch `index` on. The block must outlive the reader.

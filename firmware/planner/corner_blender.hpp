@@ -26,14 +26,14 @@ public:
         filter_s_ = filter_s;
     }
 
-    // Of the input shaper: variance of its response, s^2, and length, s. 0 and 0 without.
+    // Variance of the input shaper's response, s^2, and its length, s. 0 and 0 without.
     void set_shaper(float square, float length) noexcept
     {
         shaper_square_ = square;
         shaper_length_ = length;
     }
 
-    // Whether add() takes a move: all of its output was taken.
+    // True if add() takes a move: all of its output was taken.
     bool ready() const noexcept { return made_.empty(); }
     bool empty() const noexcept { return made_.empty() && !held_; }
 

@@ -1,4 +1,4 @@
-// How early a stretch may start while the one before drains.
+// Finds how early a stretch may start while the one before drains.
 #include "firmware/planner/corner_overlap.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace cusp::planner {
 namespace {
 
-// Where both sides together would need this many times the jerk of one, slowing them down costs
+// If both sides together would need this many times the jerk of one, slowing them down costs
 // more than the overlap saves.
 constexpr float kGreatestDemand = 1.9F;
 constexpr std::uint32_t kFewestTicks = 3;

@@ -136,7 +136,7 @@ void IntervalBuilder::add_junction(const JunctionShare& junction, float distance
     carry(junction.speed * reach_.junction - distance, allowance);
 }
 
-// Of an interval only the last `reached` mm: it is split.
+// Restricts the last `reached` mm of an interval, which is split.
 void IntervalBuilder::restrict_end(std::uint32_t at,
                                    float reached,
                                    const Allowance& allowance) noexcept

@@ -37,8 +37,8 @@ public:
     // The path stops at its end: all of it may be published, and no limit is spread over the stop.
     void stop(const CornerOverlap& overlap) noexcept;
 
-    // Publishes what no later limit can reach. Where the queue is too short for that, slows the
-    // path down until it is not.
+    // Publishes what no later limit can reach. If the queue is too short for that, slows the path
+    // down until it is not.
     void publish(bool queue_full) noexcept;
 
     void clear() noexcept;

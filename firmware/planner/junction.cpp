@@ -16,7 +16,7 @@ struct Shares {
 
 float greater(const Shares& shares) noexcept { return std::max(shares.acceleration, shares.jerk); }
 
-// Combined effect of jumps of curvature at the speed v, 1/mm: the largest net change. Where the
+// Combined effect of jumps of curvature at the speed v, 1/mm: the largest net change. If the
 // speed has a minimum between them, its decrease is bounded by jerk along the path.
 Vec3f counted_curvature(const JunctionRun& run,
                         const MachineLimits& limits,
@@ -61,7 +61,7 @@ Shares shares_at(const Junction& junction,
     return shares;
 }
 
-// What a run takes at a speed.
+// The share of the limits that a run takes at a speed.
 struct Taken {
     Vec3f curvature;  // that counts
     Shares shares;

@@ -46,7 +46,7 @@ struct JunctionShare {
     bool caps{true};     // whether the speed is no more than this around it, too
 };
 
-// What leaves the path.
+// The deviation from the path.
 struct Blur {
     float deviation;     // mm, > 0: how far the filters may leave it
     float mean_time{0};  // s, of the input shaper: mean of |t| under its kernel

@@ -66,7 +66,7 @@ void set_end(Vec3f slope, Vec3f bend, PathEnd& end) noexcept
     end.curvature = (bend - end.tangent * dot(bend, end.tangent)) / std::max(speed * speed, 1e-12F);
 }
 
-// What a fit leaves of a vertex, mm. An array of these is not cleared first.
+// Distance of a vertex from its fit, mm. An array of these is not cleared first.
 union Leave {
     Leave() noexcept {}
     LaneVec value;
@@ -149,7 +149,7 @@ Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
     return scaled(vertices_[to].at - vertices_[from].at);
 }
 
-// How many lines before a vertex, and after it, a knot takes.
+// Number of lines before a vertex, and after it, that a knot takes.
 std::size_t LineSmoother::knot_lines_before(std::size_t index) const noexcept
 {
     const std::size_t most = std::min(index, kBeyond);
@@ -305,7 +305,7 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
     }
     const LaneQuintic piece = lane_quintic(fit.piece.bulge, fit.chord);
     const LaneVec start = to_lanes(start_.at);
-    // Whether a place of the lines, by their length up to it, is near the piece.
+    // True if a place of the lines, by their length up to it, is near the piece.
     const auto is_near = [&](LaneVec place, float along) {
         const float x = along / whole;
         const LaneVec off = place - point_at(piece, x);
@@ -348,8 +348,8 @@ bool LineSmoother::fit(std::size_t last, Fit& fit) const noexcept
            within_tolerance(fit, last);
 }
 
-// How many lines the longest piece that fits takes, 0 where none does. Neighbours are about as
-// long: away from the length of the one before by doubling the step, then by halving it.
+// Number of lines of the longest piece that fits; 0 if none fits. Neighbours are about as long:
+// away from the length of the one before by doubling the step, then by halving it.
 std::size_t LineSmoother::longest_fit(std::size_t most, Fit& best) const noexcept
 {
     std::size_t good = 0;
@@ -384,7 +384,7 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     if (lines == 0 || (patience == Patience::kFull && !vertices_.full())) {
         return false;
     }
-    // What knots at the last vertices may need.
+    // The lines that knots at the last vertices may need.
     const std::size_t beyond = ending ? 0 : knot_lines_before(lines);
     if (lines <= beyond) {
         return false;
@@ -408,7 +408,7 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     const Vec3<std::int32_t> vertex = vertices_[passed].at;
     piece.end = origin_ + Position{vertex.x, vertex.y, vertex.z};
     piece.path = path::Line{};
-    // Where not even one line can be rounded it stays, and its ends are corners.
+    // If not even one line can be rounded it stays, and its ends are corners.
     has_start_ = good != 0;
     if (good != 0) {
         const Position off = to_position(to_double(best.end.at));

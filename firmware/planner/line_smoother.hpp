@@ -2,7 +2,7 @@
 //
 // Dense programs describe smooth curves by short lines; taken literally each vertex is a jump of
 // direction that costs speed. Within its share of the path tolerance a run is replaced by quintic
-// Hermite pieces between vertices as far apart as the tolerance allows. Where they meet, place,
+// Hermite pieces between vertices as far apart as the tolerance allows. At their joints place,
 // direction and curvature are those of a cubic by least squares through the vertices around
 // (orthogonal polynomials; Forsythe, 1957). Streaming, fixed memory.
 #pragma once
@@ -23,10 +23,10 @@ public:
     // Lines longer than this, mm, are no part of a curve.
     static constexpr float kLongestLine = 2.0F;
 
-    // Whether the move may be part of a run: a short feed line with a tolerance.
+    // True if the move may be part of a run: a short feed line with a tolerance.
     static bool accepts(const path::Move& move) noexcept;
 
-    // Whether the move continues the run: same feed and tolerance, no corner. An empty run takes
+    // True if the move continues the run: same feed and tolerance, no corner. An empty run takes
     // any.
     bool continues(const path::Move& move) const noexcept;
 
@@ -36,7 +36,7 @@ public:
     // Precondition: accepts(move), continues(move), !full().
     void add(const path::Move& move) noexcept;
 
-    // How long next() may wait for more vertices: the longer, the longer the pieces.
+    // Time that next() may wait for more vertices: the longer, the longer the pieces.
     enum class Patience : std::uint8_t {
         kFull,   // until the vertices fill the memory
         kShort,  // the tool comes near: take what is known, but for what the knots need
@@ -66,7 +66,7 @@ private:
     // 160 mm of the first.
     static constexpr std::int32_t kFarthest = 1'000'000'000;
 
-    // Where two pieces meet: the curve through the vertices around it.
+    // The joint of two pieces: the curve through the vertices around it.
     struct Knot {
         Vec3f at;  // mm from its vertex
         PathEnd end;

@@ -50,7 +50,7 @@ float circle_factor(AxisFilter filter) noexcept
     return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
 }
 
-// Whether the bounds that a junction was made with hold for the stretch too, within a hundredth.
+// True if the bounds that a junction was made with hold for the stretch too, within a hundredth.
 bool is_covered_by(const Junction& junction, const PathDerivatives& stretch) noexcept
 {
     constexpr float kSlack = 1.01F;
@@ -173,7 +173,7 @@ void Planner::start() noexcept
     builder_.set_reach({queue_.half_filter() + kTicksOfJerk * kServoTick, beyond, beyond});
 }
 
-// Whether the published path could be over in a tenth of a second.
+// True if the published path could be over in a tenth of a second.
 bool Planner::path_is_short() const noexcept
 {
     constexpr std::uint32_t kShort = 1'000'000;  // units of 0.1 us
@@ -236,7 +236,7 @@ void Planner::work() noexcept
     }
 }
 
-// Whether there is nothing to do: no room, or no move. It is asked at every poll.
+// True if there is nothing to do: no room, or no move. It is asked at every poll.
 bool Planner::waits() const noexcept
 {
     const PathQueue& queue = queue_;  // each atomic read would fetch the reference again
@@ -328,7 +328,7 @@ void Planner::join(const EndGeometry& after,
         end_in_stop({});
         return;
     }
-    // What takes next to nothing is passed as fast as the stretches on both sides allow.
+    // A junction that takes next to nothing is passed as fast as the stretches on both sides allow.
     share.caps = std::max(share.jerk, share.acceleration) >= kNegligible || share.speed < fastest;
     if (share.jerk >= kNegligible) {
         end_length_ = 0;

@@ -63,10 +63,10 @@ public:
     // No move follows for now: the path stops at its end.
     void close() noexcept;
 
-    // Whether every move is played to its end.
+    // True if every move is played to its end.
     bool empty() const noexcept;
 
-    // Where the last pushed move ends.
+    // End of the last pushed move.
     Position tail() const noexcept { return tail_; }
 
     std::uint32_t free_blocks() const noexcept { return queue_.free_blocks(); }

@@ -1,4 +1,4 @@
-// What an input shaper changes for the planner: see docs/numerics.md, "Input shaping".
+// The changes that an input shaper makes to the planner: see docs/numerics.md, "Input shaping".
 #include <cmath>
 
 #include "firmware/base/assert.hpp"

@@ -30,7 +30,7 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
     const auto within = [&](const MachineLimits& limits) {
         Allowance of_part = allowance(part.derivatives, limits, filter_s, choice_.centripetal,
                                       kGreatestSpeed, jerk_share(move_));
-        // What an override of rapids scales is the speed that the axes allow.
+        // An override of rapids scales the speed that the axes allow.
         of_part.feed = block.kind == path::MoveKind::kRapid ? of_part.cap : feed * feed;
         return of_part;
     };

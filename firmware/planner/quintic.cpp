@@ -6,7 +6,7 @@
 namespace cusp::planner {
 path::Quintic hermite(Vec3f chord, const PathEnd& from, const PathEnd& to, float length) noexcept
 {
-    // What the ends add to a straight line, so that it need not cancel.
+    // The part that the ends add to a straight line: computed by itself, so that nothing cancels.
     const Vec3f e0 = from.tangent * length - chord;
     const Vec3f e1 = to.tangent * length - chord;
     const Vec3f w0 = from.curvature * (0.5F * length * length);

@@ -1,4 +1,4 @@
-// What rounding takes of the axes' limits: the planner keeps to the rest.
+// Margin for rounding; the planner uses the axes' limits less this.
 #pragma once
 
 #include <cstdint>

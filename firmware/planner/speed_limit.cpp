@@ -60,10 +60,10 @@ void straighten(BentLine& bent) noexcept
     bent.at_rest = std::min(bent.at_rest, 2.0F * bent.at_half - bent.at_cap);
 }
 
-// Of each axis under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's cap. From
-// y = 1/2 on it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 - 2^-0.5, and up to
-// there not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not below their tangents
-// at 1 and at 1/2. Returns the least of the axes.
+// The line of each axis under (j - k y^1.5)/(p + q y^0.5), y being the part of the squared speed's
+// cap. From y = 1/2 on it is not below (j - k (y - c (1 - y)))/(p + q (1 + y)/2), with c = 1 -
+// 2^-0.5, and up to there not below (j - k y 2^-0.5)/(p + q (y + 1/2) 2^-0.5). Both are convex: not
+// below their tangents at 1 and at 1/2. Returns the least of the axes.
 BentLine jerk_bound(LaneVec j, LaneVec k, LaneVec p, LaneVec q) noexcept
 {
     constexpr float kRootOfHalf = 0.70710678F;
@@ -159,8 +159,7 @@ void restrict_to(Allowance& a, const Allowance& b) noexcept
     a.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
 }
 
-// What is bounded by kUnlimited stays; a line's value at its cap need not be at_cap itself, for
-// rounding.
+// A bound of kUnlimited stays; a line's value at its cap need not be at_cap itself, for rounding.
 void restrict_to_feed(Allowance& a, float squared_feed) noexcept
 {
     const auto again = [](const Line& line) {

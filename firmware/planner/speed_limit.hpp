@@ -141,10 +141,10 @@ void restrict_to(Allowance& a, const Allowance& b) noexcept;
 // As restrict_to() with an allowance of all but a faster feed, the same bits.
 void restrict_to_feed(Allowance& a, float squared_feed) noexcept;
 
-// Whether b allows something that a does not.
+// True if b allows something that a does not.
 bool binds(const Allowance& a, const Allowance& b) noexcept;
 
-// Whether one interval may stand for both: they differ by at most 3 %.
+// True if one interval may stand for both: they differ by at most 3 %.
 bool are_alike(const Allowance& a, const Allowance& b) noexcept;
 
 // All parts together. half_filter: half the length of the path filter, s.
@@ -166,9 +166,9 @@ inline float greatest_speed(const Allowance& allowance, path::MoveKind kind) noe
 inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
 inline constexpr float kCurvatureJerkShare = 0.5F;
-// Of a piece that replaces short lines: its bends are long, and more is passed at the cap.
+// Share of a piece that replaces short lines: its bends are long, and more is passed at the cap.
 inline constexpr float kSmoothedJerkShare = 0.75F;
-// Of a transition, towards which nothing brakes.
+// Share of a transition, towards which nothing brakes.
 inline constexpr float kTransitionJerkShare = 0.9F;
 
 // The limits of a stretch with such derivatives.

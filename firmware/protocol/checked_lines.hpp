@@ -47,7 +47,7 @@ public:
     // and the next number is expected. None: refuse it with expected(). Precondition: on().
     std::optional<std::string_view> accept(const LineAssembler& line) noexcept;
 
-    // Whether a realtime byte counts; call text() for text bytes in between.
+    // True if a realtime byte counts; call text() for text bytes in between.
     bool accept_realtime(std::uint8_t byte) noexcept { return !on() || filter_.accept(byte); }
     void text() noexcept { filter_.text(); }
 

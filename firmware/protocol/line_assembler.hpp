@@ -42,15 +42,15 @@ public:
     // The part of line() before the last '*', for checked lines.
     std::string_view checked_part() const noexcept { return {text_.data(), length_at_star_}; }
     LineCheck check() const noexcept;
-    // Whether part of checked_part() is lost: the check after it is then invalid.
+    // True if part of checked_part() is lost: the check after it is then invalid.
     bool checked_part_overflow() const noexcept { return overflow_at_star_; }
 
-    // Whether more than kMaxLineLength characters came, or part of the line is known to be lost.
+    // True if more than kMaxLineLength characters came, or part of the line is known to be lost.
     // line() then holds a part only and must not be executed.
     bool overflow() const noexcept { return overflow_; }
     void mark_overflow() noexcept { overflow_ = true; }
 
-    // Whether any byte of the line has come.
+    // True if any byte of the line has come.
     bool started() const noexcept { return started_; }
 
     void begin_line() noexcept;

@@ -12,7 +12,7 @@ class ReceiveQueue {
 public:
     static constexpr std::uint32_t kCapacity = 1024;  // all of it usable
 
-    // Takes a text byte. Where no room is left this byte and all that follow are lost, until every
+    // Takes a text byte. If no room is left this byte and all that follow are lost, until every
     // byte before them has been read: lost() then reports it.
     void put(std::uint8_t byte) noexcept;
 
@@ -22,11 +22,11 @@ public:
     bool empty() const noexcept { return ring_.empty(); }
     std::uint32_t room() const noexcept { return kCapacity - ring_.size(); }
 
-    // Whether bytes were lost after the last one taken. False while bytes wait.
+    // True if bytes were lost after the last one taken. False while bytes wait.
     bool lost() const noexcept { return losing_ && ring_.empty(); }
     // Forgets the loss. Returns how many line ends were lost, each of which needs an answer.
     std::uint32_t take_lost_line_ends() noexcept;
-    // Whether the last byte lost ended a line; if not, the rest of its line is still to come.
+    // True if the last byte lost ended a line; if not, the rest of its line is still to come.
     bool loss_ended_a_line() const noexcept { return last_lost_ended_line_; }
 
     // Bytes put so far and bytes taken so far: a place in the stream. Wraps.

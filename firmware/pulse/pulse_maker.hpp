@@ -54,7 +54,7 @@ public:
     // delay_us() after their set points.
     void make_frame(Position set_point, PulseFrame& frame) noexcept;
 
-    // Whether all lines are low and the last set points are played.
+    // True if all lines are low and the last set points are played.
     bool idle() const noexcept;
 
     static constexpr unsigned kDelayTicks = 1;
@@ -74,7 +74,7 @@ private:
         bool forward{false};
         bool direction_known{false};
     };
-    // What an axis does in the tick whose frame is made.
+    // The motion of an axis in the tick whose frame is made.
     struct AxisTravel {
         TickCubic cubic;
         std::int32_t steps;

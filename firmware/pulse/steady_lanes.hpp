@@ -42,7 +42,7 @@ public:
         return step(position, slope);
     }
 
-    // Whether no lane gains or loses speed: then next_even() gives what next() does, sooner.
+    // True if no lane gains or loses speed: then next_even() gives what next() does, sooner.
     bool even() const noexcept
     {
         const Ticks bent = (c2_ != 0.0F) | (c3_ != 0.0F);

@@ -51,7 +51,7 @@ public:
         return time_;
     }
 
-    // Whether from every crossing a single Newton step is provably within kCloseTime of the next:
+    // True if from every crossing a single Newton step is provably within kCloseTime of the next:
     // the slope keeps its sign and at least `least`, so a step takes 1 / least at most, and the
     // step misses by bend / (2 least^3) at most. The tenth more is for the times' own errors.
     bool steady() const noexcept

@@ -9,12 +9,11 @@
 //   fitter.finish();
 //   while (fitter.next(move)) { ... }  // move.is_arc, move.end, move.deviation
 //
-// An arc goes through the first and the last vertex that it replaces. Of all arcs through two
-// points, those that keep a third within its band form an interval of the bulge tan(sweep / 4), and
-// its ends are roots of a quadratic; so the arcs that keep all vertices are the intersection of
-// intervals, found in one pass. The middles of the lines are bounded likewise, with a little
-// more room. What is handed out is verified as it will be written: centre rounded, vertices in
-// order.
+// An arc goes through the first and the last vertex that it replaces. The arcs through two points
+// that keep a third within its band form an interval of the bulge tan(sweep / 4), and its ends are
+// roots of a quadratic; so the arcs that keep all vertices are the intersection of intervals, found
+// in one pass. The middles of the lines are bounded likewise, with a little more room. Every arc is
+// verified as it will be written: centre rounded, vertices in order.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +26,8 @@
 namespace cusp::segmenter {
 
 struct FitSettings {
-    // How far a vertex may lie from the new path on either side of it, mm, as seen along the motion
-    // with the normal of the arc's plane upwards (of a line: Z).
+    // Distance allowed between a vertex and the new path on either side of it, mm, as seen along
+    // the motion with the normal of the arc's plane upwards (of a line: Z).
     double left{0.01};
     double right{0.01};
     // Centre offsets are rounded to multiples of this, mm; 0 for none.

@@ -145,7 +145,7 @@ double angle_between(Point a, Point b, double turn) noexcept
     return atan2(turn * (a.x * b.y - a.y * b.x), a.x * b.x + a.y * b.y);
 }
 
-// How far vertices and middles lie from the path, measured as they follow it.
+// Distance of vertices and middles from the path, measured as they follow it.
 class Follower {
 public:
     Follower(const Circle& circle, Axes axes, const Vec3d& first, double rise) noexcept
@@ -169,7 +169,7 @@ public:
     }
     double angle() const noexcept { return angle_; }
 
-    // Whether a point at the angle reached is within the band; keeps the largest distance.
+    // True if a point at the angle reached is within the band; keeps the largest distance.
     bool keeps(const Vec3d& v, Band band, double& largest) const noexcept
     {
         const Point p = from_centre(v);

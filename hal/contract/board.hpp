@@ -1,5 +1,5 @@
-// What a board offers to the firmware. One type per concern, handed to app as template arguments,
-// so that every call in the real-time path is direct. A contract is this comment plus a
+// The parts that a board offers to the firmware. One type per concern, handed to app as template
+// arguments, so that every call in the real-time path is direct. A contract is this comment plus a
 // compile-time check of the member functions; noexcept is part of their types.
 #pragma once
 

@@ -20,7 +20,7 @@ public:
     explicit DescriptorLink(Descriptor descriptor);
 
     bool try_read(std::uint8_t& byte) noexcept;
-    // Of those that a try_read() has brought in.
+    // Scans the bytes that a try_read() has brought in.
     bool try_scan(std::uint8_t& byte) noexcept;
     bool overrun() noexcept { return false; }  // the kernel holds the sender back
     std::uint32_t write_room() const noexcept;
@@ -38,7 +38,7 @@ public:
     void connect(Descriptor descriptor);
     void disconnect() noexcept;
 
-    // Whether a hang-up is final: not for the controller's end of a pseudo-terminal, where another
+    // True if a hang-up is final: not for the controller's end of a pseudo-terminal, where another
     // sender may open the other end.
     void survive_hang_up(bool survive) noexcept { survives_ = survive; }
 

@@ -25,7 +25,7 @@ public:
 
     // A descriptor of the controller's end.
     Descriptor open_controller_end() const;
-    // Whether any process has the other end open.
+    // True if any process has the other end open.
     bool has_peer() const noexcept;
     const std::string& name() const noexcept { return name_; }
 

@@ -42,7 +42,7 @@ public:
     // Frames and silences of a frame's length that have been played at the real pace; wraps.
     std::uint32_t frames() const noexcept { return frames_played_.load(std::memory_order_relaxed); }
     bool real_pace() const noexcept { return real_pace_; }
-    // Whether try_play() would take a frame.
+    // True if try_play() would take a frame.
     bool has_room() const noexcept { return !ready_[filling_].load(std::memory_order_acquire); }
 
     // The interrupt. True where the servo tick is due.

@@ -44,7 +44,7 @@ public:
     // A line was answered by an error, an alarm was raised or the controller was reset: the run is
     // over.
     bool refused() const noexcept { return refused_; }
-    // Whether bytes of the script are still to be sent.
+    // True if bytes of the script are still to be sent.
     bool script_waits() const noexcept { return script_waits_; }
     // Sends a byte ahead of the program; no line is begun until the next tick.
     void send(char byte) noexcept

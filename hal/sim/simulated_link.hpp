@@ -19,7 +19,7 @@ public:
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
 
-    // Bytes on their way to the controller. Where a bit rate is set they arrive one by one as time
+    // Bytes on their way to the controller. If a bit rate is set they arrive one by one as time
     // passes.
     void send(std::string_view bytes);
 

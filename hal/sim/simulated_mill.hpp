@@ -46,9 +46,9 @@ public:
 
     void set_geometry(const MillGeometry& geometry);
 
-    // Where the tool is, mm from the upper ends of the travel.
+    // Position of the tool, mm from the upper ends of the travel.
     Vec3d place() const noexcept;
-    // Where the second motor has the slide, on the first one's scale.
+    // Position to which the second motor has moved the slide, on the first one's scale.
     double second_place() const noexcept;
     // Steps taken since the start, both ways, and their balance.
     const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }

@@ -1,4 +1,4 @@
-// Where the blocks of the STM32F405 lie (RM0090 table 1), and its interrupts (table 62).
+// Addresses of the blocks of the STM32F405 (RM0090 table 1), and its interrupts (table 62).
 #pragma once
 
 #include "hal/stm32f4/registers.hpp"

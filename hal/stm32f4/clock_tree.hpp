@@ -50,7 +50,7 @@ bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
     return false;
 }
 
-// Whether the running crystal is the planned one, within the accuracy of the chip's own oscillator.
+// True if the running crystal is the planned one, within the accuracy of the chip's own oscillator.
 // The core and timer 11 run from that oscillator, 16 MHz; timer 11 captures each eighth edge of
 // the crystal divided by 31 (RTCPRE). RM0090 sections 7.2.10 and 19.5.11.
 template <class Chip>

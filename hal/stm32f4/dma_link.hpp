@@ -128,7 +128,7 @@ bool DmaLink<Chip, Port>::try_scan(std::uint8_t& byte) noexcept
     const std::uint32_t before = arrived_.load(std::memory_order_relaxed);
     const std::uint32_t arrived = before + (head() - before) % kReceiveSize;
     arrived_.store(arrived, std::memory_order_relaxed);
-    // What was read is not scanned, unless the ring has lapped the reader.
+    // Bytes that were read are not scanned, unless the ring has lapped the reader.
     const std::uint32_t read = read_.load(std::memory_order_relaxed);
     const bool lapped = static_cast<std::int32_t>(arrived - read) >= kTurn;
     if (!lapped && static_cast<std::int32_t>(read - scanned_) > 0) {
@@ -144,7 +144,7 @@ bool DmaLink<Chip, Port>::try_scan(std::uint8_t& byte) noexcept
 }
 
 // Called before each reading. The stream passes its middle and its end: if it has passed both and is
-// less than half a ring further, it has overrun the ring. Where this was not called for longer, the
+// less than half a ring further, it has overrun the ring. If this was not called for longer, the
 // tick has counted the turns.
 template <class Chip, class Port>
 bool DmaLink<Chip, Port>::overrun() noexcept

@@ -55,7 +55,7 @@ public:
     {
         wanted_inversion_.store(lines, std::memory_order_relaxed);
     }
-    // Whether a frame with edges may be on its way to the pins.
+    // True if a frame with edges may be on its way to the pins.
     bool moving() const noexcept { return has_edges_[0] || has_edges_[1]; }
 
     // The interrupt of the first port's stream. True where the servo tick is due. Context: the most
@@ -164,7 +164,7 @@ private:
     std::array<Ring, kPorts> rings_{};
     // Written by the servo tick, taken by the interrupt.
     std::array<std::atomic<bool>, 2> ready_{};
-    // Whether the frame in this half has an edge.
+    // True if the frame in this half has an edge.
     std::array<bool, 2> has_edges_{};
     std::atomic<bool> underrun_{false};
     std::atomic<unsigned> playing_{0};  // as the stream's flags say
@@ -267,7 +267,7 @@ void DmaPulsePlayer<Chip, Table, Pace>::stop() noexcept
     set_lines(pin_levels(0, kStepLines & Ports::kAllLines, inverted_), EachPort{});
 }
 
-// Whether the streams of further ports are at the same word as the first one. After a bus error a
+// True if the streams of further ports are at the same word as the first one. After a bus error a
 // stream stops; after a missed request it is late.
 template <class Chip, class Table, class Pace>
 bool DmaPulsePlayer<Chip, Table, Pace>::in_step() noexcept

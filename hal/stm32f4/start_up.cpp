@@ -55,7 +55,7 @@ void cusp_reset()
                                    Chip::system().cfsr.read());
 }
 
-// The saved registers lie on the stack that was in use; only the main one is used here. Where less
+// The saved registers lie on the stack that was in use; only the main one is used here. If less
 // than 256 bytes of it are left, the handler begins it anew: it could not run otherwise, and the
 // pulse stream would play on.
 __attribute__((naked)) void cusp_exception()

@@ -69,7 +69,7 @@ public:
             return kPins[kPort][lines];
         }
     }
-    // What to write to the port's set/reset register.
+    // Word to write to the port's set/reset register.
     template <unsigned kPort>
     static std::uint32_t word(PulseLines up, PulseLines down) noexcept
     {

@@ -45,7 +45,7 @@ public:
     Part(const Part&) = delete;
     Part& operator=(const Part&) = delete;
 
-    // Of this thread; empty where it has none.
+    // The work of this thread; empty if it has none.
     static const Text& current();
 
 private:

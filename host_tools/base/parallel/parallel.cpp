@@ -47,7 +47,8 @@ private:
 
 using Body = std::function<void(std::size_t)>;
 
-// What the calls of one loop share. oneTBB orders them all; ThreadSanitizer does not see inside it, but sees `done`.
+// The state that the calls of one loop share. oneTBB orders them all; ThreadSanitizer does not see
+// inside it, but sees `done`.
 struct Loop {
     const Body& body;
     FirstFault fault;
@@ -69,7 +70,7 @@ void call(Loop& loop, std::size_t number)
 
 using Range = tbb::blocked_range<std::size_t>;
 
-// What oneTBB copies from thread to thread: read before ThreadSanitizer sees an order.
+// A value that oneTBB copies from thread to thread: read before ThreadSanitizer sees an order.
 struct LoopCall {
     Loop* loop;
     [[gnu::no_sanitize("thread")]] void operator()(const Range& numbers) const

@@ -19,7 +19,7 @@ namespace cusp::parallel {
 void set_threads(int threads);
 
 // Calls body(k) once for each k from 0 to count - 1, several at once in any order, and returns when
-// all are done. Where bodies throw, all others are called, then the exception of the lowest k is
+// all are done. If bodies throw, all others are called, then the exception of the lowest k is
 // thrown. Bodies may call for_each() themselves. The cancellation::Part of the caller is theirs too.
 void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 

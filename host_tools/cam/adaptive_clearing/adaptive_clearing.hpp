@@ -52,7 +52,7 @@ struct AdaptiveRun {
     double tolerance{kUnbounded};  // mm, most: of chords in place of arcs
 };
 
-// Where the bound could not be kept.
+// A place at which the bound could not be kept.
 struct OverEngagement {
     Vec2d at;           // of the greatest angle
     double engagement;  // radians

@@ -1,11 +1,11 @@
-// Where an entry from above has the most room.
+// Finds the place with the most room for an entry from above.
 #pragma once
 
 #include "host_tools/geometry/offset/offset.hpp"
 
 namespace cusp::adaptive_clearing {
 
-// Whether the point lies in the part, and in none of its holes.
+// True if the point lies in the part, and in none of its holes.
 bool is_inside(const offset::Region2d& region, const offset::RegionPart& part, Vec2d point);
 
 // The place of a grid over the part that is farthest from the walls, 48 by 48 over its box; where no

@@ -19,8 +19,8 @@ constexpr double kMissedBeside = 0.0004;  // radii, by SweptArea
 constexpr double kMostGrowth = 1.6;       // half a turn
 constexpr double kLeastGrowth = 1.002;
 constexpr int kWidthBisections = 10;
-// Of the engagement: where the gap beside the tool is thinner than rounding of the program or runout
-// of the spindle, what is met is more than what is planned.
+// Share of the engagement that is planned: where the gap beside the tool is thinner than rounding
+// of the program or runout of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
 
 constexpr double kThickGap = 0.3;  // radii from the centre: the gap is thick there
@@ -43,7 +43,7 @@ Edge half_turn(Vec2d centre, double from, double to, double side)
     return arc_edge(start, end, (start + end) * 0.5, 1);
 }
 
-// Whether the tool meets no more along the edge than what stays beside a path.
+// True if the tool meets no more along the edge than what stays beside a path.
 bool is_clear(const Edge& edge, const SweptArea& swept)
 {
     constexpr int kLooks = 32;

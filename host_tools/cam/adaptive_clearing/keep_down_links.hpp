@@ -19,8 +19,8 @@ struct LinkLeg {
     Vec2d end;
     // Stock and walls stay 0.03 radii away from the tool: it may go at rapid.
     bool free{};
-    // No stock is met: the tool may rise on its way. What a tool above the floor met would stand below
-    // it, where it may come down at rapid.
+    // No stock is met: the tool may rise on its way. Stock that a tool above the floor met would
+    // also be below it, where the tool may come down at rapid.
     bool may_rise{};
 };
 
@@ -29,8 +29,8 @@ public:
     // wall_clearance  mm: of the tool's centre
     KeepDownLinks(const SweptArea& swept, const offset::RegionOffset& walls, double wall_clearance);
 
-    // Straight where that is free, else around stock. No stock of more than a few degrees is
-    // met. Empty where there is no way, or only a long one.
+    // Straight if that is free, else around stock. Engagement along a link is at most a few
+    // degrees. Empty if there is no way, or only a long one.
     std::vector<LinkLeg> between(Vec2d from, Vec2d to);
 
     // For a tool that comes down where stock is near `start`: the move at the feed from a place

@@ -1,4 +1,4 @@
-// Where the next steered pass starts: on a path of before, with stock on the right.
+// Finds where the next steered pass starts: on an earlier path, with stock on the right.
 #pragma once
 
 #include <optional>

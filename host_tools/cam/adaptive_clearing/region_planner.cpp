@@ -254,7 +254,7 @@ private:
         cut_neck(way, widest, first, room, space);
     }
 
-    // Whether the tool gets anywhere.
+    // True if the tool gets anywhere.
     bool cut_neck(const NeckWay& way,
                   std::size_t from,
                   std::size_t to,

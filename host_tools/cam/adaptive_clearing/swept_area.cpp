@@ -161,7 +161,7 @@ int SweptArea::next_open(std::size_t first, int i, int last) const
     return i;
 }
 
-// Whether all points of the cell about `middle`, and within kGrown of it, are nearer to the other
+// True if all points of the cell about `middle`, and within kGrown of it, are nearer to the other
 // disc, which is no smaller. Then that disc covers all that this one covers in the cell, for any
 // `shrink`.
 bool SweptArea::is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const
@@ -305,7 +305,7 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
     const auto at_arc = [&](int i) {
         return cell_at(centre + table[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)] * radius_);
     };
-    // Where arc i begins. At the rear rounding may turn the sign.
+    // The place where arc i begins. At the rear rounding may turn the sign.
     const auto angle_of_end = [&](int i) {
         const double angle = diamond_angle(
             seen_along(heading, arc_ends()[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)]));
@@ -341,7 +341,7 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
 }
 
 // A point of the circle keeps its angle from the heading, so it moves along an arc about the edge's
-// centre. Where both of its ends lie in a disc made smaller by the height of that arc, all of it
+// centre. If both of its ends lie in a disc made smaller by the height of that arc, all of it
 // lies in the disc: what a disc covers at both ends it covers in between.
 double SweptArea::engagement_of_piece(const Edge& edge,
                                       double from,
@@ -412,8 +412,8 @@ double SweptArea::bound_of_piece(
                     bound_of_piece(edge, middle, to, limit, tolerance));
 }
 
-// How many equal pieces of the edge have no point of the circle move by more than kMaxShrink from
-// its place in the middle.
+// Number of equal pieces of the edge in which no point of the circle moves by more than kMaxShrink
+// from its place in the middle.
 int SweptArea::pieces_of(const Edge& edge, double tolerance) const
 {
     const double way = edge.turn != 0 ? (edge.radius + radius_) * sweep(edge) : length(edge);

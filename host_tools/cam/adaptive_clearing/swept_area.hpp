@@ -57,10 +57,10 @@ public:
     // it is at most `limit`.
     double engagement_bound(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
 
-    // Whether that is at most `limit`; ends at the first piece that is over it.
+    // True if that is at most `limit`; ends at the first piece that is over it.
     bool keeps(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
 
-    // Whether the point is swept.
+    // True if the point is swept.
     bool contains(Vec2d point) const;
 
     // Points in the region that are not swept: of a raster with a pitch of radius / 72, and corners
@@ -76,7 +76,7 @@ private:
     };
     // The nearest disc of each point of a cell is among them; none where the cell is swept.
     using Discs = std::vector<std::uint32_t>;
-    // Of the tool's circle, as diamond angles from the heading.
+    // Arcs of the tool's circle, as diamond angles from the heading.
     struct Interval {
         double from;
         double to;

@@ -87,7 +87,7 @@ bool has_stock(const Turn& turn, const TrochoidSpace& space)
     return false;
 }
 
-// Where on the turn, as an angle about its centre, the tool comes down: in no stock; none where it is
+// Angle on the turn, about its centre, at which the tool comes down in no stock; none if stock is
 // all around.
 std::optional<double> begin_of(const Turn& turn, const TrochoidSpace& space)
 {
@@ -101,8 +101,8 @@ std::optional<double> begin_of(const Turn& turn, const TrochoidSpace& space)
     return std::nullopt;
 }
 
-// Where the line that touches both turns on their right leaves them, as an angle about their
-// centres; none where one is inside the other.
+// Angle about their centres at which the line that touches both turns on their right leaves them;
+// none if one is inside the other.
 std::optional<double> tangent_angle(const Turn& a, const Turn& b)
 {
     const Vec2d way = b.centre - a.centre;

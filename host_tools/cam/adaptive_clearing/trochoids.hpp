@@ -24,7 +24,7 @@ struct TrochoidPass {
     double tolerance{kUnbounded};  // mm: of chords in place of its arcs
 };
 
-// Where stock is left along a way.
+// The stock that is left along a way.
 struct NeckStock {
     std::size_t first;  // indices of its places
     std::size_t last;
@@ -45,7 +45,7 @@ TrochoidPass trochoidal_pass(const NeckWay& way,
                              double most_room,
                              const TrochoidSpace& space);
 
-// Where such a pass starts.
+// The place where such a pass starts.
 Vec2d trochoid_start(Vec2d centre, double most_room, const TrochoidSpace& space);
 
 }  // namespace cusp::adaptive_clearing

@@ -14,7 +14,7 @@ using offset::left_normal;
 using offset::Region2d;
 
 // Calls visit(place) for places in the cell where two discs meet, larger by `more` (mm), that no
-// other such disc covers. What stays between discs has a corner in one cell at least.
+// other such disc covers. Stock that stays between discs has a corner in one cell at least.
 template <typename Visit>
 void SweptArea::visit_corners(std::size_t cell, double more, Visit visit) const
 {

@@ -143,7 +143,7 @@ public:
             const int n =
                 std::max(edge.turn != 0 ? 4 : 1, static_cast<int>(std::ceil(size / pitch)));
             for (int i = 0; i < n; ++i) {
-                // What stays in a sharp corner is met at its very end only.
+                // The stock in a sharp corner is met only at its very end.
                 if (has_stock(edge, (i + 0.5) / n) ||
                     (i + 1 == n && is_corner(edge, next) && has_stock(edge, 1.0))) {
                     add(edge, i, n, at);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kNodes = 6;
 constexpr double kRight = 0.02;  // of the band
-// How much less the error is at half the spacing; 8 where a third derivative jumps.
+// Factor by which half the spacing lowers the error; 8 where a third derivative jumps.
 constexpr double kFinerBy = 6;
 constexpr double kSagShare = 0.06;        // of the band: between dense tips
 constexpr std::size_t kMostBetween = 64;  // dense tips between two exact ones

@@ -95,7 +95,7 @@ private:
     std::vector<Cell> cells_;
 };
 
-// Whether the surface across a strip may be long although its sides are near at each u. On a closed
+// True if the surface across a strip may be long although its sides are near at each u. On a closed
 // surface the first curve is the last.
 bool folds(const CrossSpeed& speed, const DomainBox& strip, double distance)
 {

@@ -14,7 +14,7 @@ std::vector<nurbs::Surface> surfaces_along_u(const job::Operation& operation);
 // tool or the size of the part.
 void check_spacing(const job::Job& job, const job::Operation& operation);
 
-// Whether the surface has no trim, crease or pole. Elsewhere scallops between neighbours alone do
+// True if the surface has no trim, crease or pole. Elsewhere scallops between neighbours alone do
 // not bound what is left.
 bool is_plain(const nurbs::Surface& s);
 

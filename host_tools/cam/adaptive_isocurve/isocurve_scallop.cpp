@@ -71,7 +71,7 @@ bool IsocurveScallop::counts_as_straight(const Uncut& left) const
     return left.ahead * left.ahead <= kStraight * tool_.radius * height;
 }
 
-// Moves the sweep along its pass to the nearest point, or to the end. Where that does not converge,
+// Moves the sweep along its pass to the nearest point, or to the end. If that does not converge,
 // in bends, the least height left by the balls on the way.
 double IsocurveScallop::uncut_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal)
 {

@@ -46,7 +46,7 @@ double most_of(double a, double b, double c)
     return std::max({std::abs(a), std::abs(b), std::abs(c)});
 }
 
-// Whether the second is proved to be nowhere below the first.
+// True if the second is proved to be nowhere below the first.
 bool in_order(const Cubic& low, const Cubic& high)
 {
     return low[0] <= high[0] && low[1] <= high[1] && low[2] <= high[2] && low[3] <= high[3];

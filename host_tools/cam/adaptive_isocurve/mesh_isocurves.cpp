@@ -228,7 +228,7 @@ private:
                (operation_.iso_distance && too_far_apart(s, strip));
     }
 
-    // Where the tip or its contact jumps, no distance is small enough: such places do not count.
+    // If the tip or its contact jumps, no distance is small enough: such places do not count.
     bool too_far_apart(double s, const MeshStrip& strip) const
     {
         const std::optional<Dropped> low = drop_at(s, strip.low);

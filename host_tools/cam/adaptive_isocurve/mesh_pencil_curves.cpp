@@ -95,7 +95,7 @@ private:
         return path_fitter_.model().drop_ball(at.x, at.y, radius_);
     }
 
-    // How much farther apart two contacts are than their centres.
+    // Distance of two contacts less that of their centres.
     static double jump(const Dropped& a, const Dropped& b)
     {
         return norm(b.point - a.point) - norm(b.centre - a.centre);
@@ -140,7 +140,7 @@ private:
         return Crossing{from, to, centre - Vec3d{0, 0, path_fitter_.tool().radius}};
     }
 
-    // Of all sides of the grid.
+    // The crossings of all sides of the grid.
     void find_crossings()
     {
         std::vector<std::vector<std::pair<GridSide, Crossing>>> columns(nx_);

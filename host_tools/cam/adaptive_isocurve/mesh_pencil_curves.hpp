@@ -9,7 +9,7 @@
 namespace cusp::adaptive_isocurve {
 
 // Tips along the curves at which the contact of a dropped ball jumps and its normal turns by more
-// than 20 degrees. Where the height jumps as well, the tips are on the lower side.
+// than 20 degrees. If the height jumps as well, the tips are on the lower side.
 //
 // pitch  mm, of the grid of the search; shorter curves may be missed
 std::vector<finishing::Points> mesh_pencil_curves(const finishing::GougeFreePathFitter& path_fitter,

@@ -33,7 +33,7 @@ public:
     // The tip of the ball whose contact is (u, v), off the surface by the band's offset.
     Vec3d tip(int surface, double u, double v) const;
 
-    // Whether (u, v) is inside the trims and the tool there is clear of the rest of the model.
+    // True if (u, v) is inside the trims and the tool there is clear of the rest of the model.
     bool is_clear_at(int surface, double u, double v) const;
 
     // The parts of the curve where the tool is clear. A blocked part shorter than 1 mm may remain:

@@ -1,4 +1,4 @@
-// The pass of a plane is the tool dropped along a line. Where the planes leave too much there are
+// The pass of a plane is the tool dropped along a line. If the planes leave too much there are
 // passes between them.
 #include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
 
@@ -238,7 +238,7 @@ private:
 
     Vec3d place(double s, double t) const { return low_ + along_ * s + across_ * t; }
 
-    // Whether the tool dropped there touches the model. Beyond the model's box it may overhang the
+    // True if the tool dropped there touches the model. Beyond the model's box it may overhang the
     // rim by a step, since the last pass is less than a step from the rim.
     bool is_clear(double s, double t)
     {

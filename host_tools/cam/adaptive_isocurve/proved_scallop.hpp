@@ -23,7 +23,7 @@ struct ProvedScallop {
 };
 
 // Nearly the least bound for which `ScallopCheck` leaves no cell uncovered where the tool can touch
-// the surface; at most the radius. Where it cannot touch, the stock left is measured at points, and
+// the surface; at most the radius. If it cannot touch, the stock left is measured at points, and
 // a quarter is added.
 //
 // path_off  mm: maximum distance between the path that is cut and the passes given

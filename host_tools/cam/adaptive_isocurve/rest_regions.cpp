@@ -72,7 +72,7 @@ void keep_short_gaps(std::vector<Part>& parts, double longest)
     }
 }
 
-// Whether two parts of a halved edge can be joined again.
+// True if two parts of a halved edge can be joined again.
 bool continues(const Edge& last, const Edge& next)
 {
     if (last.turn != next.turn) {

@@ -24,7 +24,7 @@ PassSpacing pass_spacing(const toolpath::Tool& tool, double scallop_height);
 
 // Levels from `top` down to `bottom` (z): as few of equal depth as max_depth allows, or the job's
 // `layers`. No cut is deeper than max_depth (default: the least radius), the scallops of the level
-// above included. Where levels would be thinner than min_depth, scallops become lower and levels
+// above included. If levels would be thinner than min_depth, scallops become lower and levels
 // fewer, as far as max_depth allows.
 //
 // tools  all roughing tools; not empty

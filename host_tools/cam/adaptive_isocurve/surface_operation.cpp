@@ -316,7 +316,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     return planned;
 }
 
-// Where the part rises over the stock, the job is wrong: nothing is left out on its word.
+// If the part rises over the stock, the job is wrong: nothing is left out on its word.
 void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
 {
     const double limit = job_.stock_top + kSameTop;

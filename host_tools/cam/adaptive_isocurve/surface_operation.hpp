@@ -62,7 +62,7 @@ public:
     std::optional<FittedPass> fitted_clear_pass(
         const finishing::Points& dense, const finishing::CcParameterList& cc_parameters) const;
     double path_off() const;
-    // Whether some pass was moved off an edge that the tool would gouge from the side.
+    // True if some pass was moved off an edge that the tool would gouge from the side.
     bool moved_off_edges() const { return moved_off_edges_; }
 
     // Links all passes. `spacing` (mm) is the approximate distance of neighbours.

@@ -169,7 +169,7 @@ private:
                6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
     }
 
-    // Whether a segment lies in the region: divided until the clearances at both ends of each part
+    // True if a segment lies in the region: divided until the clearances at both ends of each part
     // are together at least its length.
     static bool line_inside(const RegionOffset& region, Vec2d from, Vec2d to)
     {
@@ -189,7 +189,7 @@ private:
         return line_inside(region, from, middle) && line_inside(region, middle, to);
     }
 
-    // Whether a link lies in the region. Links are made from samples 0.1 mm apart, which is no
+    // True if a link lies in the region. Links are made from samples 0.1 mm apart, which is no
     // proof.
     static bool line_inside(const RegionOffset& region, const std::vector<Edge>& way)
     {
@@ -279,7 +279,7 @@ private:
         levels_ += level.adaptive->runs.empty() ? 0 : 1;
     }
 
-    // Whether the passes cover the level. At a point left out the next level would cut twice the
+    // True if the passes cover the level. At a point left out the next level would cut twice the
     // depth.
     bool covers(const Level& level, double step) const
     {

@@ -67,8 +67,8 @@ constexpr double kWrittenStep = 1e-4;
 double repeated_plan_tolerance(double plan_tolerance);
 
 // The plan path as lines (and arcs) that may be cut at several heights, each within
-// repeated_plan_tolerance() of the others and within `plan_tolerance` (mm) of the plan path. So no
-// pass cuts, at full depth, a sliver that the pass above it left beside a wall.
+// repeated_plan_tolerance() of the others and within `plan_tolerance` (mm) of the plan path. Thus
+// no pass cuts, at full depth, a sliver that the pass above it left beside a wall.
 std::vector<offset::Edge> flattened(const std::vector<offset::Edge>& plan,
                                     double plan_tolerance,
                                     double spacing,

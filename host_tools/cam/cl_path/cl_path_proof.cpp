@@ -186,7 +186,7 @@ void add_vertical_moves(std::vector<ClMove>& moves, std::size_t i, const Raised&
     moves.insert(moves.insert(at + 1, down) - 1, up);
 }
 
-// Whether a move is too long to be raised at one end beside a cliff: it would climb over its whole
+// True if a move is too long to be raised at one end beside a cliff: it would climb over its whole
 // length.
 bool is_long(Vec3d start, const ClMove& move, double radius)
 {

@@ -46,7 +46,7 @@ public:
         return static_cast<int>(std::clamp(count, 1.0, kMostPieces));
     }
 
-    // Whether every station of every piece is within its band.
+    // True if every station of every piece is within its band.
     bool fits(int count) const
     {
         for (int i = 0; i < count; ++i) {

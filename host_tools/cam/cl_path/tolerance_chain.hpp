@@ -17,7 +17,7 @@ struct Station {
     bool level{};    // moves pass it at its height, without a band
 };
 
-// How far from a station moves may pass it.
+// Distance within which moves may pass a station.
 struct StationBand {
     double plan_tolerance;  // mm: in plan, to either side
     double low;             // mm above the station's height

@@ -5,7 +5,7 @@
 
 namespace cusp::clearing {
 
-// Whether the whole path lies in the region with `clearance` (mm, >= 0) from its contours, to 1e-5
+// True if the whole path lies in the region with `clearance` (mm, >= 0) from its contours, to 1e-5
 // mm, since links between loops start at exactly that distance. With a `clearance` below 0.1 mm
 // thin spikes between two samples 0.002 mm apart are missed.
 bool is_path_clear(const offset::RegionOffset& region, const offset::Edge& way, double clearance);

@@ -190,7 +190,7 @@ std::vector<Loop2d> make_rings(const RegionOffset& offset,
         const double first = std::min(suited * step, std::max(step, 0.5 * settings.stepover));
         return next_ring(offset, ring.distance, first, settings.cover_corners);
     };
-    // Where partial loops do not pay they seldom do at the next ring.
+    // If partial loops do not pay they seldom do at the next ring.
     int next_try = 0;
     int wait = 1;
     NextRing ring{settings.wall_clearance, offset.at(settings.wall_clearance)};

@@ -138,7 +138,7 @@ private:
         return distance_to(edges_[edge], p) < space_.depth * kAbout;
     }
 
-    // Whether the point is no farther than the strip is deep from the edge of the ring that was
+    // True if the point is no farther than the strip is deep from the edge of the ring that was
     // nearest to the point before, or from the next edge.
     bool is_beside(Vec2d p)
     {
@@ -199,7 +199,7 @@ private:
         refine(ways, {part.edge, middle, part.to}, between, b);
     }
 
-    // Whether a line between the two may lead beyond reach where they do not, or the other way
+    // True if a line between the two may lead beyond reach where they do not, or the other way
     // round.
     bool hides(const Way& a, const Way& b) const
     {
@@ -302,7 +302,7 @@ std::optional<Spur> spur_for(std::vector<Way> stretch,
     return covers_all(by_all) ? std::optional{by_all} : std::nullopt;
 }
 
-// Where along its edge the spur starts; increasing along the path.
+// Place along its edge where the spur starts; increasing along the path.
 double along(const Edge& edge, Vec2d foot) { return dot(foot - edge.start, edge.end - edge.start); }
 
 Region2d with_spurs(const Region2d& ring, std::vector<Spur> spurs)

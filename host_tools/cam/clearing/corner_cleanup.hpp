@@ -25,7 +25,7 @@ std::optional<offset::Region2d> with_corner_cleanup(const offset::Region2d& ring
                                                     const offset::RegionOffset& source,
                                                     const CleanupSpace& space);
 
-// Whether a detour out and back on one line starts with the edge.
+// True if a detour out and back on one line starts with the edge.
 bool starts_cleanup_spur(const offset::Contour& contour, std::size_t edge);
 
 }  // namespace cusp::clearing

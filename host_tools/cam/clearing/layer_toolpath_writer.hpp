@@ -21,11 +21,11 @@ struct LayerSpace {
     double top{};  // z: limit of the stock's height where the layer above was cleared
     double bottom{};
     double radius{};  // of the cutter, with its clearance from the part
-    // Whether the axis may be, at `bottom`, everywhere within `extra` mm of the place.
+    // True if the axis may be, at `bottom`, everywhere within `extra` mm of the place.
     std::function<bool(Vec2d place, double extra)> has_room;
-    // Whether all of the straight line was cleared down to `top`; empty if nothing is cleared yet.
+    // True if all of the straight line was cleared down to `top`; empty if nothing is cleared yet.
     std::function<bool(Vec2d from, Vec2d to)> cleared_above;
-    // Whether the cutter is beside the stock there.
+    // True if the cutter is beside the stock there.
     std::function<bool(Vec2d place)> beside_stock;
     // mm: scallops above cleared planes, at `top` and at `bottom`.
     double scallop_height{};

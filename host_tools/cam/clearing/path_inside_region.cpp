@@ -19,7 +19,7 @@ using offset::reversed;
 
 namespace {
 
-// Where the straight line meets a contour; its ends meet none.
+// Places where the straight line meets a contour; its ends meet none.
 struct Meeting {
     Vec2d at;
     std::size_t contour;

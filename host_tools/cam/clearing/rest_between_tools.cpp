@@ -9,7 +9,7 @@ using toolpath::Tool;
 
 namespace {
 
-// Whether `after`, with its axis `apart` outside the places of `before`, meets no more than the
+// True if `after`, with its axis `apart` outside the places of `before`, meets no more than the
 // scallop height: at some distance from those places the stock is the lower side of `before`.
 bool nests(const Tool& before, const Tool& after, double apart, double scallop_height)
 {
@@ -50,7 +50,7 @@ std::optional<double> rest_offset_between_tools(const Tool& before,
 
 bool leaves_no_rest(const Tool& before, const Tool& after, double scallop_height)
 {
-    // Where a cutter fits, a smaller one fits up to the difference of the radii around it.
+    // If a cutter fits, a smaller one fits up to the difference of the radii around it.
     return before.radius <= after.radius &&
            nests(before, after, before.radius - after.radius, scallop_height);
 }

@@ -7,10 +7,10 @@
 
 namespace cusp::clearing {
 
-// How far outside the places of the axis of `before` (negative: how deep inside them) the axis of
-// `after` may be, at equal height, without meeting stock more than `scallop_height` (mm, >= 0)
-// above its own lower side. Holds for all pairs of cutters, whichever is larger. None if it meets
-// more everywhere, as a flat end does below a ball.
+// Returns the distance by which the axis of `after` may lie outside the places of the axis of
+// `before` (negative: inside them), at equal height, without meeting stock more than
+// `scallop_height` (mm, >= 0) above its own lower side. Holds for all pairs of cutters, whichever
+// is larger. None if it meets more everywhere, as a flat end does below a ball.
 std::optional<double> rest_offset_between_tools(const toolpath::Tool& before,
                                                 const toolpath::Tool& after,
                                                 double scallop_height);

@@ -74,14 +74,14 @@ public:
 
     Vec3d place() const { return writer_.at(); }
 
-    // Whether the tool is below the clearance height.
+    // True if the tool is below the clearance height.
     bool is_down() const { return below_clearance() > 0.0; }
     double below_clearance() const
     {
         return writer_.started() ? writer_.clearance_z() - place().z : 0.0;
     }
 
-    // Whether the tool is below the clearance height, vertically above, at or below the place.
+    // True if the tool is below the clearance height, vertically above, at or below the place.
     bool is_over(Vec3d place) const;
 
     const std::vector<toolpath::ToolMove>& moves() const { return moves_; }

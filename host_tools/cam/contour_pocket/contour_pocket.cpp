@@ -77,7 +77,7 @@ constexpr double kLevelsDone = 0.6;  // of the progress, where nothing is roughe
 
 constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius
 
-// Whether the floor is one surface without trims, which has no cliffs.
+// True if the floor is one surface without trims, which has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
 {
     return operation.floor.size() == 1 && operation.floor.front().trims.empty();
@@ -428,8 +428,8 @@ private:
     LoopScallop loop_scallop_;
     ClPathWriter moves_;
     AxialDepthTracker* depth_;
-    // Of the progress: what is done before the finish, and before its passes are written. Beside
-    // roughing, which reports its own, passes are found without a report.
+    // Shares of the progress that are done before the finish, and before its passes are written.
+    // Beside roughing, which reports its own, passes are found without a report.
     double begun_;
     double levels_done_;
     ClearedRegion cleared_;

@@ -86,7 +86,7 @@ void LoopScallop::stretches_on(const Edge& edge,
     }
 }
 
-// Whether the stock above the contact is no higher than allowed, along the normal.
+// True if the stock above the contact is no higher than allowed, along the normal.
 bool LoopScallop::is_low_along_normal(const Probe& probe) const
 {
     const double high = scallop_share_ * allowed(probe.secant);

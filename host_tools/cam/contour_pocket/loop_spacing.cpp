@@ -178,7 +178,7 @@ void LoopSpacing::across(Vec2d at, const Contact& here, Vec2d direction)
     }
 }
 
-// Whether the tip's height and slope change between two places as predicted by the curvatures at
+// True if the tip's height and slope change between two places as predicted by the curvatures at
 // both.
 bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
                               const DropCutter::CcPoint& b,
@@ -232,8 +232,8 @@ double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double widest) const
     return good;
 }
 
-// Samples are denser where the floor is uneven along the edge. Of a chain of short edges, only
-// those that begin at least kSamplesApart after the last sample are examined.
+// Samples are denser where the floor is uneven along the edge. In a chain of short edges only those
+// that begin at least kSamplesApart after the last sample are examined.
 void LoopSpacing::along(const Edge& edge)
 {
     const double radius = floor_.tool().radius;

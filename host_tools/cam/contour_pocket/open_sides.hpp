@@ -33,7 +33,7 @@ std::optional<OpenSides> open_sides(const job::Job& job,
                                     const offset::Region2d& pocket,
                                     double wall_clearance);
 
-// Whether all of the pocket lies beside the stock.
+// True if all of the pocket lies beside the stock.
 bool lies_beside_stock(const job::Job& job, const offset::Region2d& pocket);
 
 }  // namespace cusp::contour_pocket

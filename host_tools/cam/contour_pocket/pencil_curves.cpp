@@ -126,7 +126,7 @@ private:
         return {std::abs(b.cl.z - a.cl.z - by_slopes), dot(b.cl.slope - a.cl.slope, way) / apart};
     }
 
-    // Where a smooth valley is as tight as the tool, the slope turns no more over that distance.
+    // If a smooth valley is as tight as the tool, the slope turns no more over that distance.
     bool is_uneven(const Sample& a, const Sample& b) const
     {
         return bend(a, b).jump > search_.jump || is_tight(a, b);
@@ -137,7 +137,7 @@ private:
         return bend(a, b).turn > kTurn + distance(a.at, b.at) / radius_;
     }
 
-    // Where a line passes between two places, and the nearest samples on both sides.
+    // The place at which a line passes between two samples, and the nearest samples on both sides.
     struct Crossing {
         PencilPoint point;
         Sample before;
@@ -205,7 +205,7 @@ private:
                 static_cast<int>(std::floor(p.y / traced_cell_))};
     }
 
-    // Whether the line traced up to there passes by p. A ledge has two lines beside each other.
+    // True if the line traced up to there passes by p. A ledge has two lines beside each other.
     bool passes_by(const Traced& place, Vec2d p) const
     {
         const Vec2d arm = p - place.at;
@@ -333,7 +333,7 @@ private:
         mark(bottom, bottom, lines_.size() - 1, 0, 0.0);
     }
 
-    // Whether the slope turns up there in every direction.
+    // True if the slope turns up there in every direction.
     bool rises_in_all_directions(Vec2d bottom) const
     {
         const double out = 0.2 * kGrid * radius_;
@@ -362,7 +362,7 @@ private:
         return found ? found : around.front();
     }
 
-    // Where lines leave a circle around a place.
+    // Places where lines leave a circle around a place.
     std::vector<PencilPoint> circle(Vec2d centre, double out) const
     {
         constexpr int kPlaces = 24;

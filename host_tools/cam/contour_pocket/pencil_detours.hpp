@@ -8,10 +8,10 @@
 
 namespace cusp::contour_pocket {
 
-// Adds each pencil pass to the nearest loop. Of several loops within a tenth of the tool's radius,
-// the one cut last is taken, so the stock beside it is already cut. The loop is divided there, and
-// the detour lies between its parts (PassStart::kContinue). Returns the pencil passes without a
-// loop within the radius.
+// Adds each pencil pass to the nearest loop. If several loops lie within a tenth of the tool's
+// radius, the one cut last is taken, so the stock beside it is already cut. The loop is divided
+// there, and the detour lies between its parts (PassStart::kContinue). Returns the pencil passes
+// without a loop within the radius.
 //
 // wall_clearance  mm: distance of the tool's axis from the contours on the detour
 std::vector<clearing::ClearingPass> add_pencil_detours(

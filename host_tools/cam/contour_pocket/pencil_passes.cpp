@@ -64,7 +64,7 @@ public:
                 return length_of(line) > kFragment * floor_.tool().radius;
             });
         follow(lines.begin(), fragments);
-        // Where the tip's height is nearly vertical, its line is found in pieces, some of them
+        // If the tip's height is nearly vertical, its line is found in pieces, some of them
         // beside lines already followed.
         ClearedRegion followed = cleared_;
         followed.passes.insert(followed.passes.end(), passes_.begin(), passes_.end());
@@ -107,7 +107,7 @@ private:
         return !walls_.any_nearer(p, settings_.wall_clearance) && walls_.contains(p);
     }
 
-    // Whether the certified pass stays low, except for climbs where it meets other cliffs.
+    // True if the certified pass stays low, except for climbs where it meets other cliffs.
     bool lies_low(const ClearingPass& pass) const
     {
         ClPathSettings path_settings = settings_.path_settings;
@@ -154,7 +154,7 @@ private:
         return passes_on(path, kept);
     }
 
-    // Whether the tool there removes more than may remain.
+    // True if the tool there removes more than may remain.
     bool removes_enough(Vec2d q)
     {
         constexpr double kRings[] = {0.0, 0.3, 0.55, 0.75, 0.9, 0.985};

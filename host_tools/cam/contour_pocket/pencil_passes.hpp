@@ -20,9 +20,9 @@ struct PencilSettings {
     cl_path::ClPathSettings path_settings;
 };
 
-// Open and closed passes, all PassStart::kRetractAndDrop. Where the CL height jumps they run along
+// Open and closed passes, all PassStart::kRetractAndDrop. If the CL height jumps they run along
 // all of the low side, `distance` from the jump, or up to four times as far where a nearer pass
-// would climb. Where only its slope turns up they run where the tool removes more than `max_uncut`
+// would climb. If only its slope turns up they run where the tool removes more than `max_uncut`
 // (mm, along the normal) of the stock that the given passes leave, sampled every tenth of the
 // tool's radius.
 std::vector<clearing::ClearingPass> pencil_passes(const offset::Region2d& region,

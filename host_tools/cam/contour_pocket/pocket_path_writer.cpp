@@ -178,7 +178,7 @@ bool PocketPathWriter::link(const ProjectedPass& projected_pass, const CutSettin
     return true;
 }
 
-// Whether the path above the stock is no longer than a retract and a descent.
+// True if the path above the stock is no longer than a retract and a descent.
 bool PocketPathWriter::is_shorter_than_retract(const std::vector<Edge>& way) const
 {
     constexpr double kLongest = 8.0;  // radii

@@ -39,7 +39,7 @@ struct CutSettings {
     // Fraction of max_depth that a pass may cut where the stock height is known.
     double depth_share{1.0};
     // Limit of the retracts up to the end, the last one included; at least the number of entries.
-    // Where entries need the remaining ones, links above the stock may have any length.
+    // If entries need the remaining ones, links above the stock may have any length.
     int retracts{};
     // Heights where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
@@ -47,7 +47,7 @@ struct CutSettings {
     std::function<void(double)> progress;
 };
 
-// Where the tool's axis may be: at least `wall_clearance` mm from the walls, except for rounding.
+// Region of the tool's axis: at least `wall_clearance` mm from the walls, except for rounding.
 offset::Region2d reach_of(const offset::RegionOffset& walls, double wall_clearance);
 
 class PocketPathWriter {

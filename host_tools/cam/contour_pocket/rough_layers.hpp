@@ -16,13 +16,13 @@ struct RoughResult {
     double left{};  // mm: largest height above a level floor: allowance and scallops
 };
 
-// Whether the operation names layers, or a depth of cut for them.
+// True if the operation names layers, or a depth of cut for them.
 bool is_roughed(const job::Operation& operation);
 
 // Depth of cut of a layer, mm: max_depth, or the tallest of operation.layers.
 double layer_depth(const job::Operation& operation);
 
-// Whether the finish is the last layer: over a level floor, with the tool of roughing and no allowance,
+// True if the finish is the last layer: over a level floor, with the tool of roughing and no allowance,
 // both would cut the same. Roughing has one layer less then.
 bool finish_is_last_layer(const job::Operation& operation);
 

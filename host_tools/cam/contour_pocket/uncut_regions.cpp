@@ -139,7 +139,7 @@ private:
         }
     }
 
-    // Where contacts of neighbouring cells are twice as far apart as the cells, the tool does not
+    // If contacts of neighbouring cells are twice as far apart as the cells, the tool does not
     // reach between them.
     void find_valleys(double min_height)
     {

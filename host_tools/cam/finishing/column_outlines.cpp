@@ -82,7 +82,7 @@ std::vector<Side> sides_of(const std::vector<Outline>& loops)
     return out;
 }
 
-// Where the region is divided across.
+// Places at which the region is divided across.
 std::vector<double> places_of(const std::vector<Side>& sides, double longest)
 {
     std::vector<double> corners;

@@ -1,5 +1,5 @@
 // A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
-// the only one. Where that fails, the whole model is searched.
+// the only one. If that fails, the whole model is searched.
 #pragma once
 
 #include <optional>

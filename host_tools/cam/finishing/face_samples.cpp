@@ -1,4 +1,4 @@
-// How much the normals differ, and along which side.
+// Samples a face for the difference of its normals, and the side along which they differ.
 #include "host_tools/cam/finishing/face_samples.hpp"
 
 #include <algorithm>

@@ -23,7 +23,7 @@
 // Scallops. SweptVolume is what the moves of all passes remove. ScallopCheck divides surfaces into
 // cells, MeshScallopCheck divides triangles, until one move proves each cell or the cell is known
 // to be uncovered. UncutWalls looks at vertical facets of either. ScallopAtPoint measures a single
-// point. Where the ball cannot touch a point, ReachableHeight searches for its lowest position there,
+// point. If the ball cannot touch a point, ReachableHeight searches for its lowest position there,
 // LowerPositionProof proves that there is none lower, and VisibilityFromAbove excludes what other
 // surfaces hide.
 #pragma once

@@ -18,7 +18,7 @@
 
 namespace cusp::finishing {
 
-// How a tolerance is split, mm. The tip is planned `offset` off the surface, and the path may
+// The parts of a tolerance, mm. The tip is planned `offset` off the surface, and the path may
 // deviate from the planned one by `half_width`.
 struct ToleranceBand {
     double offset{};
@@ -59,7 +59,7 @@ public:
     // The tip, raised until it gouges no edge from the side.
     part_model::EdgeGougeCheck::RaisedTip raised_clear_of_edges(Vec3d tip) const;
 
-    // Whether a straight move gouges no edge from the side.
+    // True if a straight move gouges no edge from the side.
     bool clears_edges(Vec3d a, Vec3d b) const;
 
     const ToleranceBand& band() const { return band_; }
@@ -68,10 +68,10 @@ public:
     const toolpath::Tool& offset_tool() const { return offset_tool_; }
     const part_model::PartModel& model() const { return model_; }
 
-    // Whether the tool is at least `offset` off the whole model.
+    // True if the tool is at least `offset` off the whole model.
     bool is_clear(Vec3d tip) const;
 
-    // Whether the tool whose contact is (u, v), `offset` off it, is no nearer to anything else.
+    // True if the tool whose contact is (u, v), `offset` off it, is no nearer to anything else.
     bool is_clear_at_contact(int surface, double u, double v) const;
     bool is_clear_at_contact(const part_model::CcPoint& at) const;
 
@@ -101,7 +101,7 @@ public:
     // cc_parameters  if given, the contacts of the points are appended
     Points sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc_parameters = nullptr) const;
 
-    // A polyline of few points within the band of the dense one, proved. Where a line would cut
+    // A polyline of few points within the band of the dense one, proved. If a line would cut
     // deeper than allowed, the tip is raised by a drop. With contacts the proof usually needs only
     // the curvature of the surface there, without a search.
     Points fit_lines(const Points& dense, const CcParameterList& cc_parameters = {});
@@ -122,18 +122,18 @@ public:
     Vec3d raised_clear(Vec3d tip) const;
 
     // Arcs and lines within the band of the dense polyline, starting at its first point, proved.
-    // Where an arc would cut, lines as by fit_lines() replace it.
+    // If an arc would cut, lines as by fit_lines() replace it.
     std::vector<toolpath::ToolMove> fit_arcs(const Points& dense);
 
     // One cubic NURBS through the points, from first to last, proved; none where it would cut.
     // Its knots are arc lengths, so a constant feed has a smooth speed along it.
     std::optional<nurbs::Curve> fit_nurbs(const Points& dense);
 
-    // Whether the cubic curve is proved to cut no deeper than allowed. If so, least_clearance()
+    // True if the cubic curve is proved to cut no deeper than allowed. If so, least_clearance()
     // includes it.
     bool is_nurbs_clear(const nurbs::Curve& curve);
 
-    // Whether the straight move is proved to cut no deeper than allowed. If so, least_clearance()
+    // True if the straight move is proved to cut no deeper than allowed. If so, least_clearance()
     // includes it.
     bool is_line_clear(Vec3d a, Vec3d b);
 

@@ -26,7 +26,7 @@ HermiteSpan hermite_span(const Points& p,
                          std::size_t from,
                          std::size_t to);
 
-// Whether the points `from` to `to` lie within `allowed` mm of the span.
+// True if the points `from` to `to` lie within `allowed` mm of the span.
 bool hermite_span_fits(const HermiteSpan& span,
                        const Points& p,
                        const std::vector<double>& way,

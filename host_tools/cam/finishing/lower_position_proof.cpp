@@ -1,4 +1,4 @@
-// Directions that no contact blocks are divided. Where one stays open, the ball is dropped from
+// Directions that no contact blocks are divided. If one stays open, the ball is dropped from
 // there to find the contact that is missing.
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 

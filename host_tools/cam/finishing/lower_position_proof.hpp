@@ -1,4 +1,4 @@
-// Certificate that no lower position of a ball exists over a point of a mesh. Where the ball cannot
+// Certificate that no lower position of a ball exists over a point of a mesh. If the ball cannot
 // touch the point there is usually none, and the certificate replaces the search for the lowest.
 #pragma once
 
@@ -23,7 +23,7 @@ public:
     LowerPositionProof(const GougeFreePathFitter& path_fitter, double pitch);
 
     enum class Verdict : std::uint8_t { kNone, kOne, kUnknown };
-    // Whether a ball clear of the mesh passes through the point or straight below it. kNone and
+    // True if a ball clear of the mesh passes through the point or straight below it. kNone and
     // kOne are proved.
     //
     // centre  of a ball that passes a little above the point

@@ -109,7 +109,7 @@ bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
            !path_fitter_.is_clear(places_.touching_tip(corner, normal));
 }
 
-// Whether the mesh ends or drops within the tool's radius. Beside a drop the ball gets lower, and
+// True if the mesh ends or drops within the tool's radius. Beside a drop the ball gets lower, and
 // how low changes from one point to the next: one point does not represent a cell.
 bool MeshScallopCheck::falls_off_beside(Vec3d point) const
 {
@@ -139,7 +139,7 @@ bool MeshScallopCheck::settled(const Cell& cell) const
             }));
 }
 
-// Whether the stock vertically above the corners is no higher than the scallop, along the normal of
+// True if the stock vertically above the corners is no higher than the scallop, along the normal of
 // the facet.
 bool MeshScallopCheck::low_enough(const Cell& cell) const
 {
@@ -163,7 +163,7 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
             blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
                                               cell.corners[2] - cell.corners[0]));
         }
-        // Where the tool cannot touch there is usually no lower position. Rough meshes have very
+        // If the tool cannot touch there is usually no lower position. Rough meshes have very
         // many such cells.
         if (verdict == Verdict::kSettled ||
             (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {

@@ -14,7 +14,7 @@
 namespace cusp::finishing {
 
 // The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
-// convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
+// convex. Thus a move that removes all three corners of a triangle, raised by the scallop, removes
 // the whole raised triangle. Triangles that no single move covers are halved. Facets hidden under
 // others are not checked. Vertical ones, and those that hardly lean, are checked by `WallSide`:
 // where the side of a ball reaches them that rests on something.
@@ -37,7 +37,7 @@ public:
     // A pass that will be cut, by its tips.
     void add(const Points& tips) { places_.add(tips); }
 
-    // Whether the stock over a point of the mesh is cut down to a share of the scallop.
+    // True if the stock over a point of the mesh is cut down to a share of the scallop.
     //
     // normal  unit vector, upward
     bool is_covered(Vec3d place, Vec3d normal, double share) const
@@ -62,7 +62,7 @@ public:
     // walls, concave edges, valleys narrower than the tool.
     double blocked_area() const { return blocked_area_; }
 
-    // Whether the check ended early because of too many uncovered cells.
+    // True if the check ended early because of too many uncovered cells.
     bool overflowed() const { return overflowed_; }
     // Cells and vertical facets that measure_left() kept.
     std::size_t uncovered() const { return uncovered_.size() + walls_.size(); }
@@ -99,7 +99,7 @@ private:
     MeshScallopCheck(const MeshScallopCheck& other, ForThread tag);
     ReachableHeight::Drops work_at(
         OpenShare& share, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
-    // What most of the time of a copy goes into: drops, and cells looked at.
+    // The main work of a copy: drops, and cells looked at.
     std::size_t effort() const { return places_.drops_made() + judged_; }
     // The longest side of a triangle and its number.
     struct LongSide {

@@ -99,7 +99,7 @@ Points ScallopCheck::trace(int surface, const MissingPass& from, Vec2d way) cons
     return out;
 }
 
-// The middle of the cell, then its corners. Where all are trimmed away, a place beside the trims
+// The middle of the cell, then its corners. If all are trimmed away, a place beside the trims
 // takes the middle's: a sliver between them may hold no corner of any cell.
 std::array<ScallopCheck::Place, 5> ScallopCheck::places_of(const Cell& cell) const
 {
@@ -138,7 +138,7 @@ Points ScallopCheck::longest_trace(const Cell& cell, const MissingPass& from) co
     return longest;
 }
 
-// Whether the visible corner of a cell with a hidden middle lies in an opening narrower than cells:
+// True if the visible corner of a cell with a hidden middle lies in an opening narrower than cells:
 // the middle of the next cell beyond the corner is hidden too. Otherwise that cell is checked.
 bool ScallopCheck::in_narrow_opening(int surface,
                                      const Place& middle,

@@ -49,7 +49,7 @@ public:
 
     double pitch() const { return search_.pitch(); }
 
-    // How many drops this one has made, those in vain included: most of its time.
+    // Number of drops made, those in vain included: they take most of the time.
     std::size_t drops_made() const { return drops_made_; }
 
     // Drops on the grids, which the copies of one ReachableHeight share.
@@ -67,7 +67,7 @@ public:
     void share(Drops drops);
 
 private:
-    // Whether tips that gouge rims and creases from the side are excluded.
+    // True if tips that gouge rims and creases from the side are excluded.
     enum class Edges : std::uint8_t { kIgnored, kMovedClear };
 
     void use(std::shared_ptr<Drops> drops);

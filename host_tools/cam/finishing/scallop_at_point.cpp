@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kReachStep = 0.25;    // in stepovers
 constexpr double kReachPitch = 0.125;  // radii, at least
-// How much too high drops may be: mm, within shares of the scallop. A part of metres would be cut
-// into millions of pieces otherwise.
+// Error of drops, upwards: mm, within shares of the scallop. A part of metres would be cut into
+// millions of pieces otherwise.
 constexpr double kDropAccuracy = 1e-4;
 constexpr double kLeastDropShare = 0.001;
 constexpr double kMostDropShare = 0.005;

@@ -76,7 +76,7 @@ public:
     // The tip of a ball that touches the point, raised by the band's offset as passes are.
     Vec3d touching_tip(Vec3d point, Vec3d normal) const;
 
-    // Whether the stock over the point is cut down to a share of the scallop.
+    // True if the stock over the point is cut down to a share of the scallop.
     //
     // normal  unit vector, upward
     bool is_covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
@@ -92,14 +92,13 @@ public:
         Vec3d point;
         Vec3d normal;
     };
-    // Whether one move cuts the stock over all of these points of a wall, and so over their hull.
+    // True if one move cuts the stock over all of these points of a wall, and so over their hull.
     bool one_move_cuts_wall(const std::vector<WallPoint>& points, double off) const;
 
     // mm: the stock over a point of a wall, along the normal; at most the radius.
     double left_beside_wall(Vec3d point, Vec3d normal, double off = 0) const;
 
-    // Whether nothing thicker than the scallop would fit between a wall and a vertical line if the wall
-    // were as high as the model.
+    // True if the wall, taken to the height of the model, leans by less than the scallop.
     bool is_upright(Vec3d normal) const { return normal.z <= upright_normal(); }
 
     // The greatest z of the normal of such a wall.
@@ -118,7 +117,7 @@ public:
     // Precondition: normal.z >= kUprightNormal
     bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
 
-    // Whether no tip removes more than `kSettledShare`, tips that would gouge an edge included.
+    // True if no tip removes more than `kSettledShare`, tips that would gouge an edge included.
     // Precondition: normal.z >= kUprightNormal
     bool settled(Vec3d point, Vec3d normal) const;
 

@@ -61,7 +61,7 @@ ScallopCheck::Corner ScallopCheck::corner(int surface, double u, double v) const
     return out;
 }
 
-// Whether a point belongs to the surface. Trims along a border may miss it by rounding.
+// True if a point belongs to the surface. Trims along a border may miss it by rounding.
 bool ScallopCheck::inside_trims(int surface, double u, double v) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
@@ -72,7 +72,7 @@ bool ScallopCheck::inside_trims(int surface, double u, double v) const
         std::clamp(v, s.v_begin() + slack_v, s.v_end() - slack_v));
 }
 
-// Whether a ball can touch the point.
+// True if a ball can touch the point.
 bool ScallopCheck::is_clear(const Corner& at) const
 {
     return dot(at.normal, at.normal) > 0 &&
@@ -241,7 +241,7 @@ ScallopCheck::Verdict ScallopCheck::thinned(const Cell& cell,
     return is_steep(at) ? longer : Verdict::kUncovered;
 }
 
-// Whether the cell is wider than kSteepCell, and either a trim separates its corners or the stock
+// True if the cell is wider than kSteepCell, and either a trim separates its corners or the stock
 // over them differs steeply.
 bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
 {
@@ -268,13 +268,13 @@ bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
     return (outside > 0 && outside < 4) || most - least > kSteepShare * scallop_;
 }
 
-// Whether some corner is uncovered and the tool cannot touch it.
+// True if some corner is uncovered and the tool cannot touch it.
 bool ScallopCheck::blocked_somewhere(const std::array<Corner, 4>& at) const
 {
     return std::any_of(at.begin(), at.end(), [&](const Corner& c) { return blocked(c); });
 }
 
-// Whether all corners are uncovered and the tool can touch them: a pass is cut there before the
+// True if all corners are uncovered and the tool can touch them: a pass is cut there before the
 // cell is halved.
 bool ScallopCheck::is_uncovered(const std::array<Corner, 4>& at) const
 {
@@ -283,7 +283,7 @@ bool ScallopCheck::is_uncovered(const std::array<Corner, 4>& at) const
     });
 }
 
-// Whether the tool can touch no corner of the cell and could remove next to nothing at its middle.
+// True if the tool can touch no corner of the cell and could remove next to nothing at its middle.
 // Never at borders and beside cliffs, where one point does not represent the next.
 bool ScallopCheck::settled(const Cell& cell,
                            const std::array<Corner, 4>& at,
@@ -301,14 +301,14 @@ bool ScallopCheck::settled(const Cell& cell,
            places_.settled(middle.point.point, middle.normal);
 }
 
-// Whether the point is trimmed away or hidden under a surface.
+// True if the point is trimmed away or hidden under a surface.
 bool ScallopCheck::is_hidden(const Corner& at) const
 {
     return !inside_trims(at.surface, at.u, at.v) ||
            visibility().is_hidden(at.point.point, at.normal);
 }
 
-// Whether the cell lies under other surfaces, gaps between these aside. False where its middle is
+// True if the cell lies under other surfaces, gaps between these aside. False where its middle is
 // trimmed away.
 bool ScallopCheck::lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const
 {
@@ -324,7 +324,7 @@ bool ScallopCheck::lies_under_others(const Cell& cell, const std::array<Corner, 
            inside_trims(cell.surface, middle.u, middle.v);
 }
 
-// Whether the cell's own surface, untrimmed, lies over it, as just below the equator of a sphere.
+// True if the cell's own surface, untrimmed, lies over it, as just below the equator of a sphere.
 bool ScallopCheck::lies_under_itself(const std::array<Corner, 4>& at, const Corner& middle) const
 {
     const auto under = [&](const Corner& c) {
@@ -334,7 +334,7 @@ bool ScallopCheck::lies_under_itself(const std::array<Corner, 4>& at, const Corn
            std::all_of(at.begin(), at.end(), under);
 }
 
-// Whether a part of the cell may be visible through a gap that misses its corners.
+// True if a part of the cell may be visible through a gap that misses its corners.
 bool ScallopCheck::silhouette_above(const std::array<Corner, 4>& at) const
 {
     return visibility().silhouette_above(

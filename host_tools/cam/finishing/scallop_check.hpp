@@ -18,7 +18,7 @@
 
 namespace cusp::finishing {
 
-// Where the tool can touch the surface, the stock left is measured vertically and multiplied by the
+// If the tool can touch the surface, the stock left is measured vertically and multiplied by the
 // cosine of the slope; on steep walls along the normal. Elsewhere (valleys, concave edges) it is
 // measured above the lowest position of the tool.
 //
@@ -58,7 +58,7 @@ public:
     // Checks a rectangle of the surface's domain.
     void check(int surface, Vec2d low, Vec2d high);
 
-    // Whether a check ended early because of more uncovered cells than are kept.
+    // True if a check ended early because of more uncovered cells than are kept.
     bool overflowed() const { return overflowed_; }
 
     // Adds passes over uncovered cells. Each is given to `cut`, which must add() the path it cuts.
@@ -241,7 +241,7 @@ private:
     std::vector<Points> waiting_;  // passes added before the first check
     bool has_checked_{};
     std::shared_ptr<SharedVisibility> visibility_{std::make_shared<SharedVisibility>()};
-    // Of a copy that works.
+    // State of a copy that works.
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
     mutable std::size_t judged_{};  // cells
     std::vector<Cell> uncovered_;

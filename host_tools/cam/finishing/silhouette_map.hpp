@@ -23,7 +23,7 @@ public:
     // The highest silhouette in the squares of a box and their neighbours; -kInfinite if none.
     // Silhouettes are borders, edges of trims, and lines where a surface turns from up to down.
     double highest_silhouette(Vec2d low, Vec2d high) const;
-    // Whether a point of the model straight above, by more than `by` (mm, >= 0), is found from the
+    // True if a point of the model straight above, by more than `by` (mm, >= 0), is found from the
     // samples around. True is certain, false is not.
     //
     // surface  the one it has to belong to; -1: any

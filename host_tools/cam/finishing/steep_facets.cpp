@@ -21,7 +21,7 @@ Vec3d level_along(Vec3d normal)
 
 }  // namespace
 
-// Whether the facet is so steep that nothing thicker than the scallop would fit between it and a
+// True if the facet is so steep that nothing thicker than the scallop would fit between it and a
 // vertical line if it were as high as the model. Less than that would not do: the facets under it
 // lean out farther, and the tool passes at their foot.
 bool MeshScallopCheck::is_upright(Vec3d normal) const
@@ -41,7 +41,7 @@ bool MeshScallopCheck::is_hidden(const Place& at) const
     return top && top->point.z > at.point.z + std::max(kHidden, kHiddenBeside / at.normal.z);
 }
 
-// A cell is proved by one move. Where the stock is high but thin, its corners represent it.
+// A cell is proved by one move. If the stock is high but thin, its corners represent it.
 MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double longest) const
 {
     const Vec3d middle = raised(cell.middle(), cell.normal, scallop_, false);
@@ -88,7 +88,7 @@ std::optional<MeshScallopCheck::Place> MeshScallopCheck::place_on(Vec3d at) cons
     return top ? std::optional{Place{top->point, top->normal}} : std::nullopt;
 }
 
-// The missing tips along a wall at the height of a point on it, both ways. Where the wall turns, the
+// The missing tips along a wall at the height of a point on it, both ways. If the wall turns, the
 // next point returns to that height.
 Points MeshScallopCheck::trace_level(const Place& from) const
 {

@@ -22,7 +22,7 @@ double square_to_move(Vec3d p, const SweptVolume::Move& move)
     return dot(rest, rest);
 }
 
-// Whether the point lies within the radius of the move or straight above such a point.
+// True if the point lies within the radius of the move or straight above such a point.
 bool lies_within(double square_radius, Vec3d p, const SweptVolume::Move& move)
 {
     if (square_to_move(p, move) <= square_radius) {
@@ -199,7 +199,7 @@ void SweptVolume::try_move(std::uint32_t number, double x, double y, Lowest& bes
     }
 }
 
-// Whether a ball with its centre over a square, not below `low`, may cut as low as `than` at `at`.
+// True if a ball with its centre over a square, not below `low`, may cut as low as `than` at `at`.
 bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const
 {
     const double max_error = kCutCorner * pitch_;

@@ -30,7 +30,7 @@ public:
 
     // Adds straight moves through tips of the tool.
     void add(const std::vector<Vec3d>& tips);
-    // How many have been added.
+    // Number of moves added.
     std::size_t moves() const { return moves_.size(); }
 
     // The numbers of all moves that pass within `reach` of the centre, and of some others, in order.
@@ -39,10 +39,10 @@ public:
     // As near(), and all moves below the centre, whose shank may pass it.
     void near_or_below(Vec3d centre, std::vector<std::uint32_t>& out) const;
 
-    // Whether the move removes the point, with a tool smaller by `shrink` (mm).
+    // True if the move removes the point, with a tool smaller by `shrink` (mm).
     bool removes(std::uint32_t move, Vec3d point, double shrink) const;
 
-    // Whether the ball, without its shank, reaches the point.
+    // True if the ball, without its shank, reaches the point.
     bool passes_near(std::uint32_t move, Vec3d point) const;
 
     // The top of the stock at (x, y) after all moves, and the centre of the ball that cut it;

@@ -38,7 +38,7 @@ public:
     {
     }
 
-    // Whether passes cut so far may have changed what is left beside the wall. All that is looked at
+    // True if passes cut so far may have changed what is left beside the wall. All that is looked at
     // beside it lies within two radii.
     bool has_cut_near(const WallSide& side) const
     {
@@ -66,7 +66,7 @@ public:
         if (!open_.empty() && norm(tips.front() - open_.back()) > join_) {
             finish();
         }
-        // Where two facets meet both have the tip between them.
+        // If two facets meet both have the tip between them.
         const bool again = !open_.empty() && norm(tips.front() - open_.back()) < kSameTip;
         open_.insert(open_.end(), tips.begin() + (again ? 1 : 0), tips.end());
     }

@@ -9,7 +9,7 @@
 
 namespace cusp::finishing {
 
-// What `MeshScallopCheck` and `ScallopCheck` have in common beside walls: each gives its vertical
+// The work beside walls that `MeshScallopCheck` and `ScallopCheck` share: each gives its vertical
 // facets, and WallSide looks at both sides of them.
 //
 // Walls are looked at on several threads; which looks at which does not depend on their number.
@@ -36,7 +36,7 @@ private:
         WallSide side;
         std::vector<WallSide::Run> runs;  // where stock is left
     };
-    // Where passes were cut, in plan, so wide as they reach.
+    // Plan boxes of the passes, grown by the tool's radius.
     struct Box {
         Vec2d low;
         Vec2d high;

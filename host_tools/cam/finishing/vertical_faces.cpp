@@ -129,7 +129,7 @@ private:
 
     static Vec3d upward(Vec3d normal) { return normal.z < 0 ? -normal : normal; }
 
-    // Of the plane that all control points lie in, upward; none where they do not.
+    // Normal of the plane that all control points lie in, upward; none if they lie in no plane.
     std::optional<Vec3d> plane_normal() const
     {
         const std::vector<Vec3d>& points = surface_.points;
@@ -176,7 +176,7 @@ private:
         return out;
     }
 
-    // Whether the face leaves the facet along u more than along v. A wall that bulges along its height
+    // True if the face leaves the facet along u more than along v. A wall that bulges along its height
     // is off by that, however its normals turn along it.
     bool is_off_along_u(const FaceSamples& at, const Frame& frame) const
     {

@@ -10,7 +10,7 @@
 
 namespace cusp::finishing {
 
-// A map of heights decides most points. Where it only seems to cover a point, in steep grooves and in
+// A map of heights decides most points. If it only seems to cover a point, in steep grooves and in
 // gaps narrower than its squares, the model itself decides.
 class VisibilityFromAbove {
 public:
@@ -19,20 +19,20 @@ public:
                         const GougeFreePathFitter& path_fitter,
                         double pitch);
 
-    // Whether the point lies under some surface. Gaps narrower than 0.02 mm count as closed. True
+    // True if the point lies under some surface. Gaps narrower than 0.02 mm count as closed. True
     // is certain but for these; some hidden points are missed.
     //
     // normal  of the model there, a unit vector, upward
     bool is_hidden(Vec3d place, Vec3d normal) const;
 
-    // Whether some surface lies over the point, and by more than two squares of the map over all points
+    // True if some surface lies over the point, and by more than two squares of the map over all points
     // around. Gaps narrower than three squares count as closed.
     bool under_others(Vec3d place) const;
 
-    // Whether the surface of the point is found to lie over it as well.
+    // True if the surface of the point is found to lie over it as well.
     bool under_itself(Vec3d place, int surface) const;
 
-    // Whether silhouettes cross a part of a surface, given by its corners, well above it: then it
+    // True if silhouettes cross a part of a surface, given by its corners, well above it: then it
     // may be visible between hidden corners.
     bool silhouette_above(const std::array<Vec3d, 4>& corners) const;
 

@@ -25,7 +25,7 @@ std::vector<double> new_binomials(std::size_t n)
     return out;
 }
 
-// Of degree n.
+// Binomial coefficients of degree n.
 class Binomials {
 public:
     explicit Binomials(std::size_t n)
@@ -397,7 +397,7 @@ Weighted minus(const Weighted& a, const Weighted& b)
 
 }  // namespace
 
-// Of a quotient, by what its parts are at most.
+// Bound of a quotient, by the bounds of its parts.
 WallCell::Bends WallCell::bends(const Frame& frame) const
 {
     std::vector<Weighted> net;

@@ -30,7 +30,7 @@ public:
     // low, high  of the cell, in the patch's domain
     WallCell(const nurbs::BezierPatch& patch, Vec2d low, Vec2d high);
 
-    // Whether the unit normal's z is farther from 0 than `z` everywhere, to one side.
+    // True if the unit normal's z is farther from 0 than `z` everywhere, to one side.
     bool leans_more_than(double z) const;
 
     // Bounds of dot(point - from, way), mm.

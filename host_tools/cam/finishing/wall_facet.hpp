@@ -8,8 +8,8 @@
 
 namespace cusp::finishing {
 
-// Each vertical line crosses it once at most: its columns are single intervals. Of a curved face the
-// normal turns evenly along the facet.
+// Each vertical line crosses it once at most: its columns are single intervals. The normal of a
+// curved face turns evenly along the facet.
 struct WallFacet {
     std::vector<Vec3d> corners;  // at least 3, in one plane
     Vec3d normal;                // of that plane, unit, never downward

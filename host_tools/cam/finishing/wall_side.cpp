@@ -80,7 +80,7 @@ Vec3d WallSide::out_at(double along) const
     return out / norm(out);
 }
 
-// Of a ball that touches the wall there, and a little off.
+// Centre of a ball that touches the wall there, or lies a little off it.
 Vec3d WallSide::centre_beside(double along, double z) const
 {
     return point_at(along, z) + out_at(along) * (fitter_.offset_tool().radius + beside_);
@@ -217,7 +217,7 @@ void WallSide::KnownReach::add(Vec3d place, double wide, double lowest)
     next_ = (next_ + 1) % spots_.size();
 }
 
-// Whether no ball near the centre reaches the wall and rests. Balls half as large and half as large
+// True if no ball near the centre reaches the wall and rests. Balls half as large and half as large
 // again prove it far around.
 bool WallSide::is_unreached(Vec3d centre, double away, double top, KnownReach& known) const
 {
@@ -238,7 +238,7 @@ bool WallSide::is_unreached(Vec3d centre, double away, double top, KnownReach& k
     return false;
 }
 
-// Whether all that is reached between two places is proved to be cut. If the ball is clear somewhere
+// True if all that is reached between two places is proved to be cut. If the ball is clear somewhere
 // between, the smaller ball inside it is clear in the middle at that height; if the larger ball in
 // the middle rests on nothing, neither does any ball inside it.
 //
@@ -300,7 +300,7 @@ bool WallSide::is_cut_between(
     if (reached >= top) {
         return true;
     }
-    // Where the lower side of the facet crosses that height, all above the lower end counts.
+    // If the lower side of the facet crosses that height, all above the lower end counts.
     const double lowest =
         has_corner_between || reached < std::max(a.low, b.low) ? std::max(reached, low) : reached;
     a.low = b.low = lowest;
@@ -382,7 +382,7 @@ void WallSide::look_between(const Column& a,
     look_between(middle, b, places, out);
 }
 
-// Where to look first: at the corners; the ends of a triangle have no height.
+// The corners are looked at first; the ends of a triangle have no height.
 std::vector<double> WallSide::first_places(double step) const
 {
     std::vector<double> out;

@@ -13,26 +13,26 @@
 
 namespace cusp::finishing {
 
-// Columns of the wall are looked at one by one. What a move removes it removes all the way up, so of
-// a vertical column only its lowest place counts that a ball reaches which rests on the part: with
-// its side, from an axis the radius off the wall. A ball with nothing below it is not asked for: it
+// Columns of the wall are looked at one by one. A move removes stock all the way up. So only the
+// lowest place of a vertical column counts that a ball reaches while it rests on the part: with its
+// side, from an axis the radius off the wall. A ball with nothing below it is not asked for: it
 // would go down beside the part without end.
 //
-// The lower side of a wall that leans lies under its upper end. Of a column so much is looked at as that
-// overhangs by 2e-4 mm at most; the rest no ball reaches.
+// The lower side of a wall that leans lies under its upper end. Only the part of a column that
+// overhangs by at most 2e-4 mm is checked; no ball reaches the rest.
 //
 // Between two columns one move proves the wall, if it removes all four ends of what is reached.
-// Reach is bounded between columns: a ball smaller by their distance rests
-// no higher in the middle than the ball itself does anywhere between. Where that proves nothing, reach
-// is looked at a sixteenth of a stepover apart, and nothing is proved of it between. Where one
-// column is too high for the ball and the next has nothing below, it is looked for between them.
+// Reach is bounded between columns: a ball smaller by their distance rests no higher in the middle
+// than the ball itself does anywhere between. If that proves nothing, reach is sampled a sixteenth
+// of a stepover apart, and not proved between the samples. If one column is too high for the ball
+// and the next has nothing below it, the place between them is searched.
 class WallSide {
 public:
     // Places around which no ball reaches a wall below some height, or none that rests on something:
     // behind a wall, and beside the part. The last few that were found.
     class KnownReach {
     public:
-        // Whether no centre within `away` (mm, in plan) of the place is below `top`, or rests.
+        // True if no centre within `away` (mm, in plan) of the place is below `top`, or rests.
         bool holds(Vec3d place, double away, double top) const;
         // lowest  z of the lowest centre within `wide` of the place; kInfinite: none rests
         void add(Vec3d place, double wide, double lowest);
@@ -73,12 +73,12 @@ public:
 
     // The centre of a ball that touches the upper end of the wall at a place along it.
     Vec3d centre_at_top(double along) const;
-    // Whether something lies below a ball there that is smaller by a tenth: one that touches the wall
-    // takes a hundred times as long.
+    // True if something lies below a ball there that is smaller by a tenth; a ball that touches the
+    // wall takes a hundred times as long.
     bool rests(Vec3d centre) const;
 
 private:
-    // What is reached of a column.
+    // The reached part of a column.
     struct Column {
         double along;  // mm
         double low;    // z, mm

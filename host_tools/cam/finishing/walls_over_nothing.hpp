@@ -1,4 +1,4 @@
-// How much of the walls is free: a ball beside it would have nothing of the part below.
+// Length of free walls: a ball beside them would have nothing of the part below it.
 #pragma once
 
 #include <vector>

@@ -49,9 +49,10 @@ private:
     std::size_t done_{};
 };
 
-// Calls work() for each share and each half given, several at once: no thread has to wait long for the
-// last one. Returns what these calls return; the order does not depend on the number of threads, if
-// where a share is divided does not. Of several exceptions it throws the first in that order.
+// Calls work() for each share and each half given, several at once: no thread has to wait long for
+// the last one. Returns what these calls return; the order does not depend on the number of
+// threads, if where a share is divided does not. If several bodies throw, it rethrows the first
+// exception in that order.
 std::vector<ReachableHeight::Drops> work_in_shares(
     const std::vector<Share>& shares,
     const std::function<ReachableHeight::Drops(OpenShare&)>& work);

@@ -37,7 +37,7 @@ enum class LayerReach : std::uint8_t {
     kCut,     // the tip has been there, and nothing over the scallops is left in the cell
 };
 
-// How far the layer's passes reach, by cell.
+// The reach of the layer's passes, by cell.
 std::vector<LayerReach> reach_of(const AdaptiveLayer& layer,
                                  const AdaptiveLayers& layers,
                                  const PocketSpace& pocket);

@@ -41,7 +41,7 @@ constexpr double kProven = -1e-6;
 // Shorter segments are ignored, mm.
 constexpr double kNoLength = 1e-9;
 
-// How far moves may be beside the straight line between corners, mm: rounding only.
+// Distance allowed between moves and the straight line between corners, mm: rounding only.
 constexpr double kStraight = 1e-6;
 
 // Shares of an arc's tolerance by which the floor may rise above the chord between two stations. The

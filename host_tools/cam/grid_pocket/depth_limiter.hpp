@@ -32,7 +32,7 @@ public:
                 const std::vector<Vec2d>& corners,
                 const toolpath::ToolpathWriter::HelixFloor& circle);
 
-    // Whether following the corners would cut too deep anywhere.
+    // True if following the corners would cut too deep anywhere.
     bool too_deep(const ClPathFitter& floor, const std::vector<Vec2d>& corners);
 
     // Tracks the depth of all moves so far.
@@ -76,7 +76,7 @@ private:
 
     bool is_limited() const { return depth_.max_depth().has_value(); }
     std::vector<Sample> deep_samples(const ClPathFitter& floor, const SampleRow& row) const;
-    // Where a tip at the lowest height over the floor would cut too deep.
+    // Places at which a tip at the lowest height over the floor would cut too deep.
     std::vector<Stretch> deep_stretches(const ClPathFitter& floor, Vec2d a, Vec2d b) const;
     double level_at_foot(const ClPathFitter& floor, Vec2d at, double low, Vec2d higher) const;
     void follow_segment(ClPathFitter& floor,

@@ -31,7 +31,7 @@ public:
     double left_in(Cell c, int& evaluations);
 
 private:
-    // Of one square between cells.
+    // Heights of one square between cells.
     struct Square {
         std::vector<Vec3d> tips;    // on its tracks to the east and north of its cell, and on walls
         std::vector<Vec3d> places;  // where the axis may be

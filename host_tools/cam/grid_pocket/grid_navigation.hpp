@@ -29,9 +29,9 @@ struct Navigation {
 };
 
 struct NavigationRules {
-    // Whether a cell is to be visited.
+    // True if a cell is to be visited.
     std::function<bool(Cell)> free;
-    // Whether the cutter can move straight between two neighbours, or between any two places.
+    // True if the cutter can move straight between two neighbours, or between any two places.
     std::function<bool(Cell, Cell)> clear_step;
     std::function<bool(Vec2d, Vec2d)> clear_link;
     // Places beside corners of the walls: good bends of links.
@@ -43,7 +43,7 @@ struct NavigationRules {
 // direction of travel. In a dead end the paper goes back along its path. This implementation goes
 // straight to a free cell beside visited ones, or by a link with few bends. Both choices of that
 // cell, the nearest and the nearest with a straight link, are tried for the whole pocket, and the
-// one with fewer bends is kept. Where bends would still exceed a hundredth of the steps, the links
+// one with fewer bends is kept. If bends would still exceed a hundredth of the steps, the links
 // with the most bends become lifts.
 //
 // Cost: linear in the cells, except for the searches in dead ends, which end near the nearest free

@@ -74,17 +74,17 @@ private:
     // Cuts the free cells as low as plane and floor allow.
     void cut_cells(double plane, const std::function<bool(Cell)>& free, ClPathFitter& floor);
     void count(const Navigation& navigation);
-    // Whether the steps before and after `i` have the same direction, one cell each.
+    // True if the steps before and after `i` have the same direction, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);
     // Returns the number of moves that cut.
     std::size_t follow_navigation(const Navigation& navigation, ClPathFitter& floor);
     void follow(ClPathFitter& floor, const std::vector<Vec2d>& corners);
     void enter(ClPathFitter& floor, const std::vector<Vec2d>& corners, double stock_top, bool link);
     void begin_run(const std::vector<Vec2d>& corners, double stock_top, ClPathFitter& floor);
-    // Whether a straight link at the height of the layer above reaches the place. That layer has
+    // True if a straight link at the height of the layer above reaches the place. That layer has
     // cut all that the floor leaves free, except for scallops between tracks.
     bool can_link(Vec2d to) const;
-    // Whether the layer above has visited every cell below the move.
+    // True if the layer above has visited every cell below the move.
     bool cut_along(Vec3d from, Vec3d to) const;
     // The pass along the wall, from its nearest point on.
     offset::Contour wall_loop(const offset::Contour& contour) const;

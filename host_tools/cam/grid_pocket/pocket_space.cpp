@@ -46,8 +46,8 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     }
 }
 
-// How much higher the stock is beside a new track between cells than beside a repeated one, since
-// the tool was at the cells only.
+// Extra height of the stock beside a new track between cells, compared with a repeated one, since
+// the tool was only at the cells.
 double ridge_over_tracks(const Operation& operation)
 {
     const double corner = operation.tool.corner_radius;

@@ -41,7 +41,7 @@ struct PocketSpace {
     // The point of the wall pass nearest to a point. Precondition: the pass exists.
     Vec2d on_wall_pass(Vec2d p) const;
 
-    // Whether the axis may move straight from a to b.
+    // True if the axis may move straight from a to b.
     bool clear(Vec2d a, Vec2d b) const;
     bool clear(Cell a, Cell b) const { return clear(grid.centre(a), grid.centre(b)); }
 

@@ -142,7 +142,7 @@ std::vector<Side> joined(std::vector<Side> sides)
 }
 
 // For every side, the next one in its loop. At each y, the corners in order of x are alternately
-// the left and right ends of horizontal sides. Where parts touch in a point, two corners are equal;
+// the left and right ends of horizontal sides. If parts touch in a point, two corners are equal;
 // this order makes both parts one loop.
 std::vector<std::size_t> followers(const std::vector<Side>& sides)
 {

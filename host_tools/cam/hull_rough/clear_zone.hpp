@@ -24,16 +24,16 @@ public:
     // grown by the radius, is the union of the grown boxes.
     std::vector<Interval> on_line(double y) const;
 
-    // Whether the straight move of the axis from a to b stays in the zone. Exact.
+    // True if the straight move of the axis from a to b stays in the zone. Exact.
     bool clear(Vec2d a, Vec2d b) const { return distance_holds(a, b, radius_); }
 
-    // Whether it does for a cutter smaller by `shrink` mm.
+    // True if it does for a cutter smaller by `shrink` mm.
     bool nearly_clear(Vec2d a, Vec2d b, double shrink) const
     {
         return distance_holds(a, b, radius_ - shrink);
     }
 
-    // Whether a cutter grown by `extra` mm touches no box at the point, and the field holds it.
+    // True if a cutter grown by `extra` mm touches no box at the point, and the field holds it.
     bool room(Vec2d point, double extra) const;
 
     const Rectangle& field() const { return field_; }

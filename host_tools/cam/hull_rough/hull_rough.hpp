@@ -24,8 +24,8 @@
 namespace cusp::hull_rough {
 
 // Plans the operation: one result for each run of layers with the same cutter, from the top down.
-// Reports layers, patches, boxes, islands and the time that the choice of cutters saves. Where
-// nothing is to be roughed: one result without moves.
+// Reports layers, patches, boxes, islands and the time that the choice of cutters saves. If nothing
+// is to be roughed, it returns one result without moves.
 //
 // Errors: InputError where a depth limit, the overlap, the output form or the cutters cannot be
 // used. Source: Chuang & Pan, "Rough cut tool path planning for B-spline surfaces using convex hull

@@ -212,7 +212,7 @@ double area_outside(const Rectangle& stock, const Rectangle& field, double radiu
     return width * depth - corners - (stock.x_max - stock.x_min) * (stock.y_max - stock.y_min);
 }
 
-// Whether the whole path stays in the zone, to the tolerance.
+// True if the whole path stays in the zone, to the tolerance.
 bool keeps_clear(const std::vector<Edge>& path, const ClearZone& zone, double tolerance)
 {
     return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {

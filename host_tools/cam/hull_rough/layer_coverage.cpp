@@ -134,7 +134,7 @@ private:
 
     bool clears(std::size_t edge, Vec2d p) const { return distance_to(edges_[edge], p) <= reach_; }
 
-    // Whether the two runs together clear the segment from a to b.
+    // True if the two runs together clear the segment from a to b.
     bool both_clear(std::size_t first, std::size_t second, Vec2d a, Vec2d b) const
     {
         if (!clears(first, a)) {

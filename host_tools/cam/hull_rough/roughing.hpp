@@ -50,7 +50,7 @@ struct Roughing {
         return std::min(thickness(layer) / 4, std::max(most_depth - next, most_depth / 10));
     }
 
-    // Whether some tool has a corner radius.
+    // True if some tool has a corner radius.
     bool round() const
     {
         return std::any_of(tools.begin(), tools.end(),

@@ -136,7 +136,7 @@ RestPath rest_of_runs(const SweptStock& stock,
     return rest;
 }
 
-// Of a drilling cycle: each hole as a whole, from its rapid over the place on.
+// A drilling cycle is divided into whole holes, each from its rapid over the place on.
 RestPath rest_of_holes(const SweptStock& stock,
                        const Job& job,
                        const RestTolerance& tolerance,

@@ -7,8 +7,8 @@
 //     planned.stats.rest->removed_mm;                       // of feed moves; the rest is kept_mm
 //
 // Independent of strategies: a stretch whose tool, reduced by the tolerance all round, provably
-// meets no stock is left out. What is kept begins and ends a quarter of the tool's diameter before
-// and after stock, in air.
+// meets no stock is left out. A kept stretch begins and ends in air, a quarter of the tool's
+// diameter before and after stock.
 #pragma once
 
 #include "host_tools/cam/rest_machining/swept_stock.hpp"

@@ -28,7 +28,7 @@ constexpr double kFreeBeside = 0.1;   // mm: free beside a tool that descends by
 constexpr double kTouch = 1e-3;       // mm: that a link may touch
 constexpr double kOverGround = 0.02;  // mm
 constexpr double kSecondsPerMinute = 60;
-// Of the controller's default machine, as in toolpath_measure.hpp.
+// Speeds of the controller's default machine, as in toolpath_measure.hpp.
 constexpr double kRapidInPlan = 100;  // mm/s
 constexpr double kRapidAxial = 50;
 constexpr double kStop = 0.1;  // s

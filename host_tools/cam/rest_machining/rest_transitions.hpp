@@ -49,7 +49,7 @@ private:
     toolpath::ToolpathWriter writer_;
     SweptStock cut_;  // what was cut so far is taken from it
 
-    // Whether a rapid may go down to z: in the earlier stock, and in what was cut of it so far.
+    // True if a rapid may go down to z: in the earlier stock, and in what was cut of it so far.
     bool is_open_at_first(Vec2d place, double z) const;
     bool is_open(Vec2d place, double z) const;
     bool is_link_clear(Vec3d from, Vec3d to) const;

@@ -170,7 +170,7 @@ std::int32_t SweptStock::children_of(std::int32_t cell, const Square& square) co
     return cells_[static_cast<std::size_t>(cell)].children;
 }
 
-// Whether one sweep, or the stock's top, is nowhere in the square above the plane.
+// True if one sweep, or the stock's top, is nowhere in the square above the plane.
 bool SweptStock::is_covered(std::int32_t cell,
                             const Square& square,
                             const SupportPlane& plane) const

@@ -32,7 +32,7 @@ public:
     // z of the stock at a point.
     double height(Vec2d p) const;
 
-    // Whether a sweep provably meets no stock: each cell under it is under one earlier sweep, or
+    // True if a sweep provably meets no stock: each cell under it is under one earlier sweep, or
     // below the tool by its tangent plane. False also where the proof takes too long or would need cells
     // under 0.002 mm.
     bool is_clear(const ToolSweep& tool) const;

@@ -47,7 +47,7 @@ public:
     // mm: from the tool's axis to p, in plan.
     double distance(Vec2d p) const;
 
-    // Whether the other sweep is provably inside this one. False where the proof fails, too.
+    // True if the other sweep is provably inside this one. False where the proof fails, too.
     bool contains(const ToolSweep& other) const;
 
     double radius() const { return end_.radius; }

@@ -19,7 +19,7 @@ public:
     void set_capacity(std::size_t capacity) { capacity_ = capacity; }
     std::size_t capacity() const { return capacity_; }
 
-    // Whether a line of `size` bytes, line end included, may be sent. A line longer than the buffer
+    // True if a line of `size` bytes, line end included, may be sent. A line longer than the buffer
     // may be sent alone.
     bool fits(std::size_t size) const { return lines_.empty() || used_ + size <= capacity_; }
 

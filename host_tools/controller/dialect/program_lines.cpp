@@ -12,7 +12,7 @@ constexpr std::size_t kMostDigits = 7;  // of a line number in Grbl
 constexpr std::uint64_t kMostNumber = 9'999'999;
 constexpr std::size_t kLongestSent = 255;  // that the controller accepts
 
-// Of tapes and of other systems' files: no controller reads them.
+// Marks of tapes and of other systems' files: no controller reads them.
 bool is_control(char character)
 {
     return static_cast<unsigned char>(character) < ' ' || character == '\x7f';

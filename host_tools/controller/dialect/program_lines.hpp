@@ -23,7 +23,7 @@ std::string bare_line(std::string_view line);
 // words  as bare_line()
 std::optional<std::size_t> realtime_byte(std::string_view words);
 
-// Whether the line ends the program when it is run: M2 or M30. Wrong lines are not looked for.
+// True if the line ends the program when it is run: M2 or M30. Wrong lines are not looked for.
 //
 // words  as bare_line()
 bool ends_program(std::string_view words);
@@ -31,7 +31,7 @@ bool ends_program(std::string_view words);
 // Finds the % that ends a program: the second, where the first line is one.
 class EndLine {
 public:
-    // For every line of the file in order. Whether the program has ended before this line.
+    // For every line of the file in order. True if the program has ended before this line.
     bool at(std::string_view line);
 
 private:

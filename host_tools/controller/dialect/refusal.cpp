@@ -100,7 +100,7 @@ int error_of(std::string_view line)
     return status ? 0 : static_cast<int>(status.error());
 }
 
-// Whether a word with this letter can itself be unused: G10 accepts L1, 2, 10, 11 and 20, and no R.
+// True if a word with this letter can itself be unused: G10 accepts L1, 2, 10, 11 and 20, and no R.
 bool may_be_unused(int code, char letter)
 {
     return code == kUnsupported ? letter == 'L' || letter == 'R' : letter != 'G' && letter != 'M';

@@ -19,9 +19,9 @@ struct StockGrblRefusal {
     std::string word;  // the word that is wrong; empty where no single one is
 };
 
-// Whether Grbl's reader refuses the line for its words: letters, numbers, groups, repeated and
-// unused words, its own limits. What depends on the state of the machine, such as a feed that is
-// not set, is refused with the same numbers by our own interpreter.
+// True if Grbl's reader refuses the line for its words: letters, numbers, groups, repeated and
+// unused words, its own limits. Errors that depend on the state of the machine, such as a feed that
+// is not set, are found with the same numbers by our own interpreter.
 //
 //   line  as the program has it
 StockGrblRefusal stock_grbl_refusal(std::string_view line);

@@ -89,7 +89,7 @@ public:
     }
 
     void read(std::string_view text);
-    // Whether the line read last ends the program.
+    // True if the line read last ends the program.
     bool ended() const { return ended_; }
     // rest  of the program, after its end: as it is
     FittedProgram finish(std::string_view rest);

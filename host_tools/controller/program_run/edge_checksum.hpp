@@ -33,7 +33,7 @@ private:
     std::uint64_t start_;
     PulseLines levels_;
     std::uint32_t remainder_{0xFFFFFFFFU};
-    // Of a frame: the tick of each edge, with what the edge before it leaves.
+    // Adds a frame: the tick of each edge, with what the edge before it leaves.
     std::array<std::uint32_t, kLinesInOrder.size() * kPulseTicksPerFrame> digits_{};
 };
 

@@ -76,7 +76,7 @@ PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
     const double turns = std::ceil(arc.sweep / (2.0 * kPi));
     const double middle =
         std::clamp(std::floor(nearest_t * arc.sweep / (2.0 * kPi)), 0.0, turns - 1.0);
-    // Where radius or height change, the nearest place is turned away from the point's own angle, and
+    // If radius or height change, the nearest place is turned away from the point's own angle, and
     // may lie on the arc where that angle is beyond its end: by up to a quarter turn it counts.
     const double quarter = 0.5 * kPi / arc.sweep;
     for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {

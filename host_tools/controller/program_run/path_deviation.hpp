@@ -21,7 +21,7 @@ struct PathPlace {
 // height and its neighbours.
 PathPlace nearest_place(const path::Move& move, Position point);
 
-// Follows the set points along the path. Where the path approaches itself, only the stretch around
+// Follows the set points along the path. If the path approaches itself, only the stretch around
 // the position of the last set point counts.
 class PathDeviation {
 public:

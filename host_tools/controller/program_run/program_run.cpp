@@ -235,7 +235,7 @@ private:
         return false;
     }
 
-    // What a controller would take for a command of the operator is not sent.
+    // A line that a controller would take for a command of the operator is not sent.
     void refuse_byte(const std::string& line, const std::string& byte)
     {
         constexpr int kNoLetter = 1;

@@ -33,7 +33,7 @@ struct ScriptedByte {
     std::uint8_t byte;
 };
 
-// Where the machine is at the end of a servo tick.
+// Position of the machine at the end of a servo tick.
 struct SetPoint {
     std::uint64_t microseconds;  // on the clock of the pulse trace
     Position at;
@@ -57,14 +57,14 @@ struct RunOptions {
     std::optional<double> probe_z;
     // Bits per second of the serial line; 0: lines take no time.
     std::uint32_t bits_per_second{0};
-    // Whether set points are measured: for seconds() and the result's duration_s, total_s, end,
+    // True if set points are measured: for seconds() and the result's duration_s, total_s, end,
     // length_mm, max_velocity, max_acceleration and max_jerk.
     bool measures_motion{true};
-    // Whether the deviation from the programmed path is measured.
+    // True if the deviation from the programmed path is measured.
     bool measures_deviation{true};
     // Receives the path for a measurement elsewhere.
     PathListener path;
-    // Whether the edges of the pulses are summed.
+    // True if the edges of the pulses are summed.
     bool sums_edges{true};
     // Called once, when the machine has homed and is where the program starts.
     std::function<void(hal::SimulatedBoard&)> started;

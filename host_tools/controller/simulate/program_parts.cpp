@@ -44,7 +44,7 @@ bool has_motion_word(std::string_view words)
            (words[2] < '0' || words[2] > '9') && words[2] != '.';
 }
 
-// Whether head_of() restores the state.
+// True if head_of() restores the state.
 bool can_begin(const Before& before, std::string_view words)
 {
     const ModalState& modal = before.modal;
@@ -98,7 +98,7 @@ std::string head_of(const Before& before)
     return head;
 }
 
-// What a line does, as far as the choice of parts depends on it.
+// The effect of a line, as far as the choice of parts depends on it.
 struct LineSummary {
     double seconds{0};
     bool moves{false};

@@ -7,7 +7,7 @@
 //     }
 //
 // A part begins with the tool at rest, a stretch before the lines that it is counted for: by then
-// the tool moves as in the whole program. Where parts begin depends on the program alone.
+// the tool moves as in the whole program. The places where parts begin depend only on the program.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,7 @@ void CheckedWindow::add(std::uint64_t program_line, std::string_view text)
     ++next_number_;
 }
 
-// Whether lines are sent but no further answer to them is due.
+// True if lines are sent but no further answer to them is due.
 bool CheckedWindow::wants_to_ask(Clock::time_point now) const
 {
     return sent_ > 0 && !draining_ && (under_way_ == 0 || now - quiet_since_ >= patience_);

@@ -37,7 +37,7 @@ public:
 
     void set_capacity(std::size_t capacity) { capacity_ = room_ = capacity / 2; }
 
-    // Whether another line of the program may be added.
+    // True if another line of the program may be added.
     bool has_room() const { return lines_.size() < kMostLines; }
     void add(std::uint64_t program_line, std::string_view text);
 

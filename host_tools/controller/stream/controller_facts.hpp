@@ -22,7 +22,7 @@ public:
     // Unknown settings are left out; settings that the controller does not list have their
     // defaults.
     const machine::Settings& settings() const { return settings_; }
-    // Whether `$$` was answered.
+    // True if `$$` was answered.
     bool has_settings() const { return has_settings_; }
 
     // Words of `$G`: "G0 G54 G17 ...".

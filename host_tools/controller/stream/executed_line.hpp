@@ -1,10 +1,10 @@
 // ExecutedLine: the line that the tool has certainly reached, from reports and answers.
 //
 // The Ln field of a report is the line that the path has reached; the tool follows within half a
-// second, the longest filters included. So the newest line counts that was reported at least half a
-// second before the controller's last output. A controller whose reports have no Ln has executed as
-// many lines as it has answered beyond the blocks of its planner, since each motion takes at least
-// one block.
+// second, the longest filters included. Thus the newest line counts that was reported at least half
+// a second before the controller's last output. A controller whose reports have no Ln has executed
+// as many lines as it has answered beyond the blocks of its planner, since each motion takes at
+// least one block.
 #pragma once
 
 #include <chrono>

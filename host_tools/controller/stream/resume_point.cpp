@@ -22,7 +22,7 @@ using gcode::Motion;
 
 bool is_curve(Motion motion) { return motion == Motion::kUniformNurbs || motion == Motion::kNurbs; }
 
-// Whether a line can be the first after this state.
+// True if a line can be the first after this state.
 bool can_be_first(const gcode::ModalState& before, const std::string& text)
 {
     gcode::Command command;

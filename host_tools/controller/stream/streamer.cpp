@@ -21,7 +21,7 @@ constexpr char kSoftReset = '\x18';
 constexpr milliseconds kHoldLimit{10'000};
 constexpr milliseconds kResetLimit{3000};
 
-// Of the G4 of a line; 0: it has none.
+// Seconds of the G4 of a line; 0 if it has none.
 milliseconds dwell_of(const std::string& words)
 {
     constexpr double kLongest = 1e6;  // s

@@ -30,7 +30,7 @@
 
 namespace cusp::stream {
 
-// How to resume an interrupted program.
+// The way to resume an interrupted program.
 struct StreamResume {
     TransferRecord record;
     std::uint64_t line{0};  // of the file, the first to send

@@ -14,7 +14,7 @@ namespace cusp::drop_cutter {
 // A ball that cuts down to exactly a point has its centre on a half sphere around that point: at
 // the point plus the radius times a unit vector that does not point down. A contact blocks the
 // vectors from which the ball, or its shank, would cut into it. Those blocked by the ball form a
-// cap of the sphere. So a contact that blocks the corners of a spherical triangle (its sides are
+// cap of the sphere. Thus a contact that blocks the corners of a spherical triangle (its sides are
 // great circles) blocks all of it, however large it is.
 class ApproachDirections {
 public:
@@ -33,7 +33,7 @@ public:
     static std::array<Triangle, 4> quarters(const Triangle& triangle);
     static Vec3d middle(const Triangle& triangle);
 
-    // Whether the contact blocks the whole triangle.
+    // True if the contact blocks the whole triangle.
     bool blocks(std::size_t contact, const Triangle& triangle) const;
 
     // A contact that blocks the whole triangle, if there is one.

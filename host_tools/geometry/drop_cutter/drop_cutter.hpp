@@ -75,7 +75,7 @@ public:
     // beside the straight line the tool may be.
     double move_clearance(Vec3d a, Vec3d b, double margin = 0.0) const;
 
-    // Whether the untrimmed part of some surface lies straight above or below (x, y), to a tenth of
+    // True if the untrimmed part of some surface lies straight above or below (x, y), to a tenth of
     // the tool radius.
     bool covers(Vec2d at) const;
 
@@ -101,7 +101,8 @@ public:
     static Section section(const CcPoint& contact, Vec2d direction);
 
     const toolpath::Tool& tool() const { return tool_; }
-    // How many pieces of the surfaces queries have halved, again ones included: what they cost.
+    // Number of pieces of the surfaces that queries have halved, repeated ones included: a measure
+    // of their cost.
     std::size_t halvings() const;
     // The memory of the halves that are kept. A query that finds more than about 20 MB forgets them.
     std::size_t kept_bytes() const;

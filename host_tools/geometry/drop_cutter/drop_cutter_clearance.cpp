@@ -59,8 +59,8 @@ double above_edge(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 
 }  // namespace
 
-// How far the piece's box lies beside the line through a and b, in plan, mm. For a long diagonal
-// move this bound is better than that of the move's box.
+// Distance in plan of the piece's box from the line through a and b, mm. For a long diagonal move
+// this bound is better than that of the move's box.
 double DropCutter::State::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const
 {
     const Vec2d move{b.x - a.x, b.y - a.y};
@@ -75,7 +75,7 @@ double DropCutter::State::beside_line(const Piece& piece, const Vec3d& a, const 
     return std::max(0.0, std::abs(dot(side, middle)) - half);
 }
 
-// Whether the space below a piece counts as solid. A tool could otherwise pass below the border of
+// True if the space below a piece counts as solid. A tool could otherwise pass below the border of
 // a surface. Small pieces of vertical walls need no such space.
 bool DropCutter::State::overhangs(const Piece& piece) const
 {

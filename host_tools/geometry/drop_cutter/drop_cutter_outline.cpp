@@ -19,7 +19,7 @@ constexpr double kEven = 1e-9;  // of a unit vector: along an axis
 
 }  // namespace
 
-// Cuts each outer line at the lines of the other sides, a nanometre outside. Where a line lies
+// Cuts each outer line at the lines of the other sides, a nanometre outside. If a line lies
 // outside the others its end is less than its begin.
 void DropCutter::State::end_sides(Outline& outline)
 {

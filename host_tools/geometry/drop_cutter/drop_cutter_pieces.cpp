@@ -13,7 +13,7 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as z(x, y)
-// What is kept of halves.
+// The kept halves.
 constexpr std::size_t kMostHalves = 40000;
 constexpr std::size_t kMostBytes = 20'000'000;
 constexpr std::size_t kMostSpare = 16;  // rooms kept

@@ -22,8 +22,8 @@ double square_of(double x) { return x * x; }
 
 // The highest contact of the tool with the edges of a rectangle cut out of a plane. None where the
 // tool misses the edges, or touches the plane inside the rectangle: `reach` slopes from its axis.
-// The tip's height is a concave function of the contact. So where its maximum over the plane lies
-// outside the rectangle, its maximum over the rectangle is on an edge that faces it.
+// The tip's height is a concave function of the contact. If its maximum over the plane lies outside
+// the rectangle, its maximum over the rectangle is on an edge that faces it.
 //
 //   here  height of the plane at the tool's axis
 std::optional<DropCutter::State::PlaneContact> DropCutter::State::on_edges(

@@ -53,7 +53,7 @@ struct DropCutter::State {
         bool outlined;        // it fills its outline, or without one its box, to all sides
         double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: its ends along (1, 0, g.x) and across that in the plane,
-        // both as unit vectors. Of a wall, which is too steep for z(x, y): its ends along and across
+        // both as unit vectors. Ends of a wall, which is too steep for z(x, y), along and across
         // `uphill` in plan.
         std::array<double, 4> lateral;
         Vec2d uphill;       // of a wall: the unit vector in plan along which it rises; 0: not known
@@ -77,7 +77,7 @@ struct DropCutter::State {
             return {across, kUnbounded, -kUnbounded, kUnbounded, -kUnbounded};
         }
     };
-    // Where a piece ends, if its box extends beyond it.
+    // Ends of a piece whose box extends beyond it.
     struct Outline {
         // The fifth is the line along the edge that cuts the piece. A sliver has only four, along
         // its edge and across.
@@ -159,7 +159,7 @@ struct DropCutter::State {
     {
         return std::max({piece.x1 - piece.x0, piece.y1 - piece.y0, piece.z1 - piece.z0});
     }
-    // How far x lies outside [low, high].
+    // Distance of x from [low, high].
     static double excess(double low, double high, double x)
     {
         return std::max(0.0, std::max(low - x, x - high));
@@ -218,7 +218,7 @@ struct DropCutter::State {
         std::vector<double> weights;
         std::vector<Outline> outlines;
     };
-    // What queries do not change, shared by the cutters of several threads.
+    // The part that queries do not change, shared by the cutters of several threads.
     struct Floor {
         std::vector<nurbs::Surface> surfaces;
         std::vector<part_model::TrimRegion> trims;  // of each surface; empty where none is trimmed
@@ -250,7 +250,7 @@ struct DropCutter::State {
     std::vector<Vec3d> nets_;           // control points; times their weights where those differ
     std::vector<double> weights_;       // parallel to nets_, up to the last patch with weights
     std::vector<Outline> outlines_{1};  // the first one means none
-    // Of the piece being measured.
+    // State of the piece being measured.
     std::vector<Vec3d> unweighted_;  // control points
     part_model::TrimRegion::Remnant in_domain_;
     Remnant remnant_;

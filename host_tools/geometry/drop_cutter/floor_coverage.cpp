@@ -35,7 +35,7 @@ std::optional<Vec2d> uncovered_inside(const Region2d& region,
     return std::nullopt;
 }
 
-// Whether two opposite sides of the surface meet.
+// True if two opposite sides of the surface meet.
 bool closes(const Surface& s)
 {
     constexpr double kSame = 1e-3;  // mm

@@ -1,4 +1,4 @@
-// Whether a floor lies below a whole region.
+// True if a floor lies below a whole region.
 #pragma once
 
 #include <optional>

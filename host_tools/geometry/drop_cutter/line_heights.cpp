@@ -1,4 +1,4 @@
-// Where bounds from both sides meet, the distance is greatest.
+// The distance is greatest where bounds from both sides meet.
 #include "host_tools/geometry/drop_cutter/line_heights.hpp"
 
 #include <algorithm>

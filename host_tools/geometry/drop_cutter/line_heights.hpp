@@ -1,5 +1,5 @@
-// How far heights along a line may be from the chord between two of them: bounds from five heights and a bound of
-// curvature or of slope (surface_bounds.hpp).
+// Bounds the distance of heights along a line from the chord between two of them: bounds from five
+// heights and a bound of curvature or of slope (surface_bounds.hpp).
 #pragma once
 
 #include <array>

@@ -149,7 +149,7 @@ std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Ve
     return out;
 }
 
-// How low a tool resting on the known contacts cuts over the point: a lower bound.
+// Lower bound of the height at which a tool resting on the known contacts cuts over the point.
 double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
 {
     double centre = -kInfinite;
@@ -162,7 +162,7 @@ double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
     return height_under({at.x, at.y, centre}, place);
 }
 
-// Whether lowest_known() is `height` or more.
+// True if lowest_known() is `height` or more.
 //
 // first  number of the contact to ask first: the one that decided last usually decides again
 bool LowestPositionSearch::known_blocks(double height,
@@ -312,9 +312,9 @@ void LowestPositionSearch::store(Vec3d place, Proof proof)
 }
 
 // A position of the ball lower than `height`, if one is found. A descent from a few starts misses
-// narrow gaps between cliffs. So directions that no contact blocks are divided into four, large
-// parts first, and the ball is dropped at their middles. The blocked parts are kept for the next
-// point nearby, where usually the same contacts block the same directions.
+// narrow gaps between cliffs. Directions that no contact blocks are divided into four, large parts
+// first, and the ball is dropped at their middles. The blocked parts are kept for the next point
+// nearby, where usually the same contacts block the same directions.
 //
 // exact  drops are made exactly at the middles, not at the nearest node of a grid
 //

@@ -66,14 +66,15 @@ public:
 
     DroppedTool drop_at(double x, double y) const { return drop_(x, y); }
 
-    // How low the tool with this centre cuts over the point: z, mm; kInfinite where it misses it.
+    // Height at which the tool with this centre cuts over the point: z, mm; kInfinite if it misses
+    // it.
     double height_under(Vec3d centre, Vec3d place) const;
     double pitch() const { return pitch_; }
 
     // Drops of other searches with the same grid and tool, which this one does not make again. They
     // must live, and not change, while this one searches.
     void use(const Nodes* known) { known_ = known; }
-    // As if this one had made these drops. To be called before it searches.
+    // Seeds the cache with drops made elsewhere. To be called before it searches.
     void begin_with(Nodes nodes);
     const Nodes& nodes() const { return nodes_; }
     // The drops made since the last call; not those that it began with.

@@ -1,12 +1,14 @@
-// How steep and how bent a floor is over a box in plan: bounds proved by the control points of its surfaces.
+// Slope and bend of a floor over a box in plan: bounds proved by the control points of its
+// surfaces.
 //
 //     const SurfaceBounds floor{surfaces};
 //     const SurfaceBounds::Bounds here = floor.over({0, 0}, {2, 1});
 //     here.down;  // 1/mm: z + down / 2 * (x^2 + y^2) is convex there, where `edges` is false
 //
-// Use: a tool's height over a floor is the maximum of the floor's heights under it, each less the tool's own. A
-// maximum of functions that become convex by the same parabola does so too. So it lies above the lines through
-// neighbouring places and below the chords between places, but for that parabola.
+// Use: a tool's height over a floor is the maximum of the floor's heights under it, each less the
+// tool's own. A maximum of functions that become convex by the same parabola does so too. Thus it
+// lies above the lines through neighbouring places and below the chords between places, but for
+// that parabola.
 //
 // Method: bend_bounds() of cells that are halved to about the size of the box.
 #pragma once
@@ -39,7 +41,7 @@ private:
     struct Patch {
         std::size_t surface;
         std::unique_ptr<part_model::BezierCell> cell;
-        // Whether there is an edge or a crease at its first and last u, first and last v.
+        // True if there is an edge or a crease at its first and last u, first and last v.
         std::array<bool, 4> ends;
     };
     void add(const part_model::BezierCell& cell,

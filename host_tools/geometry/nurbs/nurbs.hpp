@@ -86,7 +86,7 @@ struct SurfacePoint {
 Vec3d point_at(const Surface& surface, double u, double v);
 SurfacePoint derivatives_at(const Surface& surface, double u, double v);
 
-// Whether a first derivative, du or dv, is zero but for rounding: at a pole, where a side of the
+// True if a first derivative, du or dv, is zero but for rounding: at a pole, where a side of the
 // surface degenerates to a point. Near a pole the derivative is duv times the distance from it.
 bool at_pole(Vec3d derivative, const SurfacePoint& s);
 

@@ -1,4 +1,4 @@
-// How steep and how bent a piece of a surface is as a height z(x, y): proved by its control points.
+// Slope and bend of a piece of a surface as a height z(x, y): bounds proved by its control points.
 #pragma once
 
 #include "host_tools/geometry/nurbs/plan_vector.hpp"

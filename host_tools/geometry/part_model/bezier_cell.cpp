@@ -388,7 +388,7 @@ SurfacePoint BezierCell::at_any_degree(double s, double t) const
 
 bool BezierCell::is_halved_across_u() const
 {
-    // Where a derivative falls to nothing towards a side, as beside coincident control points, no
+    // If a derivative falls to nothing towards a side, as beside coincident control points, no
     // convexity is proved before the cell is far narrower than long: 1e3 times here. Halved by length
     // alone, such a strip took 50 000 cells a query.
     constexpr double kNarrow = 1e3;

@@ -71,7 +71,7 @@ public:
     double u_end() const { return u_end_; }
     double v_begin() const { return v_begin_; }
     double v_end() const { return v_end_; }
-    // Whether the cell reaches the patch's first or last u, or v.
+    // True if the cell reaches the patch's first or last u, or v.
     bool ends_in_u() const { return first_u_ || last_u_; }
     bool ends_in_v() const { return first_v_ || last_v_; }
 

@@ -11,7 +11,7 @@ namespace cusp::part_model {
 // nearly parallel, or where the cell bends too much.
 BezierCell::Surroundings find_surroundings(const PartModel::State& state, const BezierCell& cell);
 
-// Whether the whole cell lies within the domain of `box`.
+// True if the whole cell lies within the domain of `box`.
 bool lies_in(const BezierCell& cell, const BezierCell::Surroundings& box);
 
 }  // namespace cusp::part_model

@@ -46,7 +46,7 @@ public:
     // The lower node of the cell that holds a point.
     std::size_t cell_of(Vec2d place) const;
 
-    // Whether a point lies in the cell, or in a neighbour that the contour does not seem to cross.
+    // True if a point lies in the cell, or in a neighbour that the contour does not seem to cross.
     bool may_reach(std::size_t cell, Vec2d place) const;
 
 private:

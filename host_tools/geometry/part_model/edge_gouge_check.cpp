@@ -47,8 +47,8 @@ Vec3d vector_to_core(Vec3d centre, Vec3d a, Vec3d b)
     return way;
 }
 
-// How low a ball whose centre moves straight from a to b reaches at the point p in plan; kInfinite
-// where it misses p.
+// Lowest height that a ball reaches at the point p in plan while its centre moves straight from a
+// to b; kInfinite if it misses p.
 double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
 {
     const double length = std::hypot(b.x - a.x, b.y - a.y);

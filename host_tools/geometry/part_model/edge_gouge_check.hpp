@@ -37,7 +37,7 @@ public:
     };
     RaisedTip raised_clear(Vec3d tip, double band) const;
 
-    // Whether a straight move of the tip removes nowhere more than allowed.
+    // True if a straight move of the tip removes nowhere more than allowed.
     bool clears(Vec3d from, Vec3d to) const;
 
     // The most (mm) that a straight move of the tip removes from a face at its edge, square to the
@@ -50,7 +50,7 @@ private:
         Vec3d to;
         double normal_z;  // z of the face's normal, the larger of its ends
     };
-    // How much farther from a piece the ball has to be.
+    // Extra distance that the ball has to keep from a piece.
     struct EdgeViolation {
         double amount;    // mm; no violation where <= 0
         Vec3d direction;  // from the piece to the centre; horizontal where the centre is lower

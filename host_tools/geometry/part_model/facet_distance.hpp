@@ -12,7 +12,7 @@ struct Facet {
     // corners  not all on a line
     explicit Facet(const std::array<Vec3d, 3>& corners);
 
-    // Whether a point of its plane lies in it, sides included.
+    // True if a point of its plane lies in it, sides included.
     bool holds(Vec3d in_plane) const;
 
     std::array<Vec3d, 3> corners;

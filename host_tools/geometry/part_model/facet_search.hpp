@@ -7,8 +7,8 @@
 
 namespace cusp::part_model {
 
-// A ball dropped at (x, y) on the facets of a model; none where it misses them all. Where it
-// touches several, the one that faces its centre most.
+// A ball dropped at (x, y) on the facets of a model; none where it misses them all. If it touches
+// several, the one that faces its centre most.
 struct MeshContact {
     FacetContact at;
     std::size_t facet;

@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    // How far a point lies below the other models, mm; -kInfinite beside one of them.
+    // Depth of a point below the other models, mm; -kInfinite beside one of them.
     double below_others(Vec3d p, std::size_t own) const
     {
         double least = kInfinite;
@@ -102,7 +102,7 @@ private:
         return part;
     }
 
-    // Whether no sample of the surface, inside or along its edges, is cut off.
+    // True if no sample of the surface, inside or along its edges, is cut off.
     template <class Below>
     static bool is_whole(const Surface& surface, const TrimRegion& region, const Below& below)
     {

@@ -57,7 +57,7 @@ QuadraticForm below_both(const QuadraticForm& p,
     return minus(p, metric, std::max(0.0, largest_ratio(minus(p, q, 1), metric)));
 }
 
-// Whether the shank clears the part of the surroundings that is higher than the centres.
+// True if the shank clears the part of the surroundings that is higher than the centres.
 //
 // contact  mm: z of the end whose surroundings these are
 // centre   mm: z of the lower centre
@@ -91,7 +91,7 @@ const BezierCell& half_at(const BezierCell& cell, const CcPoint& at)
     return above ? *high : *low;
 }
 
-// Whether the bounds prove enough.
+// True if the bounds prove enough.
 bool holds(const BezierCell::Surroundings& near, const CcPoint& at)
 {
     if (!std::isfinite(near.extra_bend)) {
@@ -272,7 +272,7 @@ std::optional<MoveClearanceBound::MiddleContact> MoveClearanceBound::contact_of_
                                                                          : std::nullopt;
 }
 
-// Whether everything but the surroundings is farther from the ball's core than the contact, by at
+// True if everything but the surroundings is farther from the ball's core than the contact, by at
 // least `margin`.
 bool MoveClearanceBound::others_are_far(KnownContact& from,
                                         const BezierCell& cell,

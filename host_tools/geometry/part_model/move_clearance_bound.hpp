@@ -17,7 +17,7 @@
 //   have to be farther than d by (c' - c)^2 / (8 d). If the ends have different surroundings,
 //   points near one end are at least d from it, and have to be farther from the other end by
 //   (c' - c)^2 / (2 d).
-// Where this proves too little, the move is halved at the contact under its middle. Far points stay
+// If this proves too little, the move is halved at the contact under its middle. Far points stay
 // far from the whole move; they are checked again only if the middle has other surroundings.
 #pragma once
 

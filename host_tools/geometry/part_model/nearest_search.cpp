@@ -103,7 +103,7 @@ double least_curvature(const ToolCore& core, const BezierCell& cell)
     return least_eigenvalue(middle) - std::max(ss, tt) - st;
 }
 
-// Whether no point of the cell, edges that cut it aside, is the nearest of the surface: everywhere
+// True if no point of the cell, edges that cut it aside, is the nearest of the surface: everywhere
 // the direction to the core leans to the same side along u or v.
 bool leans(const ToolCore& core, const BezierCell& cell)
 {
@@ -363,7 +363,7 @@ private:
     }
 
     // Depth first; depth is bounded by kLeastCell (each halving shrinks the cell).
-    // Where the nearest point of an untrimmed surface lies beyond a long trim, all cells along that are
+    // If the nearest point of an untrimmed surface lies beyond a long trim, all cells along that are
     // halved, as deep as they may be, in search of a point inside: the trim itself is nearer by then.
     void look_at_cell(const BezierCell& cell, double s, double t)
     {

@@ -104,7 +104,7 @@ NearestResult nearest(const PartModel::State& state,
                       const ToolCore& core,
                       const NearestOptions& options);
 
-// Whether the whole model is at least `least` (mm) from the core: ends at the first point that is
+// True if the whole model is at least `least` (mm) from the core: ends at the first point that is
 // not.
 bool is_core_distance_at_least(const PartModel::State& state, const ToolCore& core, double least);
 

@@ -289,8 +289,8 @@ PartModel::SharedQueries::SharedQueries(const PartModel& model) : model_{model}
     ++model_.state_->sharers;
 }
 
-// Whether and when parts release cells depends on the threads. What is left after the loop does not:
-// all that was made, or nothing if that is too much.
+// True if and when parts release cells depends on the threads. After the loop this does not hold:
+// all halves are kept, or none if they are too many.
 PartModel::SharedQueries::~SharedQueries()
 {
     --model_.state_->sharers;

@@ -38,7 +38,7 @@ struct ToolDistance {
     NearestPoint nearest;
 };
 
-// How exact distance_within() must be, all in mm.
+// Accuracy of distance_within(), all in mm.
 struct DistanceOptions {
     double least;  // distances below this may be inexact, but do not exceed it by `max_error`
     double max_distance;  // greater distances are returned as this
@@ -64,9 +64,9 @@ std::pair<Vec3d, Vec3d> centre_slopes(const nurbs::SurfacePoint& p, Vec3d normal
 // above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
 // a surface is in contact with it.
 //
-// For queries by several threads at once, within SharedQueries. Queries keep
-// the halves of cells, and start at what the last query of the thread found: that may change the last
-// bits of an answer. After forget_queries() answers depend on later queries of the thread alone.
+// For queries by several threads at once, within SharedQueries. Queries keep the halves of cells
+// and start from the previous result of the thread, so results may differ in the last bits. After
+// forget_queries() they depend only on later queries of the thread.
 class PartModel {
 public:
     // surfaces    valid (as the reader in host_tools/job/import checks them); trims are honoured
@@ -98,7 +98,7 @@ public:
                            Vec3d tip,
                            const DistanceOptions& options) const;
 
-    // Whether the distance is at least `least` (mm); quicker than distance() where it is not.
+    // True if the distance is at least `least` (mm); quicker than distance() where it is not.
     bool is_distance_at_least(const toolpath::Tool& tool, Vec3d tip, double least) const;
 
     // A lower bound of the clearance along the straight move from tip `a` to tip `b`, mm.
@@ -107,7 +107,7 @@ public:
     // resolution  mm: how much too low the bound may be; smaller takes longer
     //
     // Proof: the squared distance to any set, less the squared arc length along a line, is concave
-    // along the line. So two exact distances bound all distances between them.
+    // along the line. Thus two exact distances bound all distances between them.
     double move_clearance(
         const toolpath::Tool& tool, Vec3d a, Vec3d b, double sufficient, double resolution) const;
 
@@ -118,7 +118,7 @@ public:
     std::optional<CcPoint> cc_point_under(
         double x, double y, int surface, Vec2d near, double distance) const;
 
-    // The upward normal. Where it is horizontal, as on the rim of a half torus, the side that faces
+    // The upward normal. If it is horizontal, as on the rim of a half torus, the side that faces
     // up at neighbouring points decides. `p` is the surface at (u, v).
     Vec3d facing_up(int surface, double u, double v, const nurbs::SurfacePoint& p) const;
 
@@ -182,7 +182,7 @@ public:
     // forget_cells() if there are many and no SharedQueries: to be called between queries of any long
     // series.
     void forget_many_cells() const;
-    // How many halves are kept now; some 1 kB each.
+    // Number of halves kept now; some 1 kB each.
     std::size_t kept_cells() const;
     // Calls forget_many_cells(). While one lives, several threads may query, and that does nothing.
     class SharedQueries {
@@ -193,7 +193,7 @@ public:
         SharedQueries& operator=(const SharedQueries&) = delete;
 
         // One part of a loop on several threads, begun before its queries. Answers do not depend on
-        // queries before. Where many cells are kept it waits until all parts under way have ended, and
+        // queries before. If many cells are kept it waits until all parts under way have ended, and
         // releases them: a loop keeps no more than a part of each thread needs.
         class Part {
         public:
@@ -202,8 +202,8 @@ public:
             Part(const Part&) = delete;
             Part& operator=(const Part&) = delete;
 
-            // As if this part ended and the next began: between queries of a part that may be long, at
-            // places that do not depend on the threads.
+            // Ends this part and begins the next: call it between queries of a part that may be
+            // long, at places that do not depend on the threads.
             void next() const;
 
         private:
@@ -218,10 +218,10 @@ public:
     // parallel loop, and after the loop.
     void forget_queries() const;
 
-    // Whether (u, v) lies inside the trims of the surface.
+    // True if (u, v) lies inside the trims of the surface.
     bool inside_trims(int surface, double u, double v) const;
 
-    // Whether a whole rectangle of the domain is trimmed away.
+    // True if a whole rectangle of the domain is trimmed away.
     bool outside_trims(int surface, Vec2d low, Vec2d high) const;
 
     // A place inside the trims, in a rectangle of the domain that an edge cuts; none found in others.

@@ -22,7 +22,7 @@ constexpr double kLengthRounding = 1e-12;  // of a length
 constexpr double kBesideEdge = 1e-3;       // of a piece of edge
 constexpr float kFar = static_cast<float>(kInfinite);
 
-// Whether p lies to the right of the segment, by more than rounding.
+// True if p lies to the right of the segment, by more than rounding.
 bool right_of(Vec2d from, Vec2d to, Vec2d p)
 {
     return cross(p - from, to - from) > kLengthRounding * norm(to - from) * norm(to - from);
@@ -63,7 +63,7 @@ private:
         }
     }
 
-    // Whether all control points project onto the chord between the first and the last one.
+    // True if all control points project onto the chord between the first and the last one.
     static bool is_monotone(const Curve& piece)
     {
         const Vec2d from = in_plan(piece.points.front());
@@ -239,7 +239,8 @@ void TrimRegion::make_rows()
     const auto last_row = [&](std::uint32_t number) {
         return row(std::max(corners_[number].y, corners_[number + 1].y));
     };
-    // How many each row has, counted one row further on; then where each row begins.
+    // Number of sides of each row, counted one row further on; then the place where each row
+    // begins.
     for_each_side([&](std::uint32_t number) {
         const std::size_t first = row(std::min(corners_[number].y, corners_[number + 1].y));
         first_rows_[number] = static_cast<std::uint16_t>(first);
@@ -288,7 +289,7 @@ void TrimRegion::visit_sides(std::size_t row, double low, double high, const Vis
     }
 }
 
-// Where a side crosses a row is rounded: it counts as left of u no nearer than this.
+// The place where a side crosses a row is rounded: it counts as left of u no nearer than this.
 double TrimRegion::left_of(double u) const { return u - kLengthRounding * largest_u_; }
 
 bool TrimRegion::inside(double u, double v) const

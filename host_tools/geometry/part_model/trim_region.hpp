@@ -23,7 +23,7 @@ public:
     bool inside(double u, double v) const;
 
     enum class Part : std::uint8_t { kInside, kOutside, kCut };
-    // Where a rectangle of the domain lies; kCut if an edge may touch it.
+    // Place of a rectangle of the domain; kCut if an edge may touch it.
     Part part(double u_begin, double u_end, double v_begin, double v_end) const;
 
     // The inside part of a rectangle of the domain lies in the convex hull of these points (u, v).
@@ -31,7 +31,7 @@ public:
         std::vector<Vec2d> corners;  // corners of the rectangle that are inside
         std::vector<Vec2d> edge;     // ends of the parts of polyline sides in the rectangle
     };
-    // Where the rectangle lies, as part() says.
+    // Place of the rectangle, as part() says.
     //
     // out  set to the remnant where the result is kCut, else emptied; keeps its memory
     Part remnant(double u_begin, double u_end, double v_begin, double v_end, Remnant& out) const;
@@ -68,7 +68,7 @@ private:
     // The sides of a row, in their order, but for some that lie beside [low, high] in u.
     template <class Visit>
     void visit_sides(std::size_t row, double low, double high, const Visit& visit) const;
-    // Whether rows from `first` on up to this one hold the side for the first time: a long side is in
+    // True if rows from `first` on up to this one hold the side for the first time: a long side is in
     // many rows.
     bool is_seen_first(std::uint32_t side, std::size_t row, std::size_t first) const
     {
@@ -89,8 +89,8 @@ private:
     // a side has the number of its first corner.
     std::vector<std::uint32_t> row_sides_;
     std::vector<std::uint32_t> row_begins_;  // in row_sides_, and its end
-    // Of each kBlock of row_sides_: least and greatest u, rounded outward. An edge along u has all its
-    // sides in one row.
+    // Least and greatest u of each kBlock of row_sides_, rounded outward. An edge along u has all
+    // its sides in one row.
     static constexpr std::size_t kBlock = 8;
     std::vector<std::array<float, 2>> blocks_;
     std::vector<std::uint16_t> first_rows_;  // of each side

@@ -1,4 +1,4 @@
-// How a tool gets down into uncut stock.
+// The way in which a tool goes down into uncut stock.
 #pragma once
 
 #include <cstdint>

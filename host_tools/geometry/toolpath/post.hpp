@@ -40,7 +40,7 @@ struct Post {
     std::vector<std::string> mist{"M7"};
     std::vector<std::string> flood{"M8"};
     std::vector<std::string> coolant_off{"M9"};
-    // With spindle and coolant on. Where there are any, x and y are unknown after them, z is
+    // With spindle and coolant on. If there are any, x and y are unknown after them, z is
     // {clearance}.
     std::vector<std::string> after_tool;  // {tool}, {clearance}
     std::vector<std::string> footer;

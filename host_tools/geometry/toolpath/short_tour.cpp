@@ -54,7 +54,7 @@ private:
     {
         return step.turned ? stops_[step.stop].begin : stops_[step.stop].end;
     }
-    // Where the tool is before a place of the tour.
+    // Place of the tool before a place of the tour.
     Vec2d before(std::size_t place) const { return place == 0 ? start_ : exit(steps_[place - 1]); }
     // mm from there to the entry at a place; nothing comes after the last one.
     double way_to(Vec2d from, std::size_t place) const

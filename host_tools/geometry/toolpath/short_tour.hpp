@@ -15,7 +15,7 @@
 
 namespace cusp::toolpath {
 
-// What is cut in one go; where the ends differ it may be cut from either.
+// A path that is cut in one go, from either end if the ends differ.
 struct TourStop {
     Vec2d begin;
     Vec2d end;
@@ -34,8 +34,8 @@ std::vector<TourStep> short_tour(const std::vector<TourStop>& stops, Vec2d start
 // The same of single places, as their indices.
 std::vector<std::size_t> short_tour(const std::vector<Vec2d>& places, Vec2d start);
 
-// A short tour in which each place comes after all that lie inside it. What lies inside an outermost one
-// is visited right before it.
+// A short tour in which each place comes after all that lie inside it. Paths inside an outermost
+// one are visited right before it.
 //
 // outer  of each place the one that it lies in directly; none: an outermost one. No cycles.
 std::vector<std::size_t> inner_first_tour(const std::vector<Vec2d>& places,

@@ -11,7 +11,7 @@ enum class ToolShape : std::uint8_t { kBall, kFlat, kBull, kVee, kDrill, kTaper 
 
 enum class Coolant : std::uint8_t { kOff, kMist, kFlood };
 
-// How a tool cuts where it has figures of its own.
+// Feeds and speeds of a tool that has its own.
 struct CuttingRates {
     double feed{};                  // mm/min; 0: the job's
     double plunge_feed{};           // mm/min; 0: the job's
@@ -34,7 +34,7 @@ struct Tool {
     Coolant coolant{Coolant::kOff};
 };
 
-// Whether the end is a cone: a vee, a drill or a taper.
+// True if the end is a cone: a vee, a drill or a taper.
 bool is_conical(const Tool& tool);
 
 // mm: the radius of the level bottom; 0 for a ball, a drill, and a vee with a sharp tip.

@@ -72,7 +72,7 @@ struct Toolpath {
     std::optional<DrillCycle> cycle{};
 };
 
-// What rest machining left of an operation (rest_machining).
+// The part of an operation that rest machining left (rest_machining).
 struct RestFigures {
     std::vector<std::string> programs;  // that were cut before
     double removed_mm{};                // of the feed moves as planned: left out
@@ -98,7 +98,7 @@ struct OperationStats {
     std::optional<RestFigures> rest{};
 };
 
-// A planned operation. Where nothing is to be cut it has no moves, and stats.warnings say why.
+// A planned operation. If nothing is to be cut it has no moves, but stats.warnings say why.
 struct PlannedOperation {
     Toolpath path;
     OperationStats stats;

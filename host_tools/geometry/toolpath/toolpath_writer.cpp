@@ -17,7 +17,7 @@ constexpr double kHelixShare = 0.5;     // radius of an entry helix over the too
 constexpr double kShallow = 0.05;       // mm: not worth a helix or a ramp
 constexpr double kShortestRamp = 0.25;  // radii: a shorter run has no room for one
 
-// Whether it ends where it starts, with a way round between.
+// True if it ends where it starts, with a way round between.
 bool is_round(const EntryRun& run)
 {
     constexpr double kSamePoint = 1e-6;   // mm in plan
@@ -75,7 +75,7 @@ void ToolpathWriter::enter(const EntryRun& run, double stock_top, const HelixFlo
     if (settings_.kind != EntryKind::kRamp) {
         line(MoveKind::kPlunge, {start.x, start.y, top});
         narrow_entries_ += helix(start, floor) ? 0 : 1;
-        // Where the floor leaves no room for a helix, a ramp is used.
+        // If the floor leaves no room for a helix, a ramp is used.
         if (at_.z - start.z <= kShallow) {
             line(MoveKind::kPlunge, start);
             return;

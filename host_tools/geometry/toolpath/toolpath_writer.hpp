@@ -22,11 +22,11 @@
 
 namespace cusp::toolpath {
 
-// Of a closed run that a slope goes round, over the tool's radius: the least descent of a turn. On a circle so
+// Least descent of a turn of a slope round a closed run, over the tool's radius. On a circle so
 // narrow that the tool's middle cuts anyway, a gentler slope is only slower.
 inline constexpr double kLeastTurn = 0.2;
 
-// Whether a slope goes round a closed run of this length in plan, mm, rather than there and back along it.
+// True if a slope goes round a closed run of this length in plan, mm, rather than there and back along it.
 bool goes_round(double length, double tool_radius);
 
 // Rapid moves go no nearer to stock, mm.
@@ -51,7 +51,7 @@ public:
     {
     }
 
-    // Where the tool is; not known before the first move.
+    // Place of the tool; not known before the first move.
     Vec3d at() const { return at_; }
     bool started() const { return started_; }
     bool is_retracted() const { return at_.z >= settings_.clearance_z; }

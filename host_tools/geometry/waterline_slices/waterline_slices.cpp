@@ -24,8 +24,8 @@ constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
 constexpr std::size_t kGroup = 16;  // blocks that one core fills
 // Share of a side: contours cross sides no nearer to their ends, so no edge is too short.
 constexpr double kNearestEnd = 0.01;
-// How much too low distances may be: at a block's middle, in reaches of the block, and at a node,
-// in `excess`.
+// Amount by which distances may be too low: at a block's middle, in reaches of the block, and at a
+// node, in `excess`.
 constexpr double kBlockSlack = 0.05;
 constexpr double kNodeSlack = 0.05;
 
@@ -105,7 +105,7 @@ Vec2d WaterlineSlices::node(std::size_t i, std::size_t j) const
             settings_.field.y0 + pitch_y_ * static_cast<double>(j)};
 }
 
-// Whether the core intersects the model everywhere within `reach` of the point: a core smaller by
+// True if the core intersects the model everywhere within `reach` of the point: a core smaller by
 // that lies in all of them, and intersects the model.
 bool WaterlineSlices::buried(Vec2d middle, double reach, const Levels& levels) const
 {
@@ -201,7 +201,7 @@ public:
 
     bool free(std::size_t node) const { return square_[node] >= least_; }
 
-    // Where the contour crosses the side: from 0 at the clear node to 1.
+    // Place where the contour crosses the side: from 0 at the clear node to 1.
     double share(const Side& side) const
     {
         const double over = square_[side.free] - least_;

@@ -26,12 +26,12 @@ struct SliceSettings {
 //
 // Proof: let D be the distance of the model from the tool's core (the tool offset inward by its
 // corner radius), with the axis at x in the plane. D^2 - |x|^2 is a minimum of functions linear in
-// x, hence concave. So in a triangle D^2 is at least its linear interpolation less a quarter of the
-// squared longest side. Contours are level lines of the linear interpolation, higher by that much,
-// so no later check is necessary. D grows with the height, so a slice lies exactly in the one
+// x, hence concave. Thus in a triangle D^2 is at least its linear interpolation less a quarter of
+// the squared longest side. Contours are level lines of the linear interpolation, higher by that
+// much, so no later check is necessary. D grows with the height, so a slice lies exactly in the one
 // above it, on any lattice.
 //
-// Where the nearest part of the model changes, as in the middle of a valley, a slice may be smaller
+// If the nearest part of the model changes, as in the middle of a valley, a slice may be smaller
 // than the true one by up to a side of the lattice.
 class WaterlineSlices {
 public:

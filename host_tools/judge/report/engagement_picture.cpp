@@ -1,4 +1,4 @@
-// A panel for each tool. What is over the limit has a wide red edge, its own colour between.
+// A panel for each tool. A stretch over the limit has a wide red edge, its own colour between.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -13,7 +13,7 @@ std::string_view page_text(Page page);
 // The reason why page_text() is empty; empty if it is not.
 std::string_view why_no_page();
 
-// Whether the pages contain the firmware's core in WebAssembly.
+// True if the pages contain the firmware's core in WebAssembly.
 bool pages_hold_core();
 
 // Lines that are replaced by the figures, before the script, and by the data, after it.

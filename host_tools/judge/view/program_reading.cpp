@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    // Whether the line's moves are rapid.
+    // True if the line's moves are rapid.
     bool execute(const std::string& line, const std::string& words, std::uint64_t number)
     {
         const Status status = interpreter_.execute(words, static_cast<std::uint32_t>(number));

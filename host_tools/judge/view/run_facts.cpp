@@ -74,7 +74,7 @@ Json run_facts(const RunFacts& facts)
             {"errors", errors}};
 }
 
-// What is above the cutter, where the job has it.
+// The tool above the cutter, if the job describes it.
 void add_body(const job::Job& job, const Tool& tool, Json& entry)
 {
     const auto found = job.tool_facts.find(tool.number);
