@@ -16,7 +16,7 @@
 #include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/cli/chip_load.hpp"
 #include "host_tools/cli/post_fit.hpp"
-#include "host_tools/cli/rapid_refusal.hpp"
+#include "host_tools/cli/rapid_lift.hpp"
 #include "host_tools/cli/rest_of_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/stock_warning.hpp"
@@ -136,30 +136,34 @@ void shorten_ways(const std::vector<PlannedOperation>& operations,
     }
 }
 
-// Groups the operations by tool and measures them in that order.
+// Groups the operations by tool.
 void put_in_order(const Job& job,
                   std::vector<PlannedOperation>& operations,
                   const std::vector<std::size_t>& pockets,
-                  const MachineRates& rates,
                   Plan& plan)
 {
-    const double clearance_z = job.stock_top + job.clearance;
     std::vector<std::size_t> order(operations.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     if (job.group_by_tool) {
-        order = tool_order(operations, clearance_z);
+        order = tool_order(operations, job.stock_top + job.clearance);
     }
     shorten_ways(operations, pockets, order);
-    // the position of the tool is unknown before the first rapid move
-    Vec3d at{0, 0, clearance_z};
     for (const std::size_t place : order) {
-        plan.measures.push_back(measure(operations[place].path, at, rates));
-        at = plan.measures.back().end;
         plan.operations.push_back(std::move(operations[place]));
     }
 }
 
-Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* said)
+void measure_in_order(const Job& job, const MachineRates& rates, Plan& plan)
+{
+    // the position of the tool is unknown before the first rapid move
+    Vec3d at{0, 0, job.stock_top + job.clearance};
+    for (const PlannedOperation& operation : plan.operations) {
+        plan.measures.push_back(measure(operation.path, at, rates));
+        at = plan.measures.back().end;
+    }
+}
+
+Plan plan_job(Job& job, RestOfJob& rest, std::FILE* said)
 {
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
@@ -199,7 +203,7 @@ Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* s
             pockets.push_back(i);
         }
     }
-    put_in_order(job, operations, pockets, rates, plan);
+    put_in_order(job, operations, pockets, plan);
     return plan;
 }
 
@@ -287,12 +291,13 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     check_post(job, output.blend);
     leave_room_for_rounding(job);
     RestOfJob rest{job};
-    Plan plan = plan_job(job, rates, rest, output.said);
+    Plan plan = plan_job(job, rest, output.said);
     if (plan.operations.empty()) {
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));
     }
-    refuse_rapids(job, plan);
+    lift_rapids(job, plan);
+    measure_in_order(job, rates, plan);
     refuse_contacts(job, plan);
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);

@@ -244,8 +244,8 @@ class BadOperations(unittest.TestCase):
     def test_levels_beside_the_stock(self):
         self.warned(r"operation 1 \(pocket\) ends at z = 1 mm, not below the stock's top, z = 0 mm: it cuts air",
                     operation("pocket", "pocket", depth=2, top=3))
-        self.refused("operation 1, profile: a rapid move of tool 1 to x 47.000 y 66.000 z -10.000 mm would cut 10 mm "
-                     "deep into stock that is there by then", operation("profile", "outline", depth=2, top=-11))
+        self.warned("operation 1, profile: it begins below stock that stands by then, up to 10 mm of it at x 47.000 y "
+                    "66.000: tool 1 goes through it at the plunge feed, at 1 place", operation("profile", "outline", depth=2, top=-11))
         self.warned(r"operation 1 \(pocket\) goes 7 mm below the stock's bottom, z = -10 mm",
                     operation("pocket", "pocket", depth=17))
         self.assertNotIn("stock's", self.said(0, operation("drill", "in_pocket", tool=2, depth=12) +

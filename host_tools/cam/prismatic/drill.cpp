@@ -1,11 +1,11 @@
-// Drill cycles as single moves: each peck goes a step deeper, then rapid moves up and down clear the
-// chips.
+// Drill cycles as single moves, hole by hole.
 #include <algorithm>
 #include <cmath>
 
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/cam/prismatic/cut_levels.hpp"
 #include "host_tools/cam/prismatic/prismatic.hpp"
+#include "host_tools/geometry/toolpath/peck_moves.hpp"
 #include "host_tools/geometry/toolpath/short_tour.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
 
@@ -19,36 +19,11 @@ using job::Operation;
 using job::Prismatic;
 using job::tip_in_hole;
 using toolpath::DrillCycle;
-using toolpath::MoveKind;
 using toolpath::PlannedOperation;
 using toolpath::short_tour;
 using toolpath::ToolpathWriter;
 
 namespace {
-
-// mm: as the controller's own G83, rapid moves back into the hole end above the last depth.
-constexpr double kPeckClearance = 0.254;
-
-// Heights of a hole, z.
-struct HoleHeights {
-    double above;  // rapid moves end here
-    double top;
-    double bottom;
-};
-
-void drill_hole(Vec2d at, const HoleHeights& hole, double peck, ToolpathWriter& writer)
-{
-    writer.approach(at, hole.above);
-    for (double z = hole.top; z > hole.bottom;) {
-        // a last peck thinner than a thousandth of the others is none
-        z = z - peck - peck / 1000 > hole.bottom ? z - peck : hole.bottom;
-        writer.line(MoveKind::kPlunge, {at.x, at.y, z});
-        if (z > hole.bottom) {
-            writer.line(MoveKind::kRapid, {at.x, at.y, hole.above});
-            writer.line(MoveKind::kRapid, {at.x, at.y, std::min(z + kPeckClearance, hole.above)});
-        }
-    }
-}
 
 // A sentence for each of the first few, and the number of the others.
 void warn_of_narrower_holes(const Operation& operation, PlannedOperation& planned)
@@ -88,7 +63,8 @@ std::vector<PlannedOperation> plan_drill(const Job& job, const Operation& operat
     Vec2d at{0, 0};
     for (const std::size_t k : short_tour(places, at)) {
         const double bottom = tip_in_hole(cut, cut.holes[k], operation.tool);
-        drill_hole(places[k], {above, cut.top, bottom}, peck, writer);
+        writer.approach(places[k], above);
+        write_pecks({above, cut.top, bottom}, peck, writer);
         way += norm(places[k] - at);
         at = places[k];
     }

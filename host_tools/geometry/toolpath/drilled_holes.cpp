@@ -17,7 +17,7 @@ std::vector<DrilledHole> drilled_holes(const Toolpath& path)
             if (deeper) {
                 holes.back().bottom = end;
             } else {
-                holes.push_back({end, feed_of(path, move, at)});
+                holes.push_back({end, at.z, feed_of(path, move, at)});
             }
         }
         at = end;

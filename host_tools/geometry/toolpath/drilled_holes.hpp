@@ -9,6 +9,7 @@ namespace cusp::toolpath {
 
 struct DrilledHole {
     Vec3d bottom;  // of the tip
+    double above;  // z: where the first move at feed begins
     double feed;   // mm/min
 };
 

@@ -444,6 +444,7 @@ void ProgramWriter::cycles(const Toolpath& path)
     const std::vector<DrilledHole> holes = drilled_holes(path);
     Place at = rounded({holes.front().bottom.x, holes.front().bottom.y, form_.clearance_z});
     const std::int64_t clearance = at[2];
+    double r{};  // the R word that holds
     line("G0", millimetres(at), "");
     const std::int64_t peck = rounded({0, 0, path.cycle->peck})[2];
     for (const DrilledHole& hole : holes) {
@@ -452,10 +453,9 @@ void ProgramWriter::cycles(const Toolpath& path)
         std::string text = first ? peck > 0 ? "G98 G83 " : "G98 G81 " : "";
         text += "X" + coordinate(to[0]) + " Y" + coordinate(to[1]);
         text += to[2] != at[2] ? " Z" + coordinate(to[2]) : "";
-        if (first) {
-            text += " R" + coordinate(rounded({0, 0, path.cycle->above})[2]);
-            text += peck > 0 ? " Q" + coordinate(peck) : "";
-        }
+        text += first || hole.above != r ? " R" + coordinate(rounded({0, 0, hole.above})[2]) : "";
+        text += first && peck > 0 ? " Q" + coordinate(peck) : "";
+        r = hole.above;
         put(text + feed_word(hole.feed));
         at = to;
     }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
+#include <tuple>
 
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/end_sweeps.hpp"
@@ -27,17 +29,37 @@ std::size_t end_of_move(const ToolPositions& positions, std::size_t k)
     return end;
 }
 
-// Keeps the deeper rapid cut; of two alike the one that comes first.
-void take_deeper(const CutFigures& other, CutFigures& figures)
+// One of each move: bands see different parts of it.
+std::vector<DeepRapid> joined(const std::vector<CutFigures>& bands)
 {
-    if (other.rapid_cut > figures.rapid_cut ||
-        (other.rapid_cut == figures.rapid_cut && other.rapid_position < figures.rapid_position)) {
-        figures.rapid_cut = other.rapid_cut;
-        figures.rapid_position = other.rapid_position;
+    std::map<std::size_t, DeepRapid> by_end;
+    for (const CutFigures& band : bands) {
+        for (const DeepRapid& rapid : band.deep_rapids) {
+            const auto [found, is_new] = by_end.try_emplace(rapid.end, rapid);
+            DeepRapid& known = found->second;
+            known.end_depth = std::max(known.end_depth, rapid.end_depth);
+            if (std::tie(known.depth, rapid.position) < std::tie(rapid.depth, known.position)) {
+                known.depth = rapid.depth;
+                known.position = rapid.position;
+            }
+        }
     }
+    std::vector<DeepRapid> out;
+    for (const auto& [end, rapid] : by_end) {
+        out.push_back(rapid);
+    }
+    return out;
 }
 
 }  // namespace
+
+const DeepRapid* CutFigures::deepest_rapid() const
+{
+    const auto found =
+        std::max_element(deep_rapids.begin(), deep_rapids.end(),
+                         [](const DeepRapid& a, const DeepRapid& b) { return a.depth < b.depth; });
+    return found == deep_rapids.end() ? nullptr : &*found;
+}
 
 MachinedStock::MachinedStock(const HeightGrid& grid, double top)
     : grid_{grid}, top_{top}, heights_(grid.size(), top), row_x_(grid.ny), row_y_(grid.ny)
@@ -66,10 +88,16 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
         if (positions.rapid[k] && k >= measured) {
             measured = end_of_move(positions, k);
-            take_deeper(deepest_of(positions, k, measured, shrink, begin, end), figures);
+            const DeepRapid rapid = deepest_of(positions, k, measured, shrink, begin, end);
+            figures.rapid_cut = std::max(figures.rapid_cut, rapid.depth);
+            if (rapid.depth > kRapidCutAllowed) {
+                figures.deep_rapids.push_back(rapid);
+            }
         }
         const Vec3d tip = positions.tips[k];
-        if (tip.z >= top_ || !is_looked_at(tool, tip)) {
+        const bool is_passed =
+            !looked_at_.empty() && k + 1 < measured;  // on the way to a rapid's end
+        if (tip.z >= top_ || is_passed || !is_looked_at(tool, tip)) {
             continue;
         }
         if (trace != nullptr) {
@@ -78,16 +106,17 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (contact != nullptr) {
             contact->look(heights_, k, band, begin, end);
         }
-        const bool goes_on = is_cylinder && k > 0 && positions.tips[k - 1].z <= tip.z;
+        const bool from_here = looked_at_.empty() || !positions.rapid[k];
+        const bool goes_on = is_cylinder && from_here && k > 0 && positions.tips[k - 1].z <= tip.z;
         const double depth =
             cut_at(tool, tip, shrink, goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
         if (trace != nullptr && depth > 0) {
             trace->add_cut(k, band);
         }
-        if (edged && k > 0 && positions.tips[k - 1].z < top_) {
+        if (edged && from_here && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
         }
-        if (is_conical(tool) && k > 0 && positions.tips[k - 1].z < top_) {
+        if (is_conical(tool) && from_here && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_cone(tool, positions.tips[k - 1], tip, begin, end);
         }
         if (!positions.rapid[k]) {
@@ -97,22 +126,24 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     return figures;
 }
 
-CutFigures MachinedStock::deepest_of(const ToolPositions& positions,
-                                     std::size_t first,
-                                     std::size_t last,
-                                     double shrink,
-                                     std::size_t begin,
-                                     std::size_t end) const
+DeepRapid MachinedStock::deepest_of(const ToolPositions& positions,
+                                    std::size_t first,
+                                    std::size_t last,
+                                    double shrink,
+                                    std::size_t begin,
+                                    std::size_t end) const
 {
-    CutFigures deepest;
+    DeepRapid deepest{last - 1, first, 0, 0};
     for (std::size_t k = first; k < last; ++k) {
         if (positions.tips[k].z >= top_) {
             continue;
         }
         const double depth = depth_at(positions.tool, positions.tips[k], shrink, begin, end);
-        if (depth > deepest.rapid_cut) {
-            deepest = {depth, k, 0};
+        if (depth > deepest.depth) {
+            deepest.position = k;
+            deepest.depth = depth;
         }
+        deepest.end_depth = k + 1 == last ? depth : 0.0;
     }
     return deepest;
 }
@@ -363,8 +394,9 @@ CutFigures MachinedStock::cut(const ToolPositions& positions,
         progress(static_cast<double>(++done) / static_cast<double>(kBands));
     });
     CutFigures sum;
+    sum.deep_rapids = joined(bands);
     for (const CutFigures& band : bands) {
-        take_deeper(band, sum);
+        sum.rapid_cut = std::max(sum.rapid_cut, band.rapid_cut);
         sum.cut_depth = std::max(sum.cut_depth, band.cut_depth);
     }
     return sum;

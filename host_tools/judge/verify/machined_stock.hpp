@@ -17,10 +17,21 @@ class EngagementTrace;
 // mm: rapid moves may cut as deep as slivers and rounding.
 inline constexpr double kRapidCutAllowed = 0.005;
 
+// A rapid move that cuts deeper than allowed.
+struct DeepRapid {
+    std::size_t end;       // its last position
+    std::size_t position;  // the first where it is deepest
+    double depth;          // mm, there
+    double end_depth;      // mm, at its last position
+};
+
 struct CutFigures {
-    double rapid_cut{};  // mm: deepest cut of a rapid move into stock, along the whole move
-    std::size_t rapid_position{};  // the first where it is that deep
-    double cut_depth{};            // mm: deepest cut of a feed move, at one position
+    double rapid_cut{};                    // mm: deepest cut of a rapid move, along the whole move
+    std::vector<DeepRapid> deep_rapids{};  // in the order of the path
+    double cut_depth{};                    // mm: deepest cut of a feed move, at one position
+
+    // The deepest; of several alike the first. None: null.
+    const DeepRapid* deepest_rapid() const;
 };
 
 // Called with the share done, from time to time.
@@ -45,7 +56,8 @@ public:
                    ContactTrace* contact = nullptr);
 
     // From now on only what rapid moves of these runs meet is kept true: positions far from all of their
-    // moves below the stock's top are not cut. False where there is no such move.
+    // moves below the stock's top are not cut. A rapid move cuts at its end alone, as if the tool had come there from
+    // above. False where there is no such move.
     bool look_at_rapids_alone(const std::vector<ToolPositions>& runs);
 
     // From now on there is no stock over the point of the grid: its height is
@@ -64,13 +76,13 @@ private:
                         std::size_t band,
                         std::size_t begin,
                         std::size_t end);
-    // The deepest of the positions [first, last) in the stock before the first of them, and which it is.
-    CutFigures deepest_of(const ToolPositions& positions,
-                          std::size_t first,
-                          std::size_t last,
-                          double shrink,
-                          std::size_t begin,
-                          std::size_t end) const;
+    // The deepest of the positions [first, last) of a rapid move, in the stock before the first of them.
+    DeepRapid deepest_of(const ToolPositions& positions,
+                         std::size_t first,
+                         std::size_t last,
+                         double shrink,
+                         std::size_t begin,
+                         std::size_t end) const;
     // mm: how deep the tool, reduced by `shrink`, is in the stock.
     double depth_at(const toolpath::Tool& tool,
                     Vec3d tip,

@@ -1,4 +1,4 @@
-// The deepest rapid move of each path; the first of those that are alike.
+// All paths are cut; what each cut says of its rapid moves is kept.
 #include "host_tools/judge/verify/path_rapids.hpp"
 
 #include "host_tools/judge/verify/earlier_programs.hpp"
@@ -11,7 +11,7 @@ namespace cusp::verify {
 using job::Job;
 using toolpath::Toolpath;
 
-std::optional<PathRapid> deepest_rapid(const Job& job, const std::vector<const Toolpath*>& paths)
+std::vector<RapidInStock> rapids_in_stock(const Job& job, const std::vector<const Toolpath*>& paths)
 {
     // Twice verify()'s pitch and spacing: an eighth of its work.
     constexpr double kCoarser = 2;
@@ -23,18 +23,18 @@ std::optional<PathRapid> deepest_rapid(const Job& job, const std::vector<const T
     const PartBox floors = floors_box(job);
     const double pitch = kCoarser * stock_grid(job, floors, std::nullopt).pitch;
     MachinedStock stock = UncutStock{job}.on(stock_grid(job, floors, pitch));
-    std::optional<PathRapid> deepest;
+    std::vector<RapidInStock> rapids;
     if (!stock.look_at_rapids_alone(runs)) {
-        return deepest;
+        return rapids;
     }
     cut_earlier_programs(job, spacing, stock);
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        const CutFigures cut = stock.cut(runs[k], spacing, [](double) {});
-        if (cut.rapid_cut > (deepest ? deepest->depth : kRapidCutAllowed)) {
-            deepest = PathRapid{cut.rapid_cut, k, runs[k].tips[cut.rapid_position]};
+        for (const DeepRapid& deep : stock.cut(runs[k], spacing, [](double) {}).deep_rapids) {
+            rapids.push_back({k, runs[k].lines[deep.end], deep.depth, runs[k].tips[deep.position],
+                              deep.end_depth});
         }
     }
-    return deepest;
+    return rapids;
 }
 
 }  // namespace cusp::verify

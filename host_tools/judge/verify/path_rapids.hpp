@@ -1,9 +1,8 @@
 // Planned paths, before they are written: rapid moves against the stock that is left by then.
 //
-//     if (const auto rapid = deepest_rapid(job, paths)) { rapid->depth; }  // it would break a tool
+//     for (const RapidInStock& rapid : rapids_in_stock(job, paths)) { rapid.depth; }  // it would break a tool
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
@@ -12,18 +11,21 @@
 
 namespace cusp::verify {
 
-struct PathRapid {
-    double depth;  // mm along the axis
+struct RapidInStock {
     std::size_t path;
-    Vec3d tip;  // where it is that deep
+    std::size_t move;  // of the path
+    double depth;      // mm along the axis
+    Vec3d tip;         // where it is that deep
+    double end_depth;  // mm: stock over the tool at the end of the move
 };
 
-// The deepest cut of a rapid move; none up to kRapidCutAllowed. The paths are cut one after the other from the
-// job's stock and what earlier programs leave of it, at twice the pitch and the spacing of verify(). Only the surroundings of rapid moves below the stock's top are cut:
-// it costs nothing where there are none.
+// The rapid moves that cut deeper than kRapidCutAllowed, in order. The paths are cut one after the other from the
+// job's stock and what earlier programs leave of it, at twice the pitch and the spacing of verify(). A move that is
+// found counts as one that comes to its end from above, at feed: later ones are judged after that. Only the
+// surroundings of rapid moves below the stock's top are cut: it costs nothing where there are none.
 //
 // paths  none is null; each starts with a rapid move over the stock
-std::optional<PathRapid> deepest_rapid(const job::Job& job,
-                                       const std::vector<const toolpath::Toolpath*>& paths);
+std::vector<RapidInStock> rapids_in_stock(const job::Job& job,
+                                          const std::vector<const toolpath::Toolpath*>& paths);
 
 }  // namespace cusp::verify

@@ -307,8 +307,9 @@ void cut_stock(const Job& job,
             result.engagement.push_back(trace->finish());
         }
         done += run.tips.size();
-        if (cut.rapid_cut > std::max(figures.rapid_cut_max, kRapidCutAllowed)) {
-            figures.rapid_cut_at = {run.tips[cut.rapid_position], run.lines[cut.rapid_position],
+        const DeepRapid* rapid = cut.deepest_rapid();
+        if (rapid != nullptr && rapid->depth > figures.rapid_cut_max) {
+            figures.rapid_cut_at = {run.tips[rapid->position], run.lines[rapid->position],
                                     run.tool.number};
         }
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
