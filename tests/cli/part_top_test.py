@@ -82,7 +82,7 @@ class PartTop(CuspCase):
 
     def test_a_plate_as_high_as_the_stock_is_said_to_need_nothing(self):
         _, said = self.planned(stl(plate(squares(TOP))))
-        self.assertIn("no place of the surfaces is below the stock's top, z = 12 mm", said)
+        self.assertIn("no surface is below the stock's top, z = 12 mm", said)
 
     def test_holes_of_a_mesh_are_closed_and_named(self):
         for heights, hole, words in (

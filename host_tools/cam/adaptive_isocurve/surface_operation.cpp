@@ -97,8 +97,8 @@ void SurfaceOperation::check_form() const
     }
     if (!operation_.roughing && operation_.allowance > 0) {
         throw InputError(
-            fmt::format("{}: {}: allowance is {:g} mm, but it is what roughing leaves: "
-                        "add roughing = true, or leave it out",
+            fmt::format("{}: {}: allowance is {:g} mm, but nothing is roughed: "
+                        "add roughing = true, or remove allowance",
                         job_.file, operation_.strategy, operation_.allowance));
     }
     const bool other_tools =
@@ -316,7 +316,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     return planned;
 }
 
-// If the part rises over the stock, the job is wrong: nothing is left out on its word.
+// If the part rises over the stock, the job is wrong: no pass is left out because of it.
 void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
 {
     const double limit = job_.stock_top + kSameTop;
@@ -328,8 +328,8 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
         passes_ = std::move(low);
     } else {
         stats.warnings.push_back(fmt::format(
-            "no place of the surfaces is below the stock's top, z = {:.6g} mm: the finish removes "
-            "nothing; where the stock is higher, give its height (top in [stock], --stock-top)",
+            "no surface is below the stock's top, z = {:.6g} mm: the finish removes nothing; "
+            "if the stock is higher, give its height (top in [stock], --stock-top)",
             job_.stock_top));
     }
 }
@@ -339,9 +339,9 @@ void report_left_beside_edges(OperationStats& stats, double beside_edges, double
     if (beside_edges > scallop_bound) {
         stats.counts.emplace_back("left_beside_edges_mm", beside_edges);
         stats.warnings.push_back(fmt::format(
-            "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
-            "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
-            "ball would gouge from the side",
+            "slivers of up to {:.3f} mm are left beside rims and creases: with "
+            "tolerance_side = \"both\" passes keep clear of edges that the ball would gouge "
+            "from the side",
             beside_edges));
     }
 }

@@ -107,7 +107,7 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
         work.share_before += share;
         if (roughed.loops == 0) {
             warnings.push_back(
-                fmt::format("tool {} finds nothing to rough that it fits into", tool.number));
+                fmt::format("tool {} fits nowhere into the stock that is left", tool.number));
             continue;
         }
         keep = roughed.keeps;

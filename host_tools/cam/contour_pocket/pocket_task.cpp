@@ -114,8 +114,8 @@ ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
     }
     if (operation.output == OutputForm::kNurbs && !nurbs_fit_available()) {
         throw InputError(operation_text(job, operation) +
-                         "output \"nurbs\" needs a build with Eigen "
-                         "(libeigen3-dev, CUSP_EIGEN), which this is not");
+                         "output \"nurbs\" needs Eigen, and this build has none "
+                         "(libeigen3-dev, CUSP_EIGEN)");
     }
     check_range(job, operation, "plan_tolerance", operation.plan_tolerance, kMostTolerance);
     check_range(job, operation, "floor_tolerance", operation.floor_tolerance, kMostTolerance);
