@@ -1,4 +1,4 @@
-// What fault() means in a benchmark: the program ends.
+// fault() of a benchmark ends the program.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
-// How fast the whole firmware runs on the host: simulated seconds a second, and lines a second
-// through parser, planner and interpolator. A good number: over 10 simulated seconds a second in
-// real use, over 5000 lines a second.
+// Speed of the whole firmware on the host: simulated seconds a second, and lines a second through
+// parser, planner and interpolator. A good number: over 10 simulated seconds a second in real use,
+// over 5000 lines a second.
 #include <string>
 
 #include "benchmark/benchmark.h"

@@ -68,7 +68,7 @@ bool matches(const std::string& pattern, const std::string& text)
 
 class Conversation {
 public:
-    // What went wrong, or nothing.
+    // The fault, or nothing.
     std::string run(const std::filesystem::path& file)
     {
         std::ifstream in{file};

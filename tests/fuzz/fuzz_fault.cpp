@@ -1,4 +1,4 @@
-// What fault() means to a fuzzer: a find.
+// fault() of a fuzzer is a find.
 #include <cstdio>
 #include <cstdlib>
 

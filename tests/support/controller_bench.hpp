@@ -9,7 +9,7 @@
 
 namespace cusp {
 
-// Whether what the controller sent contains a text.
+// True if what the controller sent contains a text.
 inline bool has_text(const std::string& answers, const std::string& text)
 {
     return answers.find(text) != std::string::npos;

@@ -1,4 +1,4 @@
-// Where the parts of the examples lie.
+// Paths of the parts of the examples.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What an axis carries: a damped spring and mass, moved by its set points.
+// The load of an axis: a damped spring and mass, moved by its set points.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How many of some trimmed patches hold a point of their surface.
+// Counts the trimmed patches that hold a point of their surface.
 #pragma once
 
 #include <algorithm>

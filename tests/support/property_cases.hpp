@@ -21,7 +21,7 @@ inline unsigned property_seed(unsigned usual)
     return text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : usual;
 }
 
-// What `wrong_of` says of each seed, a line each of the first 20; nothing where all hold.
+// The text of `wrong_of` for each seed, a line each of the first 20; empty if all hold.
 inline std::string broken_cases(unsigned first,
                                 int cases,
                                 const std::function<std::string(unsigned seed)>& wrong_of)

@@ -114,8 +114,8 @@ private:
         const double sweep = between(0.1, 6.1);
         const bool clockwise = number() % 2 == 0;
         const double to_angle = clockwise ? from - sweep : from + sweep;
-        // So many decimals that both radii agree within the limit of the dialect, 0.005 mm: four of
-        // an inch round them apart by up to 0.0054 mm.
+        // Number of decimals with which both radii agree within the limit of the dialect, 0.005 mm:
+        // four of an inch round them apart by up to 0.0054 mm.
         const int digits = decimals_;
         decimals_ = std::max(decimals_, inches_ ? 5 : 4);
         Vec3d end = at_;

@@ -19,7 +19,7 @@ public:
     RecordedProgress(const RecordedProgress&) = delete;
     RecordedProgress& operator=(const RecordedProgress&) = delete;
 
-    // Whether the reports are in 0 to 1, never decrease, and differ by at most `widest`.
+    // True if the reports are in 0 to 1, never decrease, and differ by at most `widest`.
     bool rises(double widest) const
     {
         double last = 0.0;

@@ -1,4 +1,4 @@
-// What can be reproduced of Elber and Cohen 1993: figure 2 and table 1.
+// Reproduces figure 2 and table 1 of Elber and Cohen 1993.
 #include <cmath>
 #include <string>
 

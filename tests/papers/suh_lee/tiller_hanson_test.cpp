@@ -38,7 +38,7 @@ Curve random_curve(std::mt19937_64& random, int degree, bool rational)
     return curve;
 }
 
-// How far a set of points is from lying at the distance from the edges.
+// Greatest difference of points from the distance that they should have from the edges.
 double worst_of(const std::vector<Vec2d>& points, const EdgeTree& source)
 {
     double worst = 0.0;

@@ -38,7 +38,7 @@ constexpr double kPitch = 1.0 / 40;  // radii
 constexpr double kStep = 1.0 / 30;   // radii between places of the tool
 // The turns of trochoids may be as small as a cell: what is over there is looked at again.
 constexpr double kFiner[] = {1.0, 4.0, 8.0};
-// Of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
+// Errors of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
 constexpr double kRasterDegrees = 4.0;
 
 struct Found {
@@ -76,7 +76,7 @@ double rapid_in_stock(
     return link.empty() || distance(at, to) < 1e-9 ? found : kUnbounded;
 }
 
-// Where the tool is after some way on the edge, which continues beyond its end.
+// Position of the tool after some way on the edge, which continues beyond its end.
 Pose ahead(const Edge& edge, double share, double way)
 {
     const Vec2d at = point_on(edge, share);
@@ -99,7 +99,7 @@ bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
     });
 }
 
-// Whether the tool misses the place by no more than the tolerance of the path.
+// True if the tool misses the place by no more than the tolerance of the path.
 bool is_nearly_cut(const AdaptivePath& path, Vec2d place, double radius)
 {
     return std::any_of(path.runs.begin(), path.runs.end(), [&](const AdaptiveRun& run) {
@@ -177,7 +177,7 @@ Found judge(const Region2d& region,
     return found;
 }
 
-// Whether all holds; prints the case where it does not.
+// True if all holds; prints the case where it does not.
 bool holds(const Region2d& region,
            const AdaptiveSettings& settings,
            unsigned number,
@@ -251,7 +251,7 @@ job::Loop loop_of(const Contour& contour)
     return loop;
 }
 
-// Whether the whole path keeps the tool's radius from what of the stock is none of the pocket:
+// True if the whole path keeps the tool's radius from what of the stock is none of the pocket:
 // places on walls that lie in the stock, and on the stock's edge beside the pocket.
 bool leaves_the_rest(const Region2d& pocket,
                      const Region2d& stock,

@@ -66,7 +66,7 @@ public:
         }
     }
 
-    // Whether the tool there, smaller by `depth` (mm), is in stock.
+    // True if the tool there, smaller by `depth` (mm), is in stock.
     bool meets_stock(Vec2d at, double depth) const
     {
         const double radius = radius_ - depth;

@@ -1,4 +1,4 @@
-// Whether a ball left more than is claimed or cut deeper, judged by brute force at random places.
+// True if a ball left more than is claimed or cut deeper, judged by brute force at random places.
 #pragma once
 
 #include <algorithm>

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kExact = 1e-3;  // mm: chords of arcs, and searches
 
-// How a polyhedron is given and finished.
+// The form in which a polyhedron is given, and its finish.
 struct Way {
     const char* strategy;
     bool as_faces;

@@ -27,8 +27,9 @@ inline double random_upright_draft(Random& random)
     return whole(random, 0, 1) == 0 ? 0.0 : std::pow(10.0, uniform(random, -7.0, -3.0));
 }
 
-// How its walls lean; kStanding: vertical ones with openings, and bodies on a plate's border; kRound:
-// the same with curved faces, which round_walls.hpp makes; kLow: steps that are lower than a scallop.
+// Lean of its walls; kStanding: vertical ones with openings, and bodies on a plate's border;
+// kRound: the same with curved faces, which round_walls.hpp makes; kLow: steps that are lower than
+// a scallop.
 enum class Walls { kDrafted, kUpright, kStanding, kRound, kLow };
 
 inline void add_wall(Random& random, Profile& profile, double rise, Walls walls)

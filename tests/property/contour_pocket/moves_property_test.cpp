@@ -173,7 +173,7 @@ void check_moves(const RandomTask& task,
     CHECK(verdict.rapid_cut <= 0.05);
     if (operation.entry != EntryKind::kPlunge && !warned(planned)) {
         CHECK(verdict.plunged <= 0.05);
-        // Where the floor is steeper than a slope down, slopes follow it.
+        // If the floor is steeper than a slope down, slopes follow it.
         CHECK(verdict.entry_cut <= 0.3);
     }
     LONGS_EQUAL(stats.retracts, verdict.retracts);

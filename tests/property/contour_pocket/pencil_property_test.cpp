@@ -201,8 +201,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
     }
 }
 
-// Where the tool's side is nearly vertical at the cliff's edge, its height changes almost in a
-// jump.
+// If the tool's side is nearly vertical at the cliff's edge, its height changes almost in a jump.
 TEST(RandomCliff, LeavesNoMoreAtTheFootOfACliffAsHighAsTheToolIsRound)
 {
     constexpr unsigned kSeed = 907;

@@ -127,7 +127,7 @@ inline toolpath::PlannedOperation planned_pocket(const job::Operation& operation
     return contour_pocket::plan_contour_pocket(job, operation).back();
 }
 
-// For a ball. Where a surface point is farther than the tool's radius from the walls it counts as
+// For a ball. If a surface point is farther than the tool's radius from the walls it counts as
 // reached (choose floors that are nowhere bent tighter than the ball).
 inline PocketVerdict judge_pocket(const std::vector<nurbs::Surface>& floor,
                                   const offset::Region2d& region,

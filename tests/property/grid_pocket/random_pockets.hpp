@@ -158,7 +158,7 @@ inline job::Job random_pocket(Random& random)
     return job_of(operation);
 }
 
-// Whether all of the island is at least half a millimetre inside the boundary.
+// True if all of the island is at least half a millimetre inside the boundary.
 inline bool island_fits(const Polygon& boundary, const Polygon& island)
 {
     constexpr double kApart = 0.5;  // mm

@@ -142,7 +142,7 @@ struct Case {
     int way;  // of belts
     Vec2d middle;
 
-    // Where `across` along a belt the belt is.
+    // Place of a belt at `across` along it.
     static double belt_at(const Corners& belt, int way, double along)
     {
         for (std::size_t k = 0; k + 1 < belt.size(); ++k) {

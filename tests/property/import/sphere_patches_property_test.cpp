@@ -23,7 +23,7 @@ using cusp::test::Draw;
 
 namespace {
 
-// Of the unit sphere, the part with normal . p <= height stays.
+// The part of the unit sphere with normal . p <= height stays.
 struct Side {
     Vec3d normal;
     double height;

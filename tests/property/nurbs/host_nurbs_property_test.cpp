@@ -387,7 +387,7 @@ TEST(UpwardNormal, PointsToTheLeftOfDuOnAWall)
 
 TEST(UpwardNormal, IsThatOfPlacesBesideAPole)
 {
-    // Where du is rounding error, or zero.
+    // Places where du is rounding error, or zero.
     for (const Vec3d du : {Vec3d{}, Vec3d{1e-16, 3e-17, 2e-16}}) {
         SurfacePoint s;
         s.du = du;

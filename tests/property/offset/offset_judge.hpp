@@ -1,4 +1,4 @@
-// What an offset must be, by brute-force distance and by Clipper.
+// Judges an offset by brute-force distance and by Clipper.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace cusp::test {
 
-// Whether the point is on the left of the contours nearest to it.
+// True if the point is on the left of the contours nearest to it.
 //
 // unbounded  the region is all that the contours do not enclose
 inline bool belongs(const offset::Region2d& region, Vec2d p, bool unbounded)

@@ -203,7 +203,7 @@ double random_distance(Random& random, double radius)
     }
 }
 
-// What is wrong with the offset; empty: nothing.
+// The fault of the offset; empty if there is none.
 std::string wrong_of(unsigned seed)
 {
     Random random{seed};

@@ -89,7 +89,7 @@ Region2d region_of(const std::vector<Corners>& outlines)
     return region;
 }
 
-// Whether the outlines keep off each other and themselves: stars do, but for a hole too near.
+// True if the outlines keep off each other and themselves: stars do, but for a hole too near.
 bool is_plain(const Region2d& region)
 {
     if (region.contours.size() < 2) {

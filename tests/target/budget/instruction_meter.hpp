@@ -45,7 +45,7 @@ private:
     static constexpr std::uint32_t kNanosecondsPerInstruction = 8;
 
     static std::uint32_t now() noexcept { return hal::stm32f4::Chip::timer5().cnt.read(); }
-    // What begin() and end() count of themselves.
+    // Instructions that begin() and end() count of themselves.
     static std::uint32_t overhead() noexcept
     {
         static std::uint32_t own = 0;

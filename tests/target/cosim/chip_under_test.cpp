@@ -1,4 +1,4 @@
-// How time passes on the chip, and what the core reads and writes.
+// Time on the chip, and the reads and writes of the core.
 #include "tests/target/cosim/chip_under_test.hpp"
 
 #include <algorithm>

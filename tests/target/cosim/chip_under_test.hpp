@@ -49,7 +49,7 @@ public:
     UsartModel& serial() { return *usarts_.at(kind_.serial - 1); }
     PortModel& port(char letter);
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
-    // Of a channel of timer 3, 1 to 4.
+    // Duty of a channel of timer 3, 1 to 4.
     std::uint32_t spindle_compare(unsigned channel) const
     {
         return timers_.at("TIM3")->compare(channel - 1);

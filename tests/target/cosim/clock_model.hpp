@@ -5,7 +5,7 @@
 
 namespace cusp::cosim {
 
-// What is soldered on the board and printed in the data sheet.
+// Parts that are soldered on the board, and values printed in the data sheet.
 struct ClockFacts {
     std::uint32_t crystal_hz{8000000};  // 0: none
     std::uint32_t most_hz{168000000};
@@ -31,7 +31,7 @@ public:
     std::uint32_t fast_bus_hz() const { return core_hz_ / divisor(cfgr_ >> 13U & 7U); }
     std::uint32_t slow_timer_hz() const { return timer_hz(slow_bus_hz(), cfgr_ >> 10U & 7U); }
     std::uint32_t fast_timer_hz() const { return timer_hz(fast_bus_hz(), cfgr_ >> 13U & 7U); }
-    // What timer 11 can measure: the crystal divided by RTCPRE; 0 where nothing oscillates.
+    // The clock that timer 11 can measure: the crystal divided by RTCPRE; 0 if nothing oscillates.
     std::uint32_t divided_crystal_hz() const;
 
     bool ahb1_on(unsigned bit) const { return (ahb1enr_ >> bit & 1U) != 0; }

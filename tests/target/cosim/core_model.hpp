@@ -36,10 +36,9 @@ public:
     bool sleeping() const { return sleeping_; }
     bool reset_wanted() const { return reset_wanted_; }
     bool locked_up() const { return locked_up_; }
-    // Whether no exception is being served.
+    // True if no exception is being served.
     bool in_thread() const { return active_.empty(); }
-    // What runs in thread mode goes round in circles from now on, until a reset. Precondition:
-    // in_thread().
+    // Code in thread mode runs in circles from now on, until a reset. Precondition: in_thread().
     void hang();
     // Takes the most urgent exception that may be taken now; wakes the core where one waits.
     void take_exception();

@@ -26,7 +26,7 @@ public:
     bool request(unsigned stream, unsigned channel);
     // Called when a stream is switched on: who waits for it may ask now.
     void set_start_listener(std::function<void()> listener) { started_ = std::move(listener); }
-    // Whether a stream is switched on for a channel.
+    // True if a stream is switched on for a channel.
     bool serves(unsigned stream, unsigned channel) const;
 
 private:

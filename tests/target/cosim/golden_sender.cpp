@@ -17,7 +17,7 @@ constexpr std::uint64_t kSilence = 2000;
 
 bool starts_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 
-// Whether a program may come to a hold of its own.
+// True if a program may come to a hold of its own.
 bool has_pause(const std::string& line)
 {
     for (std::size_t at = line.find_first_of("Mm"); at != std::string::npos;
@@ -89,7 +89,7 @@ int GoldenSender::run()
                                      std::to_string(tick_) + ", heard: " + heard_};
         }
     }
-    // What is in flight.
+    // The lines in flight.
     chip_.set_tick_listener({});
     chip_.run(4 * kMillisecond);
     chip_.limit_instructions(std::numeric_limits<std::uint64_t>::max() / 2);

@@ -1,4 +1,4 @@
-// What all blocks of the chip share.
+// The parts that all blocks of the chip share.
 #include "tests/target/cosim/model.hpp"
 
 #include <algorithm>

@@ -15,7 +15,7 @@ inline constexpr Picoseconds kMillisecond = 1'000 * kMicrosecond;
 inline constexpr Picoseconds kSecond = 1'000 * kMillisecond;
 inline constexpr Picoseconds kNever = std::numeric_limits<Picoseconds>::max();
 
-// What a driver did that the reference manual forbids. Each kind is kept once, with its count.
+// An action of a driver that the reference manual forbids. Each kind is kept once, with its count.
 class Violations {
 public:
     void add(Picoseconds now, const std::string& what);
@@ -35,7 +35,7 @@ struct MemoryArea {
     bool dma{true};  // whether the DMA controllers reach it too
 };
 
-// What every block of the chip knows of the rest.
+// The view that every block of the chip has of the rest.
 struct Circuit {
     Picoseconds now{0};
     Picoseconds next_event{0};  // 0: to be looked for anew

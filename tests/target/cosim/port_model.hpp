@@ -22,7 +22,7 @@ public:
     // The set/reset register, written by a DMA controller: the pins must be outputs.
     void write_by_dma(std::uint32_t offset, std::uint32_t value);
 
-    // What a wire outside does: 0 or 1 drives the pin, -1 leaves it open.
+    // State of a wire outside: 0 or 1 drives the pin, -1 leaves it open.
     void drive(unsigned pin, int level);
     unsigned mode(unsigned pin) const { return moder_ >> 2 * pin & 3U; }
     unsigned function(unsigned pin) const { return afr_[pin / 8] >> 4 * (pin % 8) & 15U; }

@@ -31,10 +31,10 @@ public:
     void set_sender_baud(std::uint32_t baud) { sender_baud_ = baud; }
     void set_instant(bool on);
     void send(const std::string& bytes);
-    // What the chip has sent; called for each byte.
+    // Takes a byte that the chip has sent.
     void set_receiver(std::function<void(char)> receiver) { receiver_ = std::move(receiver); }
     std::size_t waiting() const { return incoming_.size(); }
-    // Whether no byte is on its way, to the chip or from it.
+    // True if no byte is on its way, to the chip or from it.
     bool quiet() const { return incoming_.empty() && shift_due_ == kNever && !stuck_; }
     std::uint64_t lost() const { return lost_; }
     void unplug() { incoming_.clear(); }

@@ -183,7 +183,7 @@ TEST(WaterlineRoughing, RestPartsAreWhatLeavesTheClearedPlaces)
     CHECK_EQUAL(1U, rest_regions(runs, 8.0, {{&region, 2.0}}).size());
 }
 
-// What lies over the floor is less than the allowance.
+// The stock over the floor is less than the allowance.
 TEST(WaterlineRoughing, WhereTheStockIsLowerThanTheAllowanceOnlyTheFinishIsPlanned)
 {
     Job job = channel_job();

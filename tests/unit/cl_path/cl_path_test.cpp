@@ -194,8 +194,8 @@ TEST(ClPath, LongMovesUpToARimStayDown)
     CHECK(longest < 0.2 * ball.radius);
 }
 
-// Where a curve has too few samples: lines start and end where it would, and are nowhere farther
-// from the path than allowed.
+// A curve with too few samples: lines start and end where it would, and are nowhere farther from
+// the path than allowed.
 TEST(ClPath, LinesInPlaceOfAShortCurveStayBesideTheWay)
 {
     const DropCutter tips{{hill(60.0, 0.0)}, kBall, kAccuracy};
@@ -268,7 +268,7 @@ TEST(ClPath, ALevelOverAHillIsOneMoveFromWhereTheTipIs)
     for (const ClMove& move : over.moves) {
         DOUBLES_EQUAL(5.0, move.end.z, 1e-12);
     }
-    // Where the hill reaches through the level, moves follow it and stay straight in plan.
+    // If the hill reaches through the level, moves follow it and stay straight in plan.
     laying.min_z = laying.start_z.emplace(1.0);
     const ClPath path = drop_path(plan, floor, laying);
     DOUBLES_EQUAL(1.0, path.start.z, 1e-12);

@@ -1,4 +1,4 @@
-// Whether the area cleared by one cutter counts as cleared for another.
+// True if the area cleared by one cutter counts as cleared for another.
 #include "host_tools/cam/clearing/rest_between_tools.hpp"
 
 #include <cmath>

@@ -124,7 +124,7 @@ TEST(LowestPositionSearch, IsNoHigherThanTheBestOfManyPositions)
                 const double x = any(-3, 3);
                 const Vec3d place{x, any(-2, 2), 0};
                 const auto answer = search.lowest_over(place, 1e9);
-                // Of other tools no more is known than the search's own grid.
+                // Other tools are known only by the search's own grid.
                 const bool ball = tool.shape == ToolShape::kBall;
                 const double tried = least_tried(floor, tool, place, ball ? 0.02 : search.pitch());
                 const std::string where =

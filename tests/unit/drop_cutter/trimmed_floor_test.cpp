@@ -159,9 +159,9 @@ TEST(TrimmedFloor, LeavesNoPathUnderItsRim)
     CHECK(under > 20);
 }
 
-// Where the floor ends at the rim the ball is its radius away from the rim, within the rim's
-// accuracy.
-// The halves of a surface of a high degree are large: a count of them does not bound the memory.
+// If the floor ends at the rim, the ball is its radius away from the rim, within the rim's
+// accuracy. The halves of a surface of a high degree are large: a count of them does not bound the
+// memory.
 TEST(TrimmedFloor, ManyDropsKeepSomeTwentyMegabytes)
 {
     const Tool ball{1, ToolShape::kBall, kToolRadius, kToolRadius};

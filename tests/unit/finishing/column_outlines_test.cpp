@@ -28,7 +28,7 @@ double area_of(const std::vector<Outline>& outlines)
     return sum;
 }
 
-// How often the outline crosses a vertical line.
+// Number of crossings of the outline and a vertical line.
 int crossings(const Outline& outline, double x)
 {
     int count = 0;

@@ -1,4 +1,4 @@
-// Whether a ball gets lower over points of rough and of smooth meshes, compared with a ball dropped
+// True if a ball gets lower over points of rough and of smooth meshes, compared with a ball dropped
 // on a fine grid around each.
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 

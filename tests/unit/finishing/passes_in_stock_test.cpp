@@ -1,4 +1,4 @@
-// What passes do over the stock's top is left out, what they do below it stays.
+// Parts of passes above the stock's top are left out, parts below it stay.
 #include "host_tools/cam/finishing/passes_in_stock.hpp"
 
 #include <vector>

@@ -1,5 +1,5 @@
-// How low a ball gets beside a rim over a floor, touching it or kept off it, compared with all
-// positions across the rim.
+// The lowest position of a ball beside a rim over a floor, touching it or kept off it, compared
+// with all positions across the rim.
 #include "host_tools/cam/finishing/reachable_height.hpp"
 
 #include <algorithm>

@@ -86,7 +86,7 @@ Seen seen_at(const Surface& s, Vec2d uv)
     return {p.point, area / norm(area)};
 }
 
-// What is found at a lattice of places.
+// The values found at a lattice of places.
 struct Found {
     double low{kInfinite};
     double high{-kInfinite};

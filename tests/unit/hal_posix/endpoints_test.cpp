@@ -22,7 +22,7 @@ void say(DescriptorLink& link, const std::string& text)
     }
 }
 
-// What arrives within half a second, up to `size` bytes.
+// Bytes that arrive within half a second, up to `size`.
 std::string hear(DescriptorLink& link, std::size_t size)
 {
     std::string text;

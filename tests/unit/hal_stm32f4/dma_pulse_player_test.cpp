@@ -25,7 +25,7 @@ struct Table {
     static constexpr cusp::hal::stm32f4::LinePins kLines{
         {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}, {'C', 4}, {'C', 5}}};
 };
-// Of its own, since a player's inversion is a static.
+// A type of its own, since a player's inversion is a static.
 struct InvertedTable : Table {};
 template <class Table>
 using PlayerOf =

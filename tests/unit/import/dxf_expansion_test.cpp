@@ -1,4 +1,5 @@
-// What is no contour is left out and counted; drawings in other planes; drawings far from the origin.
+// Entities that are no contours are left out and counted; drawings in other planes; drawings far
+// from the origin.
 #include "host_tools/job/import/dxf_expansion.hpp"
 
 #include <cmath>

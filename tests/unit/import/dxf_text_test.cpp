@@ -47,7 +47,7 @@ std::string utf16(std::string_view text, bool big)
 TEST_GROUP(DxfText)
 {
     TemporaryFolder folder;
-    // Whether a job in UTF-8 can name the layer.
+    // True if a job in UTF-8 can name the layer.
     void finds(const std::string& bytes, const std::string& layer)
     {
         const auto found = read_dxf_paths(folder.with("d.dxf", bytes), 1, layer);

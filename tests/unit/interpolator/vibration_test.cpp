@@ -1,5 +1,4 @@
-// What is left of a vibration after a move, with each shaper and without, and what that costs in
-// time.
+// The vibration left after a move, with each shaper and without, and its cost in time.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

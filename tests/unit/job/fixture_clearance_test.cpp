@@ -20,7 +20,7 @@ constexpr double kTop = 0;
 constexpr double kClearance = 20;
 constexpr double kRadius = 3;
 
-// Whether the tool's cylinder over the tip meets the grown body: looked up, not computed with.
+// True if the tool's cylinder over the tip meets the grown body: looked up, not computed with.
 bool inside(const Fixture& f, double radius, Vec3d p, double by)
 {
     if (p.z >= f.top + f.margin - by) {

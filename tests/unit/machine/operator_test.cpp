@@ -1,4 +1,4 @@
-// What the operator does by realtime bytes, as the machine's state and `$G` tell of it.
+// The effects of realtime bytes, as the machine's state and `$G` report them.
 #include <string>
 
 #include "CppUTest/TestHarness.h"
@@ -65,7 +65,7 @@ TEST(Operator, HoldsHomingAndLetsItGoOn)
         DOUBLES_EQUAL(expected.x, place.x, 1e-6);
         DOUBLES_EQUAL(expected.y, place.y, 1e-6);
         DOUBLES_EQUAL(expected.z, place.z, 1e-6);
-        // Where the slides are: as near as the slow search is fine.
+        // Positions of the slides, as near as the slow search is fine.
         DOUBLES_EQUAL(free.board.mill.place().z, held.board.mill.place().z, 0.003);
     }
 }

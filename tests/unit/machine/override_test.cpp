@@ -23,7 +23,7 @@ struct Override {
 constexpr Override kSlowest{kTenDown, 9, 0.1};
 constexpr Override kFastest{kTenUp, 10, 2.0};
 
-// What runs, and how fast at 100 %. A plate is 5 mm below the start.
+// The motion that runs, and its speed at 100 %. A plate is 5 mm below the start.
 struct OverriddenMoves {
     const char* line;
     double mm_per_minute;

@@ -60,7 +60,7 @@ public:
     }
     double first() const { return board.mill.place()[gantry_.axis]; }
     double second() const { return board.mill.second_place(); }
-    // How much further the second motor is beyond its switch than the first.
+    // Distance of the second motor beyond its switch, less that of the first.
     double skew() const { return second() - gantry_.switch_more - first(); }
 
 private:

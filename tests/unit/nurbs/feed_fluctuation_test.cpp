@@ -1,4 +1,4 @@
-// How evenly float points follow a curve when the arc length grows evenly: the advance of each tick
+// Evenness of float points along a curve when the arc length grows evenly: the advance of each tick
 // along the true curve, in double.
 #include <algorithm>
 #include <cmath>

@@ -170,7 +170,7 @@ TEST(LineSmoothers, MeetWithTheSameDirectionAndCurvature)
     for (std::uint64_t seed = 600; seed < 620; ++seed) {
         const auto pieces = smoothed(random_curve(seed, 0.1));
         for (std::size_t i = 1; i < pieces.size(); ++i) {
-            // Where the chord is off a bend by more than the tolerance the lines stay.
+            // If the chord is off a bend by more than the tolerance, the lines stay.
             if (!std::holds_alternative<path::Quintic>(pieces[i - 1].path) ||
                 !std::holds_alternative<path::Quintic>(pieces[i].path)) {
                 continue;

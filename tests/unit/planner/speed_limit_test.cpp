@@ -41,7 +41,7 @@ PathDerivatives any_path(std::mt19937_64& random)
     return path;
 }
 
-// Whether every axis is within its limits at the speed v of the tool, mm/s, with the acceleration u.
+// True if every axis is within its limits at the speed v of the tool, mm/s, with the acceleration u.
 bool holds(const PathDerivatives& path, double v, double u)
 {
     const MachineLimits limits{};
@@ -84,7 +84,7 @@ TEST(SpeedLimit, KeepsEveryAxisWithinItsLimitsThoughTheToolIsFaster)
     }
 }
 
-// What the axes allow exactly where the tool is faster by half a filter of it, by bisection.
+// The exact limit of the axes if the tool is faster by half a filter of it, by bisection.
 TEST(SpeedLimit, AllowsNearlyAllThatTheAxesDoWhereOneBendsAlone)
 {
     for (const float third : {0.01F, 0.3F, 10.0F}) {

@@ -129,7 +129,7 @@ TEST(Stretches, BoundTheDerivativesOfQuintics)
                found.c_str());
 }
 
-// What one stretch ends with begins the next: read alone, it reckons that place itself.
+// The end of one stretch begins the next: read alone, it computes that place itself.
 TEST(Stretches, AreTheSameReadInOrderAndAlone)
 {
     std::mt19937_64 random{7303};

@@ -139,7 +139,7 @@ TEST(Transitions, KeepToThePathAndMeetIt)
         const std::string which = "joint " + std::to_string(k);
         CHECK(before.end == piece.start && piece.end == after.start);
         CHECK(after.end == joint.after.end);
-        // What is left lies where it was.
+        // The rest lies where it was.
         DOUBLES_EQUAL(0, norm(point_of(before, 1) - to_millimetres(before.end)), 2e-6);
         DOUBLES_EQUAL(0, norm(point_of(after, 0) - to_millimetres(after.start)), 2e-6);
         DOUBLES_EQUAL(0, norm(point_of(after, 1) - to_millimetres(after.end)), 3e-6);

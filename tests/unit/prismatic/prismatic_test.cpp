@@ -210,7 +210,7 @@ TEST(Prismatic, LoopsWithoutRoomAreLeftOutWithAWarning)
                     (planned.stats.warnings[0] + planned.stats.warnings[1]).c_str());
 }
 
-// Where the allowance leaves no room, the last pass would meet stock at full depth.
+// If the allowance leaves no room, the last pass would meet stock at full depth.
 TEST(Prismatic, WhatIsNotRoughedIsCutLevelByLevel)
 {
     const auto passes = [&](const char* allowance) {
@@ -408,7 +408,7 @@ TEST(Prismatic, HolesOfADrawingNeedADepth)
         "depth: is missing: drill needs how deep it cuts where the holes are those of a drawing");
 }
 
-// Where the post has them; every post drills the same holes.
+// Cycles are used if the post has them; every post drills the same holes.
 TEST(Prismatic, HolesAreCyclesOfThePostsThatHaveThem)
 {
     const auto written = [&](const std::string& keys, const std::string& post) {

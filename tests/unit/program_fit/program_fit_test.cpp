@@ -41,7 +41,7 @@ bool contains(const std::string& text, const char* part)
     return text.find(part) != std::string::npos;
 }
 
-// Where a program ends, machine nanometres.
+// End of a program, machine nanometres.
 Position end_of(const std::string& text)
 {
     gcode::Interpreter interpreter;

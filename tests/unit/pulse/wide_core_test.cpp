@@ -1,4 +1,4 @@
-// What wide cores do differently: marks of ticks with edges, and the steps of several axes at once.
+// The differences of wide cores: marks of ticks with edges, and the steps of several axes at once.
 #include <cmath>
 #include <random>
 #include <set>

@@ -1,4 +1,4 @@
-// What of a path is drawn how: the figures are made up.
+// The drawing of each part of a path: the figures are made up.
 #include <string>
 
 #include "CppUTest/TestHarness.h"

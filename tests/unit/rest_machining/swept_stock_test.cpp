@@ -18,7 +18,7 @@ const Tool kFlat{1, ToolShape::kFlat, 5, 0};
 const Tool kSmallFlat{2, ToolShape::kFlat, 1.5, 0};
 const Tool kBall{3, ToolShape::kBall, 3, 3};
 
-// How deep stock is in the tool, at points 0.05 mm apart.
+// Depth of stock in the tool, at points 0.05 mm apart.
 double sampled_depth(const SweptStock& stock, const ToolSweep& tool)
 {
     constexpr double kPitch = 0.05;

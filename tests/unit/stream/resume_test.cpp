@@ -1,4 +1,4 @@
-// Where a program can be resumed, and the lines that lead there.
+// The lines at which a program can be resumed, and the lines that lead there.
 #include <string>
 #include <vector>
 

@@ -33,8 +33,8 @@ struct Written {
     }
 };
 
-// Of all plunges: the steepest fall over way in plan, and the largest fall between two visits of
-// the run's start.
+// The steepest fall over way in plan of all plunges, and the largest fall between two visits of the
+// run's start.
 struct Descent {
     double steepest{0.0};
     double largest_trip{0.0};

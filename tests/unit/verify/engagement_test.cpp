@@ -76,7 +76,8 @@ TEST_GROUP(Engagement)
         return *result.figures.engagement;
     }
 
-    // Of the cuts at these lines of the program (from 1), farther than 10 mm from both their ends.
+    // Engagement of the cuts at these lines of the program (from 1), farther than 10 mm from both
+    // their ends.
     void expect_width(int line, double width)
     {
         const ToolPositions& run = result.positions.front();
@@ -273,7 +274,7 @@ public:
         }
         return found;
     }
-    // Whether any stock was there.
+    // True if any stock was there.
     bool cut(Vec2d at)
     {
         bool any = false;
@@ -319,7 +320,7 @@ std::string random_way(std::mt19937& random)
 }  // namespace
 
 // Both look at one place of the tool; where the load changes within the reach of the mean they
-// differ. So most of the way is to agree, and all sums. The limits guard what was measured on 50 such
+// differ. Most of the way has to agree, and all sums. The limits guard what was measured on 50 such
 // paths, the worst of each: 84 % of it within a pitch of width, the mean off by 1.7 degrees, the
 // way over the limit by 3.5 % of all and air by 7 %.
 TEST(Engagement, OfRandomPathsIsThatOfAFinerRaster)

@@ -206,7 +206,7 @@ TEST(ToolContact, NeedsLengthsOfTheTool)
     DOUBLES_EQUAL(19.5, discs[3].above, 1e-12);
 }
 
-// Of a vee of 90 degrees, 10 mm high: beyond its flutes only what its cone cuts.
+// A vee of 90 degrees, 10 mm high, cuts beyond its flutes only with its cone.
 TEST(ToolContact, OfAConeThatIsHigherThanItsFlutes)
 {
     toolpath::Tool vee{1, toolpath::ToolShape::kVee, 10, 0};
