@@ -1,4 +1,4 @@
-# What `cmake --install` puts beside the programs, and the Debian packages that `cpack` makes of it all:
+# The files that `cmake --install` puts beside the programs, and the Debian packages that `cpack` makes of it all:
 # cusp_<version>_<architecture>.deb and cusp-dev_<version>_<architecture>.deb.
 #
 # The preset `package` switches on what belongs into them: Open CASCADE, Eigen, the boards' images, the man pages.

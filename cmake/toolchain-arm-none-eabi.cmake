@@ -1,4 +1,4 @@
-# What all Cortex-M targets share; the file of the core sets CUSP_CORE_FLAGS and includes this one.
+# Shared by all Cortex-M targets; the file of the core sets CUSP_CORE_FLAGS and includes this one.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -1,7 +1,7 @@
 # Bundles the pages of host_tools/judge/view/web into OUTPUT, a C++ source that holds them. Run at build time.
 # cmake -DWEB=<host_tools/judge/view/web> -DFOLDER=<build folder> -DOUTPUT=<file> -DNPM=<npm> -DNODE=<node> -DNEEDED=ON|OFF
 #   -DDEVELOPMENT=ON|OFF -DNO_PAGE=<no_page.cpp.in> [-DCORE=<wasm>] -P view_pages.cmake
-# Where npm can't fetch what package-lock.json names, NEEDED=OFF writes a source that says so.
+# If npm can't fetch what package-lock.json names, NEEDED=OFF writes a source that says so.
 
 # The packages are fetched once for a lock file.
 file(SHA256 ${WEB}/package-lock.json lock)
@@ -10,7 +10,7 @@ set(fetched "")
 if(EXISTS ${FOLDER}/fetched.txt)
   file(READ ${FOLDER}/fetched.txt fetched)
 endif()
-# What is no longer in the tree is no longer bundled.
+# Files that left the tree are no longer bundled.
 file(REMOVE_RECURSE ${FOLDER}/src)
 file(COPY ${WEB}/ DESTINATION ${FOLDER} PATTERN node_modules EXCLUDE PATTERN out EXCLUDE)
 if(NOT fetched STREQUAL stamp)

@@ -40,7 +40,7 @@ class Function:
 
 
 def register_count(operands):
-    """How many registers a list such as {r4, r5-r7, lr} names."""
+    """Number of registers in a list such as {r4, r5-r7, lr}."""
     count = 0
     for part in re.search(r"\{(.*)\}", operands).group(1).split(","):
         ends = re.findall(r"[rsd](\d+)", part)

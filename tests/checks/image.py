@@ -19,7 +19,7 @@ from disassembly import Unreadable, add_calls_by_pointer, add_compiler_sizes, re
 
 # From the least to the most urgent: each may be interrupted by those after it.
 CONTEXTS = ("cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
-# What the core saves at an interrupt: 26 words with the float registers, and one to align.
+# Words that the core saves at an interrupt: 26 words with the float registers, and one to align.
 EXCEPTION_FRAME = 27 * 4
 FORBIDDEN = re.compile(
     r"^_?(malloc|free|calloc|realloc|sbrk)(_r)?$|^_sbrk$|^_Zn[wa]|^_Zd[la]|^__cxa_|^__gxx_"

@@ -69,7 +69,7 @@ def folder_of(place, folders):
 
 
 def allows(table, group, other):
-    """Whether a file of the group may include one of the other."""
+    """True if a file of the group may include one of the other."""
     below = group.startswith("host_tools/") and other.split("/")[0] in BELOW_ALL
     return other == group or below or other in table[group]
 

@@ -55,7 +55,7 @@ def first_access(lines):
 
 
 def complaints(file, place):
-    """Of tests, the length of the file only: a test may be one long dialogue."""
+    """Tests are judged by the length of the file only: a test may be one long dialogue."""
     lines = file.read_text().split("\n")
     if len(lines) - 1 > MOST_LINES:
         yield f"{place}: {len(lines) - 1} lines; limit {MOST_LINES}"

@@ -67,7 +67,7 @@ class Drawings(CuspCase):
         return self.cusp(0, "plan", "j.toml", "-o", "o.ngc")
 
     def box(self):
-        """Of the program's cuts, in x and y."""
+        """Box of the program's cuts, in x and y."""
         places = {"X": [], "Y": []}
         for text in (self.folder / "o.ngc").read_text().splitlines():
             for word in text.split():

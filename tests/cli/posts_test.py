@@ -25,7 +25,7 @@ EXAMPLES = "--examples" in sys.argv
 CHOSEN = sys.argv[sys.argv.index("--examples") + 1:] if EXAMPLES else []  # names; none: all
 TOP = pathlib.Path(__file__).resolve().parents[2]
 POSTS = ("cusp", "fanuc", "grbl", "grblhal", "linuxcnc", "mach3")
-# Of the words that planned programs may need, those in the manufacturers' manuals.
+# Words in the manufacturers' manuals that planned programs may need.
 COMMON = {"G0", "G1", "G2", "G3", "G17", "G18", "G19", "G20", "G21", "G40", "G49", "G54", "G80", "G90", "G94",
           "M0", "M3", "M5", "M8", "M9", "M30"}
 WORDS = {
@@ -236,7 +236,7 @@ def canon_points(call, numbers, plane, at, scale):
     return points + [tuple(end)]
 
 
-# How far off the polyline `path` (rows x, y, z) the farthest of some points is, and that point.
+# Distance of the farthest of some points from the polyline `path` (rows x, y, z), and that point.
 def farthest_off(points, path):
     begins, steps = path[:-1], numpy.diff(path, axis=0)
     squared = (steps * steps).sum(axis=1)
@@ -349,7 +349,7 @@ class LinuxCnc(Scratch):
         self.cusp(0, "plan", str(job), "-o", "e.nc", "--post", post)
         return sorted(self.folder.glob("e*.nc"))
 
-    # What rs274 does not know ends it with an error: a program read to its end has no unread word.
+    # rs274 ends with an error at a word that it does not know: a program read to its end has no unread word.
     @unittest.skipUnless(EXAMPLES, "the examples take minutes: --examples")
     def test_every_post_writes_every_example(self):
         for job in self.example_jobs():

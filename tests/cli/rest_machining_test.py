@@ -83,7 +83,7 @@ class Raster:
 
 
 def places_of(text):
-    """Of each move: whether it is rapid, and its places."""
+    """Each move: true if it is rapid, and its places."""
     at, mode = numpy.zeros(3), "0"
     for line in text.splitlines():
         words = dict(WORD.findall(re.sub(r"\(.*?\)", "", line)))

@@ -142,7 +142,7 @@ class Setups(CuspCase):
             self.near(pocket, box(places))
             self.assertAlmostEqual(-3, min(p[2] for p in places), delta=0.003)  # 4 mm below the top at 1
 
-    # Where the first program has drilled through, nothing is drilled again.
+    # Holes that the first program has drilled through are not drilled again.
     def test_what_was_cut_through_is_not_cut_again(self):
         self.job()
         said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc")

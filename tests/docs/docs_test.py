@@ -85,7 +85,7 @@ def commands_of(block, language):
 
 
 def agrees(shown, printed):
-    """Whether the text that is shown, "..." being anything, is all that was printed."""
+    """True if the text that is shown, "..." being anything, is all that was printed."""
     pattern = ".*?".join(re.escape(part) for part in shown.strip().split("..."))
     return re.fullmatch(pattern, printed.strip(), re.DOTALL) is not None
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs a command in a bare Debian 12: mmdebstrap's minbase, with git, sudo and certificates and nothing else.
-# What is committed here is cloned into its home folder first.
+# The commit of this tree is cloned into its home folder first.
 #
 # usage: bare_root.sh [--user] [--keep FOLDER] [--copy FILE]... [--out FOLDER] COMMAND...
 #   --user         as a plain user who may sudo, not as root

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What a stranger does first, in bare roots: the demo from a clone, and the packages.
+# The first steps of a stranger, in bare roots: the demo from a clone, and the packages.
 # usage: fresh_test.sh FOLDER-OF-PACKAGES
 # Needs root, mmdebstrap and a way to Debian's packages. Says how long each took.
 set -eu

@@ -30,7 +30,7 @@ from Sender import Sender  # noqa: E402
 
 
 class Headless(Sender):
-    """What bCNC's window adds to its Sender."""
+    """The parts that bCNC's window adds to its Sender."""
 
     def disable(self):
         pass

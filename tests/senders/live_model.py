@@ -1,4 +1,4 @@
-"""What Grbl 1.1's documents say of states, realtime bytes and lines: a table, and a state of six fields.
+"""Grbl 1.1's documents on states, realtime bytes and lines, as a program: a table, and a state of six fields.
 
 A driver of a controller, on the virtual mill or on a chip, is put into each state of states(), given each byte and
 each line, and compared with the model (all_trials, walk). What a driver does:

@@ -67,7 +67,7 @@ def starvation(folder):
 
 
 def lines_a_second(folder):
-    """How many short G1 lines a second the controller takes at full speed."""
+    """Number of short G1 lines a second that the controller takes at full speed."""
     file = folder / "many.ngc"
     file.write_text(circle(12000, 0.03, 6000))
     with VirtualMill(CUSP, tap=False) as mill:

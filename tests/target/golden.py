@@ -118,7 +118,7 @@ def simulate(options, folder):
 
 
 def bare_lines(path):
-    """What a sender sends of a file: no comments, no empty lines."""
+    """The lines of a file that a sender sends: no comments, no empty lines."""
     for line in re.split(r"\r\n|\r|\n", pathlib.Path(path).read_bytes().decode("latin-1")):
         bare = re.sub(r"\([^)]*\)|;.*", "", line).strip()
         if bare and bare != "%":

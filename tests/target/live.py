@@ -44,7 +44,7 @@ class Line:
         self.socket.sendall(text.encode())
 
     def wait_for(self, pattern, seconds=60):
-        """What the controller says next that matches; what it said before is dropped."""
+        """The next matching output of the controller; output before it is dropped."""
         deadline = time.monotonic() + seconds
         while True:
             match = re.search(pattern, self.text)

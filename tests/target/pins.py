@@ -37,7 +37,7 @@ def read_pins(log):
 
 
 def first_difference(edges, pins):
-    """How the trace (tick * 256 + levels) and the pins differ, None where they do not.
+    """Difference of the trace (tick * 256 + levels) and the pins, None if there is none.
 
     The trace's ticks rise, so each change of the pins has its tick from the trace; the pins must
     change in the same order, to the same levels, and never two edges at one instruction.

@@ -228,7 +228,7 @@ def random_script(chance):
 
 
 def run_one(options, seed):
-    """Whether the program of this seed gives the same edges."""
+    """True if the program of this seed gives the same edges."""
     chance = random.Random(seed)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -1,4 +1,4 @@
-// What the tests of pages share: a browser that watches for requests, errors and dialogs, and cusp.
+// Shared by the tests of pages: a browser that watches for requests, errors and dialogs, and cusp.
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import { createRequire } from "node:module";
@@ -65,7 +65,7 @@ export async function openPage(browser, file, { width = 1280, height = 800, dark
   return { page, faults, close: () => context.close() };
 }
 
-// How many colours the scene has.
+// Number of colours of the scene.
 export function coloursOf(page) {
   return page.evaluate(async () => {
     await window.cusp.seek(window.cusp.state().t_s);

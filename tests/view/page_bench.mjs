@@ -30,7 +30,7 @@ const page_file = path.join(folder, "million.html"), begin = performance.now();
 console.log(execFileSync(cusp, ["view", file, "-o", page_file], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] }).trim());
 const made_s = (performance.now() - begin) / 1000, mb = fs.statSync(page_file).size / 1048576;
 
-// Of all processes of the browser that hold pages: proportional set size.
+// Proportional set size of all processes of the browser that hold pages.
 function memory() {
   let most = 0;
   for (const id of fs.readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {

@@ -1,4 +1,4 @@
-// What the package cusp-core promises, installed from its tarball: npm_package.py runs this beside it.
+// The promises of the package cusp-core, installed from its tarball: npm_package.py runs this beside it.
 import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";

@@ -100,7 +100,7 @@ loadusr halsampler samples.txt
 TICK = 1e-3
 
 def display():
-    """What LinuxCNC starts as its display: runs the program of PEER_PROGRAM, then leaves."""
+    """The program that LinuxCNC starts as its display: runs the program of PEER_PROGRAM, then leaves."""
     # This file has the name of LinuxCNC's module.
     sys.path[:] = [part for part in sys.path if pathlib.Path(part) != pathlib.Path(__file__).parent]
     import linuxcnc

@@ -330,7 +330,7 @@ def planted(text):
 
 
 def difference(text, folder, cusp, change):
-    """What differs between the two readings of a program, REFUSED, or None where nothing differs."""
+    """The difference of two readings of a program, REFUSED, or None if there is none."""
     canon, refused = by_rs274(change(text), folder)
     stats, said = by_cusp(text, folder, cusp)
     errors = stats.get("errors", [])

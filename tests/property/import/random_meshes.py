@@ -212,7 +212,7 @@ def places(program):
 
 
 def distances(points, t):
-    """Of points from one triangle each: facets, sides, corners (Ericson, Real-Time Collision Detection, 5.1.5)."""
+    """Distances of points from one triangle each: facets, sides, corners (Ericson, Real-Time Collision Detection, 5.1.5)."""
     a, b, c = t[:, 0], t[:, 1], t[:, 2]
     best = numpy.full(len(points), numpy.inf)
     for p, q in ((a, b), (b, c), (c, a)):
@@ -230,7 +230,7 @@ def distances(points, t):
 
 
 def deepest(tips, radius, triangles):
-    """How far ball and shank reach into triangles."""
+    """Depth of ball and shank in triangles."""
     t = numpy.array(triangles)
     low, high = t.min(1), t.max(1)
     worst = 0.0

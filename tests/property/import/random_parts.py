@@ -44,7 +44,7 @@ def run(*words):
 
 
 def judge(cusp, maker, seed, kind, folder):
-    """Whether the part of a seed is read, and its program holds; says what it found."""
+    """True if the part of a seed is read, and its program holds; says what it found."""
     rng = random.Random(seed)
     words = {
         "strategy": rng.choice(["adaptive_isocurve", "parallel_planes"]),

@@ -71,7 +71,7 @@ FAULTS_OF_PILL = {
     "limit pins swapped": (PILL, "{'B', 5}, {'B', 6}", "{'B', 6}, {'B', 5}"),
 }
 
-# What may go wrong where the lines lie on several ports: planted in the SKR 2, whose three it has.
+# Faults of lines on several ports: planted in the SKR 2, whose three it has.
 FAULTS_OF_PORTS = {
     "second stream by the wrong channel": (PACE, "{3, 7, detail", "{3, 6, detail"),
     "third stream on a wrong request": (PACE, "{4, 7, detail::compare_request(3)",
@@ -93,7 +93,7 @@ FAULTS_OF_PORTS = {
                                          "stream_flag_clear(Chip::dma2(), 1).write("),
 }
 
-# What keeps a stop from being delayed; stops_on_chip.py judges. `--stops` plants these, on any board.
+# Faults that would delay a stop; stops_on_chip.py judges. `--stops` plants these, on any board.
 APP = "firmware/app/app.hpp"
 FAULTS_OF_STOPS = {
     "bytes not seen by the tick": (APP, "        machine_.notice(byte);\n", ""),
@@ -182,7 +182,7 @@ def find(options, image):
 
 
 def find_in_stops(options, image):
-    """What stops_on_chip.py says of an image; None where it finds nothing."""
+    """The report of stops_on_chip.py on an image; None if it finds nothing."""
     script = pathlib.Path(__file__).with_name("stops_on_chip.py")
     done = subprocess.run([sys.executable, str(script), "--cosim", options.cosim, "--board", options.board,
                            "--image", str(image)], capture_output=True, text=True)

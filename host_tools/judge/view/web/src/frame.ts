@@ -1,4 +1,4 @@
-// What both pages have: sections, dialogs, light and dark, licences.
+// Shared by both pages: sections, dialogs, light and dark, licences.
 import licences from "licences";
 import { button, element } from "./elements";
 

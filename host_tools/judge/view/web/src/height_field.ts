@@ -47,7 +47,7 @@ function floatTexture(values: Float32Array, width: number, height: number): THRE
   return texture;
 }
 
-// What is left, by cells, for HeightField.
+// The stock that is left, by cells, for HeightField.
 export function leftTexture({ nx, ny }: Stock, left: Float32Array): THREE.DataTexture {
   return floatTexture(left.map((v) => Number.isNaN(v) ? kNone : v === Infinity ? kFar : v), ny, nx);
 }

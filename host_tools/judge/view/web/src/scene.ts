@@ -18,7 +18,7 @@ const views: [Triple, Triple][] = [
 ];
 export const viewNames = ["Corner", "Top", "Front", "Back", "Left", "Right", "Below"];
 
-// Of the path, and of the stock if there is one.
+// Box of the path, and of the stock if there is one.
 function boxOf({ run }: Timeline): THREE.Box3 {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let c = 0; c < 3; ++c) {

@@ -5,7 +5,7 @@ export interface ToWorker {
   module: WebAssembly.Module;
   text: string;
   settings: Settings;
-  /** Whether path and profile are requested. */
+  /** True if path and profile are requested. */
   withPath: boolean;
 }
 

@@ -17,7 +17,7 @@ export interface DrawnRun {
   profile: Profile;
 }
 
-/** Whether this page was built with the core. */
+/** True if this page was built with the core. */
 export const hasCore = base64 !== "";
 
 let compiled: Promise<WebAssembly.Module> | null = null;
