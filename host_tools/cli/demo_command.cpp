@@ -147,7 +147,7 @@ void add_demo_command(CLI::App& app, Work& work)
         app.add_subcommand("demo", "plan, verify, simulate and draw a pocket that comes with cusp");
     command->footer(
         "A flat end mill roughs the pocket in layers, a ball finishes it: one program, two tools.\n"
-        "Exit status 1 where a bound of the job does not hold, or the run ends early.");
+        "The exit status is 1 if a bound of the job is broken, or the run ends early.");
     auto options = std::make_shared<DemoOptions>();
     command->add_option("--out", options->out, "folder of the files to write")
         ->capture_default_str();

@@ -88,13 +88,12 @@ void add_fit_command(CLI::App& app, Work& work)
     auto* command = app.add_subcommand("fit", "replace runs of short lines by arcs and lines");
     command->footer(
         "Vertices are within the tolerance, midpoints of lines within 1.1 times of it. The result\n"
-        "is parsed and measured before it is written. All words but those of merged lines "
-        "stay.\n"
+        "is read again and measured before it is written. Other lines stay as they are.\n"
         "Statistics are in mm and s, whatever the program's units; moves are feed moves.");
     auto options = std::make_shared<FitOptions>();
     command->add_option("IN", options->program, "G-code to read")->required();
     command->add_option("-o,--output", options->output, "G-code to write")->required();
-    command->add_option("--tolerance", options->tolerance, "mm")
+    command->add_option("--tolerance", options->tolerance, "of the path, mm")
         ->required()
         ->check(CLI::Range(0.0001, 10.0));
     command->add_option("--stats", options->stats, "statistics to write (JSON)");

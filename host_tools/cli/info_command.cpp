@@ -110,10 +110,11 @@ void add_info_command(CLI::App& app, Work& work)
         "between them may be missed. For STL, --tolerance should be at least the deviation of\n"
         "the facets.\n"
         "\"Undercuts\" is the area that no tool from above can reach.\n"
-        "Exit status 2 where a file can't be read; then nothing is written.");
+        "The exit status is 2 if a file can't be read; then nothing is written.");
     auto options = std::make_shared<InfoOptions>();
-    command->add_option("FILE", options->files, "parts; of a drawing FILE#LAYER")->required();
-    command->add_option("--units", options->units, "mm or inch: of files that name no unit")
+    command->add_option("FILE", options->files, "parts; FILE#LAYER for a layer of a drawing")
+        ->required();
+    command->add_option("--units", options->units, "unit of files that name none: mm or inch")
         ->check(CLI::IsMember({"mm", "inch"}))
         ->capture_default_str();
     command->add_option("--tolerance", options->tolerance, "mm of stock that a ball may leave")

@@ -16,12 +16,11 @@ namespace {
 using namespace cusp::cli;
 
 constexpr const char* kDescription =
-    "From a sculptured surface to stepper pulses: plan tool paths on NURBS parts, verify the cut,\n"
-    "simulate the controller's motion core down to every pulse, and send programs.\n"
+    "Plan tool paths on parts and drawings, verify the cut, run programs through the controller's\n"
+    "own motion core, and send them to a machine.\n"
     "\n"
-    "  cusp info PART.step                   describe a part: size, loops, the largest ball\n"
-    "  cusp demo                             all steps, on a pocket that comes with cusp\n"
-    "  cusp info part.step                   what a part is, and the largest ball for it\n"
+    "  cusp demo                             do all of this with a pocket that comes with cusp\n"
+    "  cusp info part.step                   describe a part: size, loops, the largest ball\n"
     "  cusp plan part.step --tool flat:8 ball:6 --scallop 0.02 -o part.ngc\n"
     "                                        tool paths for it, without a job file\n"
     "  cusp plan JOB.toml -o part.ngc        plan the operations of a job\n"

@@ -86,15 +86,13 @@ void add_verify_command(CLI::App& app, Work& work)
     auto* command = app.add_subcommand(
         "verify", "simulate the cut; report gouge, scallop and the remaining stock");
     command->footer(
-        "Gouge and scallop are measured square to the surface, in mm, whatever the job's units;\n"
-        "of stock beside a wall scallop_max_mm is the distance from the wall.\n"
-        "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
-        "plan_tolerance (walls), scallop (on 99 % of what the tools reach; stock on the rest may\n"
-        "be no thicker than scallop and floor_tolerance), where a rapid move cuts stock, or where "
-        "stock is cut beyond the\n"
-        "flutes or touches shank or holder (docs/job_file.md, [tool]).\n"
-        "The engagement is looked for with --stats, --engagement-picture, --max-engagement, and\n"
-        "where an operation has max_engagement.");
+        "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
+        "The exit status is 1 if a bound of the job is broken:\n"
+        "  floor_tolerance (gouge) and plan_tolerance (walls);\n"
+        "  scallop, on 99 % of what the tools reach; the rest may keep scallop + floor_tolerance;\n"
+        "  a rapid move cuts stock; flutes, shank or holder cut or touch it (docs/job_file.md).\n"
+        "Engagement is measured with --stats, --engagement-picture or --max-engagement, or if an\n"
+        "operation has max_engagement. docs/stats.md explains the figures.");
     auto options = std::make_shared<VerifyOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("PROGRAM", options->program, "G-code")->required();

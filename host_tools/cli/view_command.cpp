@@ -123,9 +123,8 @@ void add_view_command(CLI::App& app, Work& work)
         app.add_subcommand("view", "write a page that shows a run: path, stock, speeds, limits");
     command->footer(
         "The page is one file, which any browser opens without a network.\n"
-        "Exit status 1 where the run ends early, lines are refused, or a bound of the job does "
-        "not\n"
-        "hold; the page is written all the same.");
+        "The exit status is 1 if the run ends early, lines are refused, or a bound of the job is\n"
+        "broken; the page is written all the same.");
     auto arguments = std::make_shared<ViewArguments>();
     command->add_option("PROGRAM", arguments->program, "G-code, of cusp or any other source");
     command->add_option("--job", arguments->job_file,
@@ -136,7 +135,7 @@ void add_view_command(CLI::App& app, Work& work)
                       "write a page that runs any program opened in it on the firmware's core");
     command->add_option("-o,--output", arguments->page, "page to write (HTML)")->required();
     command->add_option("--still", arguments->still,
-                        "picture of the scene to write (PNG): by Chromium, where it is installed");
+                        "picture of the scene to write (PNG); needs Chromium");
     run_when_called(*command, work, arguments, run_view);
 }
 
