@@ -280,7 +280,7 @@ void Machine::say_hello() noexcept
 {
     reporter_ = StatusReporter{};
     (void)replies_.text("\r\nGrbl 1.1h ['$' for help]").end_line();
-    // What was pressed before is over; an open door is not.
+    // Buttons pressed before are over; an open door is not.
     constexpr std::uint16_t kButtons = kResetButton | kHoldButton | kStartButton | kDoor;
     motion_.stops().handle(kButtons);
     door_wanted_ = door_wanted_ || input_on(kDoor);

@@ -24,7 +24,7 @@ void Machine::execute_command(std::string_view text) noexcept
     perform(*command);
 }
 
-// Whether the state forbids the command.
+// True if the state forbids the command.
 std::optional<Error> Machine::refusal(SystemCommandKind kind) const noexcept
 {
     const bool ready = state_ == State::kIdle || state_ == State::kAlarm;

@@ -114,7 +114,7 @@ void Machine::execute_gcode(std::string_view text, Ending ending) noexcept
     task_ = Task::kActions;
 }
 
-// Whether a jog cancel came after the first byte of this line.
+// True if a jog cancel came after the first byte of this line.
 bool Machine::line_cancelled() const noexcept
 {
     return cancelling_ && static_cast<std::int32_t>(cancelled_to_ - line_start_) > 0;

@@ -208,7 +208,7 @@ void Machine::feed_hold() noexcept
     }
 }
 
-// Where nothing can move, in an alarm, a check or asleep, it means nothing. Behind a door it only
+// If nothing can move, in an alarm, a check or asleep, it means nothing. Behind a door it only
 // calls off the start: what moved there is held already.
 void Machine::hold_program() noexcept
 {
@@ -220,7 +220,8 @@ void Machine::hold_program() noexcept
     }
 }
 
-// What a hold or the door has stopped is switched on again; motion continues once it is up.
+// Outputs that a hold or the door has stopped are switched on again; motion continues once they are
+// up.
 void Machine::cycle_start() noexcept
 {
     const bool closed = state_ == State::kDoor && !input_on(kDoor);
@@ -322,7 +323,7 @@ void Machine::switch_off() noexcept
     reporter_.overrides_changed();
 }
 
-// What was switched on takes so long to come up; nothing moves meanwhile.
+// Time that the outputs switched on take to come up; nothing moves meanwhile.
 void Machine::wait_until_up(std::uint32_t ticks) noexcept
 {
     coming_up_ = true;

@@ -218,7 +218,7 @@ planner::InputShaper Settings::input_shaper() const noexcept
     return planner::make_input_shaper(axes);
 }
 
-// Of the axes that are shaped the one with the lowest frequency. Precondition: there is one.
+// The shaped axis with the lowest frequency. Precondition: there is one.
 unsigned Settings::slowest_shaped_axis() const noexcept
 {
     unsigned slowest = 0;

@@ -47,7 +47,7 @@ void include_turns(Extent& extent, const path::Arc& arc, unsigned axis, Position
 // A control point in float may lie a rounding outside.
 constexpr std::int64_t kRounding = 10;
 
-// Whether it lies between -travel and 0, or not beyond `edge`.
+// True if it lies between -travel and 0, or not beyond `edge`.
 bool holds(const Extent& extent, const Extent& edge, const Settings& settings) noexcept
 {
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {

@@ -196,7 +196,7 @@ void add_removal(const PathEngagement& found, double seconds, toolpath::Operatio
                               seconds > 0 ? found.removed_mm3 / seconds * kSecondsPerMinute : 0.0);
 }
 
-// Of operations that cut with a bound and without one: the plan can't know what is over in all.
+// A plan with a bound for some operations and none for others can't know what is over in all.
 std::vector<std::optional<double>> limits_of(const Job& job, const Plan& plan)
 {
     std::vector<std::optional<double>> out;

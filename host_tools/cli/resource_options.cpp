@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-// The allocator's own bound rises to the largest block freed, up to 32 MB; what is freed below it stays
-// in pieces between other blocks. Of 660 MB of a plan only 440 were in use.
+// The allocator's own bound rises to the largest block freed, up to 32 MB; what is freed below it
+// stays in pieces between other blocks. Only 440 of a plan's 660 MB were in use.
 void keep_large_blocks_apart()
 {
 #ifdef __GLIBC__

@@ -196,7 +196,7 @@ private:
         });
     }
 
-    // Where two begin, the one furthest to the left, so that lobes stay apart.
+    // If two begin at a place, the one furthest to the left, so that lobes stay apart.
     std::size_t next_after(const Edge& edge) const
     {
         std::size_t found = pieces_.size();

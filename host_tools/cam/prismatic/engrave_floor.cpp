@@ -88,7 +88,7 @@ private:
         add(edge, share, to, end);
     }
 
-    // Whether the straight line is proved to keep the tolerance.
+    // True if the straight line is proved to keep the tolerance.
     bool follows(Vec3d begin, Vec3d end) const
     {
         const Vec2d from = in_plan(begin);

@@ -44,7 +44,7 @@ namespace {
 // Radius of leads over the tool's, where the job gives none.
 constexpr double kLeadRadius = 1.0;
 
-// Where the tool may be. Parts that touch are one to a tool outside them.
+// The region in which the tool may be. Parts that touch are one to a tool outside them.
 ContourGroup contours_beside(const Prismatic& cut)
 {
     ContourGroup drawn{material_of(cut), {}, 0, {}};
@@ -185,7 +185,7 @@ private:
         return led.leads.in ? led.leads.in->start : led.run.point(0);
     }
 
-    // Whether the pass with the allowance came everywhere along the contour, but for corners.
+    // True if the pass with the allowance came everywhere along the contour, but for corners.
     bool is_roughed(const Contour& contour, const EdgeTree& roughed) const
     {
         const double radius = operation_.tool.radius;

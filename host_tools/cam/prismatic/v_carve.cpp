@@ -1,4 +1,4 @@
-// The tip follows the medial axis at the depth where both flanks touch a wall. Where that is below the
+// The tip follows the medial axis at the depth where both flanks touch a wall. If that is below the
 // floor, the tip stays on the floor, and loops along the walls clear the rest.
 #include <algorithm>
 #include <array>

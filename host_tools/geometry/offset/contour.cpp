@@ -9,7 +9,7 @@ namespace {
 
 double cross_from(Vec2d origin, Vec2d a, Vec2d b) { return cross(a - origin, b - origin); }
 
-// Whether the point lies in the wedge that the arc spans around its centre.
+// True if the point lies in the wedge that the arc spans around its centre.
 bool in_wedge(const Edge& arc, Vec2d point)
 {
     return cross_from(arc.centre, arc.start, point) * arc.turn >= 0.0 &&

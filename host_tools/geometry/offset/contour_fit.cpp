@@ -20,7 +20,7 @@ struct CurveStation {
     Vec2d tangent;
 };
 
-// Where the derivative vanishes (coincident control points), the tangent is that a little inside.
+// If the derivative vanishes (coincident control points), the tangent is that a little inside.
 CurveStation station(const Curve& curve, double u, double toward)
 {
     CurvePoint at = derivatives_at(curve, u);

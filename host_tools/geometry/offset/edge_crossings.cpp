@@ -13,7 +13,7 @@ bool near(Vec2d a, Vec2d b, double overrun)
     return std::abs(a.x - b.x) <= overrun && std::abs(a.y - b.y) <= overrun;
 }
 
-// Whether a point of the edge's line or circle belongs to the edge itself.
+// True if a point of the edge's line or circle belongs to the edge itself.
 bool within(const Edge& edge, Vec2d p, double overrun)
 {
     if (near(p, edge.start, overrun) || near(p, edge.end, overrun)) {

@@ -258,7 +258,7 @@ void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
     runs.erase(std::remove_if(runs.begin(), runs.end(), wrong_or_double), runs.end());
 }
 
-// Whether two contours have a point in common.
+// True if two contours have a point in common.
 bool contours_touch(const Region2d& source, const EdgeTree& tree)
 {
     std::vector<std::size_t> contour_of;
@@ -373,7 +373,7 @@ Region2d RegionOffset::at(double distance) const
     // If rounding at a common point of several pieces defeats the joining, a distance nearby is
     // used. The steps are below the promised accuracy of 1e-6 mm.
     constexpr double kSteps[] = {0.0, 1e-8, -1e-8, 3e-8, 1e-7, -1e-7, 3e-7, -3e-7, 8e-7, -8e-7};
-    // Where none of them gives the whole offset, what can be joined has to do.
+    // If none of them gives the whole offset, the contours that can be joined have to do.
     for (const bool complete : {true, false}) {
         for (const double step : kSteps) {
             if (auto region =

@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    // Where the pieces of an edge and of the next one end and begin.
+    // The ends at which the pieces of an edge and of the next one meet.
     struct Junction {
         Vec2d end;
         Vec2d onward;
@@ -104,9 +104,10 @@ private:
         return {end, onward, false, corner};
     }
 
-    // Where two pieces with a small kink between them meet: a point at the distance from the joint that
-    // lies on both to within rounding. Their crossing, the other way to close the joint, is not known
-    // so exactly where they are nearly tangent. None where the kink shows, or a piece is too short.
+    // The place where two pieces with a small kink between them meet: a point at the distance from
+    // the joint that lies on both to within rounding. Their crossing, the other way to close the
+    // joint, is not known so exactly where they are nearly tangent. None where the kink shows, or a
+    // piece is too short.
     std::optional<Vec2d> nearly_smooth(const Edge& edge,
                                        const Edge& next,
                                        Vec2d end,

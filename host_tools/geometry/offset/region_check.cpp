@@ -15,7 +15,7 @@ struct Place {
     std::size_t edge;
 };
 
-// Whether the edges certainly cross: false where one only ends on the other. Contours that cross at
+// True if the edges certainly cross: false where one only ends on the other. Contours that cross at
 // corners are found by probing the middles of their edges.
 bool passes_through(const Edge& a, const Edge& b, Vec2d p)
 {

@@ -107,7 +107,7 @@ Surface surface_of(const TopoDS_Face& face)
     return surface;
 }
 
-// Whether any sampled normal of a solid's face points up. `outwards` is +1 if du x dv points out.
+// True if any sampled normal of a solid's face points up. `outwards` is +1 if du x dv points out.
 bool looks_up(const Surface& s, double outwards)
 {
     constexpr int kLooks = 16;
@@ -239,7 +239,7 @@ bool add_patches(const SolidFace& found, bool all_faces, const std::string& plac
     return true;
 }
 
-// Whether a face of a solid has no upward normal; false where its edges run round it the wrong way.
+// True if a face of a solid has no upward normal; false where its edges run round it the wrong way.
 bool looks_down(const SolidFace& found)
 {
     if (!found.solid) {

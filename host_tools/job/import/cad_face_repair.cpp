@@ -1,4 +1,4 @@
-// What Open CASCADE makes of edges is judged at places along them.
+// Edges as Open CASCADE converts them are judged at places along them.
 #include "host_tools/job/import/cad_face_repair.hpp"
 
 #include <algorithm>

@@ -139,7 +139,7 @@ WireTrims trims_of(const TopoDS_Wire& wire, const TopoDS_Face& face, const std::
     return {all, std::vector<bool>(all.size(), false)};
 }
 
-// Whether the wire runs along seams and poles alone: the edge of the whole of a ball or ring, which
+// True if the wire runs along seams and poles alone: the edge of the whole of a ball or ring, which
 // trims nothing. Open CASCADE's curves of such seams are up to a tenth of a millimetre beside them.
 bool bounds_all(const TopoDS_Wire& wire, const TopoDS_Face& face)
 {
@@ -219,7 +219,7 @@ std::vector<std::vector<Curve>> mended_trims(const std::vector<std::vector<Curve
     }
 }
 
-// Of all wires that trim something.
+// The loops of all wires that trim something.
 std::vector<WireTrims> all_trims_of(const TopoDS_Face& face,
                                     const Surface& surface,
                                     const std::string& place)

@@ -66,7 +66,7 @@ SampledFace sampled(const Surface& surface, double outwards)
     return face;
 }
 
-// Where the normals of two samples meet in plan.
+// The place where the normals of two samples meet in plan.
 std::optional<Vec2d> meeting(const Sample& a, const Sample& b)
 {
     constexpr double kParallel = 1e-3;
@@ -126,7 +126,7 @@ bool are_one(const Wall& a, const Wall& b)
     return norm(a.axis - b.axis) <= kSameHole && std::abs(a.radius - b.radius) <= kSameHole;
 }
 
-// Whether the walls go all around, over all heights that they have.
+// True if the walls go all around, over all heights that they have.
 bool is_complete(std::vector<Wall> walls)
 {
     constexpr double kShare = 0.98;
@@ -143,7 +143,7 @@ bool is_complete(std::vector<Wall> walls)
     return area >= kShare * 2 * kPi * height;
 }
 
-// Whether all of the face lies over or under the hole.
+// True if all of the face lies over or under the hole.
 bool is_within(const SampledFace& face, const Wall& hole)
 {
     // a level face is a square around its circle

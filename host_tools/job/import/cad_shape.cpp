@@ -62,7 +62,7 @@ public:
     }
 };
 
-// Whether the reading ends, and without a crash: a child process tries it.
+// True if the reading ends, and without a crash: a child process tries it.
 //
 // seconds  of CPU time at most
 template <class Reading>

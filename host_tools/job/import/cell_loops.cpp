@@ -96,7 +96,7 @@ private:
     const std::string& place_;
 };
 
-// Whether the face has the boundary of a cell that no edge meets, all of it.
+// True if the face has the boundary of a cell that no edge meets, all of it.
 bool is_boundary_inside(const CellBoundary& boundary,
                         const std::function<bool(Vec3d)>& is_inside,
                         const std::string& place)

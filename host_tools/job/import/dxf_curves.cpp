@@ -69,7 +69,7 @@ void note_interpolated(const std::string& name,
     }
 }
 
-// Where a part would be that far from the origin of the machine.
+// Notes drawings that lie that far from the origin of the machine.
 void note_far(const std::string& file,
               const std::vector<DrawingPath>& paths,
               std::vector<std::string>& notes)
@@ -158,7 +158,7 @@ private:
     std::string view_note_;
 };
 
-// What lies on a layer where no curve does: text has to be made into curves first.
+// The entities of a layer without curves: text has to be made into curves first.
 std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
 {
     std::string kinds;

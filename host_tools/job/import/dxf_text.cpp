@@ -68,7 +68,7 @@ std::string_view header_value(std::string_view bytes, std::string_view name)
     return value.substr(0, value.find_last_not_of(" \t") + 1);
 }
 
-// What iconv calls the code page.
+// The name that iconv has for the code page.
 std::string encoding_of(std::string_view page)
 {
     std::string name;

@@ -213,8 +213,8 @@ double turn_left(Vec3d in, Vec3d out)
     return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
 }
 
-// Closed loops of the group's boundary edges. Where several edges continue from a corner the
-// leftmost one is taken, so that loops may touch but do not cross.
+// Closed loops of the group's boundary edges. If several edges continue from a corner, the leftmost
+// one is taken, so that loops may touch but do not cross.
 std::vector<std::vector<Vec3d>> outline(const Mesh& mesh, const std::vector<std::size_t>& group)
 {
     const std::vector<FacetSide> sides = sides_of(mesh, group);

@@ -97,7 +97,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
     return out;
 }
 
-// Whether the name is that of a drawing, in which "#layer" may follow the file.
+// True if the name is that of a drawing, in which "#layer" may follow the file.
 bool names_drawing(const std::string& name)
 {
     return path_ending(name.substr(0, layer_mark(name))) == ".dxf";

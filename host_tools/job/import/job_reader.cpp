@@ -244,7 +244,7 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     read_chip_load(table, unit_, operation);
 }
 
-// Whether the strategy plans on the triangles themselves, without a height field.
+// True if the strategy plans on the triangles themselves, without a height field.
 bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
 {
     return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&

@@ -84,7 +84,7 @@ constexpr OperationKey kOperationKeys[]{
     {"rest_tolerance", ""},
     {"width", "chamfer"}};
 
-// Whether the list, with commas between them, holds the word.
+// True if the list, with commas between them, holds the word.
 bool lists(std::string_view list, std::string_view word)
 {
     while (!list.empty()) {

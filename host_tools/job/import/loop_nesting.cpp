@@ -90,7 +90,7 @@ void add_joined(ChainResult joined, LoopNesting& nesting)
     nesting.widest_gap = std::max(nesting.widest_gap, joined.widest_gap);
 }
 
-// Where a curve lies, the same either way round.
+// Place of a curve, the same either way round.
 using Place = std::array<std::int64_t, 6>;
 
 Place place_of(const Curve& curve)

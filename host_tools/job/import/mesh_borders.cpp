@@ -33,7 +33,7 @@ std::pair<std::uint32_t, std::uint32_t> ends_of(const OpenEdge& edge)
     return std::minmax(edge.a, edge.b);
 }
 
-// Of edges with the same ends, an even number cancels, of an odd number the first stays.
+// Edges with the same ends cancel in pairs; of an odd number the first stays.
 std::vector<OpenEdge> odd_edges(std::vector<OpenEdge> edges)
 {
     std::sort(edges.begin(), edges.end(), [](const OpenEdge& s, const OpenEdge& t) {
@@ -258,7 +258,7 @@ private:
         }
     }
 
-    // The next edge, if any is left. Where borders meet at a corner, the one round the same opening.
+    // The next edge, if any is left. If borders meet at a corner, the one round the same opening.
     std::optional<std::uint32_t> unused_at(std::uint32_t corner,
                                            const std::vector<BorderEdge>& ways) const
     {

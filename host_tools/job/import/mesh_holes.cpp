@@ -53,7 +53,7 @@ double length_of(const BorderLoop& loop)
     return sum;
 }
 
-// Whether the edge asks for a cover of its loop: 1, or contradicts: -1. 0: of no length in plan.
+// True if the edge asks for a cover of its loop: 1, or contradicts: -1. 0: of no length in plan.
 //
 // inside  unit vector in plan to the inside of the loop
 int vote_of(const BorderEdge& edge, Vec3d inside)
@@ -96,8 +96,8 @@ double distance_to(Vec3d at, const BorderEdge& edge)
     return norm(at - edge.begin - along * share);
 }
 
-// Whether the edge has a border beside it that a crack apart would be the same. Of its own loop only
-// edges count that are far along it.
+// True if the edge has a border beside it that a crack apart would be the same. Only edges of its
+// own loop count that are far along it.
 bool has_other_side(const std::vector<BorderLoop>& loops, std::size_t own, std::size_t at)
 {
     constexpr double kFarAlong = 4 * kCrack;
@@ -169,7 +169,7 @@ std::optional<double> height_of(const Triangle& t, double x, double y)
     return t[0].z + b * (t[1].z - t[0].z) + c * (t[2].z - t[0].z);
 }
 
-// Whether some place of the cover lies under nothing: neither the mesh nor the covers before.
+// True if some place of the cover lies under nothing: neither the mesh nor the covers before.
 bool is_seen(const MeshHole& hole, const PartModel& mesh, const std::vector<MeshHole>& before)
 {
     const auto is_under = [&](Vec3d at, double height) {

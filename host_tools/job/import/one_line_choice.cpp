@@ -100,7 +100,7 @@ void OneLineChooser::choose_numbers()
     choice_.clearance = request_.clearance.value_or(defaults_.clearance);
 }
 
-// Where an option asks for it.
+// True if an option asks for it.
 void OneLineChooser::place()
 {
     if (!request_.scale && request_.up.empty() && request_.rotate.empty() &&

@@ -17,7 +17,7 @@ Vec3d mean_normal(const std::vector<Vec3d>& corners)
     return sum;
 }
 
-// Whether p is in the triangle or on its edge; the triangle turns left seen against the normal.
+// True if p is in the triangle or on its edge; the triangle turns left seen against the normal.
 bool holds(const std::array<Vec3d, 3>& triangle, Vec3d p, Vec3d normal)
 {
     for (std::size_t i = 0; i < 3; ++i) {

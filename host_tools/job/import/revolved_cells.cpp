@@ -24,7 +24,7 @@ Vec3d way(const Revolved& surface, Vec3d from, Vec3d to)
     return {wrapped(to.x - from.x), surface.is_ring() ? wrapped(v) : v, 0};
 }
 
-// Where cells begin; no `v` on a line, whose cells reach over all edges.
+// Places where cells begin; no `v` on a line, whose cells reach over all edges.
 struct Starts {
     double u;
     double v;
@@ -103,7 +103,7 @@ private:
     std::array<Vec3d, 4> corners_;
 };
 
-// Whether a point lies on the left of the nearest edge, by (u, v). Ends that meet lie up to `gap` mm apart.
+// True if a point lies on the left of the nearest edge, by (u, v). Ends that meet lie up to `gap` mm apart.
 bool is_left(const Revolved& surface, const std::vector<FaceEdge>& edges, double gap, Vec3d p)
 {
     const double same = gap / (surface.is_ring() ? surface.tube : surface.profile(p.y).x);
@@ -119,15 +119,15 @@ bool is_left(const Revolved& surface, const std::vector<FaceEdge>& edges, double
         });
 }
 
-// How far an angle lies from where the nearest cell begins.
+// Distance of an angle from the nearest beginning of a cell.
 double from_cut(double angle, double start)
 {
     const double turns = (angle - start) / kQuarter;
     return kQuarter * std::abs(turns - std::floor(turns + 0.5));
 }
 
-// How well cells that begin there cut edges: the least of how far ends lie from a cut, how steeply edges
-// cross one, and how far they stay from the corners of cells; radians.
+// Quality of cells that begin there: the least of the distance of ends from a cut, the angle at
+// which edges cross one, and their distance from the corners of cells; radians.
 double cut_quality(const Revolved& surface,
                    const std::vector<std::vector<PointAndTangent>>& looks,
                    Starts starts)

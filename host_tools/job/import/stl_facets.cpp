@@ -161,7 +161,7 @@ Facets read_ascii(const std::string& text, double unit, const std::string& file)
     }
 }
 
-// Whether the next word is one of these, in any case.
+// True if the next word is one of these, in any case.
 bool next_is(std::string_view text, std::initializer_list<std::string_view> words)
 {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -188,7 +188,7 @@ bool is_ascii(const std::string& bytes)
     return text.find('\0') == std::string_view::npos || next_is(rest, {"facet", "endsolid"});
 }
 
-// Of a binary file this would be one of half a thousand million facets.
+// A binary file with this would have half a thousand million facets.
 bool is_other_text(const std::string& bytes)
 {
     return std::all_of(bytes.begin(), bytes.begin() + kHead, [](char c) {

@@ -44,7 +44,7 @@ std::vector<Vec2d> places_inside(const std::vector<Vec2d>& closed)
     return places;
 }
 
-// Whether there is stock inside the loop. The loop may run along the stock's edge.
+// True if there is stock inside the loop. The loop may run along the stock's edge.
 bool has_stock(const job::Loop& loop, const std::vector<job::Loop>& stock)
 {
     constexpr double kChord = 1e-3;  // mm

@@ -16,7 +16,7 @@ using toolpath::ToolShape;
 
 namespace {
 
-// What is above the flutes.
+// The tool above the flutes.
 void read_body(JobTable& keys, double millimetres, job::ToolFacts& facts)
 {
     facts.shank_diameter = keys.length("shank_diameter", kPositive, millimetres);

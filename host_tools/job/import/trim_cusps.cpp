@@ -87,8 +87,8 @@ struct Cusp {
     double widest;  // mm
 };
 
-// Where the tip between two curves is as wide as `width`, after their last crossing; none where they meet
-// at a wider angle, or are apart by more than `gap` before.
+// The place where the tip between two curves is as wide as `width`, after their last crossing; none
+// if they meet at a wider angle, or are apart by more than `gap` before.
 std::optional<Cusp> cusp_between(
     const Curve& first, const Curve& next, double width, double gap, const Surface& surface)
 {

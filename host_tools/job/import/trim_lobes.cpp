@@ -20,7 +20,7 @@ constexpr double kLobeChord = 1e-6;  // of the domain's longer side; trim_loops(
 constexpr std::size_t kMostRings = 64;
 constexpr double kSliver = 1e-3;  // mm: narrower rings are no part of a face
 
-// Where two segments cross, if they do.
+// The place where two segments cross, if they do.
 std::optional<Vec2d> crossing(Vec2d a, Vec2d b, Vec2d c, Vec2d d)
 {
     const double from = cross(d - c, a - c);

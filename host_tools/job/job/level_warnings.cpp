@@ -51,7 +51,7 @@ bool goes_in_one_level(const Operation& operation)
            !operation.max_engagement;
 }
 
-// Whether what an earlier operation or program left is all that there is to cut: how deep that is
+// True if what an earlier operation or program left is all that there is to cut: how deep that is
 // is not known here.
 bool is_cut_before(const Job& job, const Operation& operation)
 {

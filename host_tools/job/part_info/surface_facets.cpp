@@ -141,7 +141,7 @@ private:
         }
     }
 
-    // Whether the hull is inside the face at the midpoints of its sides.
+    // True if the hull is inside the face at the midpoints of its sides.
     bool is_face(const std::vector<Vec2d>& hull, const TrimRegion& region, double width) const
     {
         Vec2d middle;

@@ -22,7 +22,7 @@ constexpr double kSurfacePlaces = 30000;
 constexpr double kVertical = 1e-9;  // z of a normal
 constexpr double kParallel = 1e-12;
 
-// Whether the point is inside the trims.
+// True if the point is inside the trims.
 bool kept(const TrimRegion& region, double u, double v)
 {
     return !region.trimmed() || region.inside(u, v);
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    // Where a trim crosses the cell, the sample is a point inside the trim.
+    // If a trim crosses the cell, the sample is a point inside the trim.
     void add_cell(const Patch& patch, const TrimRegion& region, Vec2d low, Vec2d size)
     {
         constexpr int kParts = 5;

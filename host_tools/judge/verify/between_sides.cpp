@@ -24,7 +24,8 @@ namespace {
 
 constexpr double kCut = 1e-3;  // mm: less is rounding
 
-// Profiles part and chamfers break edges: neither leaves a floor. What goes through opens by itself.
+// Profiles part and chamfers break edges: neither leaves a floor. A cut through the bottom may
+// open.
 bool is_judged(const Job& job, const Operation& operation)
 {
     if (!operation.prismatic || operation.may_open || operation.strategy == "profile" ||

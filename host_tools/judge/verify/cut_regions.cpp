@@ -126,8 +126,8 @@ private:
     double top_{-kUnbounded};
 };
 
-// What an engraving on a floor leaves: a stock cut by its tool, the tip wherever the curves say, as deep below the
-// surfaces as it has to be.
+// The stock that an engraving on a floor leaves: cut by its tool, the tip wherever the curves say,
+// as deep below the surfaces as it has to be.
 std::vector<double> engraved_heights(const Operation& operation, const HeightGrid& grid)
 {
     const toolpath::Tool tip = toolpath::tip_of(operation.tool);

@@ -141,7 +141,7 @@ Vec3d open_tip(const Job& job, const job::SetupFlip& turn, Vec3d tip)
     return {turned.x, turned.y, open_level(job)};
 }
 
-// What went through the bottom, in runs of equal radius.
+// Moves through the bottom, in runs of equal radius.
 void append_through(const Job& job,
                     const job::SetupFlip& turn,
                     const ToolPositions& run,

@@ -274,8 +274,8 @@ double fine_distance(ToolAccess& reach, Vec3d top, double distance, double suffi
 }
 
 // The greatest distance of the stock's top from the material that stays, of points in falling order
-// of their height along the normal. Where the columns of the grid say more than the bound, nearer
-// ones are asked.
+// of their height along the normal. If the columns of the grid say more than the bound, nearer ones
+// are asked.
 double highest_scallop(const FloorQuestion& q,
                        const std::vector<double>& floor,
                        const Ideal& ideal,

@@ -241,8 +241,8 @@ private:
                                                     : static_cast<int>(cut.tabs->places.size());
     }
 
-    // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool. What is left farther
-    // away is no tab, be it joined to one.
+    // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.
+    // Stock left farther away is no tab, even if it is joined to one.
     static double tab_foot(const Operation& operation)
     {
         constexpr double kRun = 2;   // of a slope, over its height

@@ -169,7 +169,7 @@ double MachinedStock::depth_at(
     if (tool.corner_radius > 0 || is_conical(tool)) {
         deepest = std::max(deepest, level_around(tip.x, tip.y, begin, end) - tip.z - shrink);
     }
-    // What the tool was raised by is in stock too.
+    // The height by which the tool was raised is in stock too.
     return deepest > kRapidCutAllowed ? deepest + shrink : deepest;
 }
 

@@ -37,9 +37,9 @@ std::vector<Place> points_under(const Tool& tool, double pitch)
     return places;
 }
 
-// Where circles of a tool's lower side cross the lines of the grid: the edge of its flat and its
-// rim. On a slope a flat end touches with its rim, up to a pitch outside the last grid point below
-// it.
+// Places where circles of a tool's lower side cross the lines of the grid: the edge of its flat and
+// its rim. On a slope a flat end touches with its rim, up to a pitch outside the last grid point
+// below it.
 std::vector<Place> rims_of(const Tool& tool, double pitch)
 {
     std::vector<Place> rims;

@@ -1,4 +1,4 @@
-// Where a tool can touch the point, one drop suffices; else the lowest position is searched.
+// If a tool can touch the point, one drop suffices; else the lowest position is searched.
 #include "host_tools/judge/verify/tool_access.hpp"
 
 #include <algorithm>

@@ -368,7 +368,7 @@ void judge_surfaces(const Job& job,
     result.part = std::move(maps.part);
 }
 
-// Judges 2.5-D operations. Where they cut, surfaces of other operations do not limit the depth, so
+// Judges 2.5-D operations. In their regions surfaces of other operations do not limit the depth, so
 // these figures of gouges replace those of the surfaces.
 void add_levels(const Job& job,
                 const Scene& scene,
