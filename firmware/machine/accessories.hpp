@@ -26,7 +26,7 @@ struct Accessories {
     bool flood_on() const noexcept { return flood && !coolant_paused && !changing_tool; }
     bool mist_on() const noexcept { return mist && !coolant_paused && !changing_tool; }
 
-    // Whether the spindle, off or slower before, has to come up to speed now: it was switched on, given
+    // True if the spindle, off or slower before, has to come up to speed now: it was switched on, given
     // a speed or turned about.
     bool spindle_starts_after(const Accessories& before) const noexcept;
 };

@@ -76,7 +76,7 @@ public:
         motion_.tick(raw_inputs, frame);
     }
 
-    // Whether outputs() are cut: see Stops. Context: servo tick.
+    // True if outputs() are cut: see Stops. Context: servo tick.
     bool cuts_outputs() const noexcept { return motion_.stops().cuts_outputs(); }
     bool cuts_drives() const noexcept { return motion_.stops().cuts_drives(); }
 

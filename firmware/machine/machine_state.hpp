@@ -33,7 +33,7 @@ enum class Alarm : std::uint8_t {
     kMotorFault = 17,        // grblHAL's number; a drive says that it has failed
 };
 
-// Whether the position may be lost: homing makes it known again.
+// True if the position may be lost: homing makes it known again.
 constexpr bool loses_position(Alarm alarm) noexcept
 {
     switch (alarm) {

@@ -80,7 +80,7 @@ public:
     // Stops softly once the watch answers; clears the contact before.
     void watch(Watch watch) noexcept;
     void unwatch() noexcept { watched_.store(0, std::memory_order_release); }
-    // Where the machine was when the watch answered.
+    // Position of the machine when the watch answered.
     std::optional<Position> contact() const noexcept;
     // Which of the watched inputs answered then.
     std::uint16_t contact_inputs() const noexcept { return contact_inputs_; }
@@ -89,13 +89,13 @@ public:
 
     // While on, any limit switch stops everything within the tick.
     void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
-    // Whether that happened; there is no motion until abandon().
+    // True if that happened; there is no motion until abandon().
     bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
-    // Whether a stop has ended motion at once; there is none until abandon(), either.
+    // True if a stop has ended motion at once; there is none until abandon(), either.
     bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
 
     const InputFilter& inputs() const noexcept { return inputs_; }
-    // What stops motion in the tick, whatever the main loop does.
+    // The stops that act in the tick, whatever the main loop does.
     Stops& stops() noexcept { return stops_; }
     const Stops& stops() const noexcept { return stops_; }
     // Servo ticks since power-up: the only clock there is. Wraps.
@@ -107,12 +107,12 @@ public:
 
 private:
     void sample(std::uint16_t raw_inputs) noexcept;
-    // Where the machine was when an input began to answer, and for how long it has.
+    // Position of the machine when an input began to answer, and for how long it has.
     struct Answer {
         Position at{};
         std::uint8_t ticks{0};
     };
-    // Whether one of these inputs has answered long enough.
+    // True if one of these inputs has answered long enough.
     bool answered(Answer& answer, unsigned inputs) noexcept;
     void check_watch() noexcept;
     void stand_still(bool on) noexcept { stands_still_.store(on, std::memory_order_release); }

@@ -153,7 +153,7 @@ public:
         const std::uint32_t axis = whole(Setting::kSecondMotor);
         return axis > 0 ? std::optional<unsigned>{axis - 1} : std::nullopt;
     }
-    // Whether homing squares this axis on two switches.
+    // True if homing squares this axis on two switches.
     bool squares(unsigned axis) const noexcept
     {
         return on(Setting::kSquaring) && second_motor_axis() == axis;

@@ -73,7 +73,7 @@ public:
     std::uint32_t bytes() const noexcept { return bytes_.load(std::memory_order_relaxed); }
     // ... and this with its value once the link was found empty.
     void read_up_to(std::uint32_t bytes) noexcept { read_ = bytes; }
-    // What the machine has read and not yet acted upon.
+    // Stops that the machine has read and not yet acted upon.
     void want(bool brake, bool cut, bool halt) noexcept
     {
         wants_halt_.store(halt, std::memory_order_relaxed);

@@ -15,7 +15,7 @@ namespace cusp::cli {
 // in a straight line to half in a slot.
 double feed_by_load(double feed, double degrees, const job::ChipLoad& limits);
 
-// Whether an operation has chip_load, or, where there are statistics to write, max_engagement.
+// True if an operation has chip_load, or, where there are statistics to write, max_engagement.
 bool wants_engagement(const job::Job& job, bool with_stats);
 
 // Measures the engagement of all paths. Adds air_mm, removed_mm3 and mean_removal_mm3_per_min to

@@ -39,7 +39,7 @@ private:
     std::vector<double> ends_;
 };
 
-// How edges become moves.
+// The rules by which edges become moves.
 struct EdgeForm {
     bool arcs{true};           // else lines
     double tolerance{};        // mm: of lines in place of arcs

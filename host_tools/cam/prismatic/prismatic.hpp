@@ -53,9 +53,9 @@ std::vector<toolpath::PlannedOperation> plan_engrave(const job::Job& job,
 std::vector<toolpath::PlannedOperation> plan_chamfer(const job::Job& job,
                                                      const job::Operation& operation);
 
-// Moves a vee along the medial axis between the outlines, everywhere as deep as both walls allow, so
-// corners are sharp. Where that exceeds the depth, the floor is level. At the top the flanks touch the
-// outlines, within 0.001 mm and never beyond (tests/property/prismatic).
+// Moves a vee along the medial axis between the outlines, everywhere as deep as both walls allow,
+// so corners are sharp. If that exceeds the depth, the floor is level. At the top the flanks touch
+// the outlines, within 0.001 mm and never beyond (tests/property/prismatic).
 //
 // Errors: InputError where the tip fits nowhere between the outlines, with the widest place; more
 // than 20 000 loops on the floor.

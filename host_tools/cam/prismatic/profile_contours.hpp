@@ -36,7 +36,8 @@ Unreached unreached(const offset::Region2d& waste,
                     const offset::Region2d& centres,
                     double distance);
 
-// Of each contour the one that lies directly around it, by its place in the list; none: nothing does.
+// For each contour the one that lies directly around it, by its place in the list; none if nothing
+// does.
 std::vector<std::optional<std::size_t>> contours_around(
     const std::vector<offset::Contour>& contours);
 

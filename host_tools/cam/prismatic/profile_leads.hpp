@@ -28,7 +28,7 @@ struct LeadContour {
     Leads leads;
 };
 
-// Whether a way keeps the tool's centre so far from the walls, mm.
+// True if a way keeps the tool's centre so far from the walls, mm.
 bool keeps_clear(const offset::Edge& way, const offset::EdgeTree& walls, double clearance);
 
 // The contour from a place where the leads have room: the middle of a long side, away from `kept`

@@ -43,8 +43,9 @@ public:
     void mark_cut(std::size_t way) { cut_[way] = true; }
     bool is_cut(std::size_t way) const { return cut_[way]; }
 
-    // The nearest way that is not cut, along ways that are; none within `limit` mm. Of several that begin at one
-    // place those that end in nothing come first, the shortest of them first, so that the tool need not come back.
+    // The nearest way that is not cut, along ways that are; none within `limit` mm. If several
+    // begin at one place, those that end in nothing come first, the shortest of them first, so that
+    // the tool need not come back.
     //
     // way, at_end  where the tool is: at an end of a way that is cut
     std::optional<Link> link_to_uncut(std::size_t way, bool at_end, double limit) const;

@@ -74,14 +74,14 @@ double area(const Contour& contour);  // mm^2, > 0 where it runs counter-clockwi
 double area(const Region2d& region);  // mm^2, holes taken off
 Contour reversed(const Contour& contour);
 
-// Whether a ray from the point to the right crosses the edge an odd number of times. The parity
+// True if a ray from the point to the right crosses the edge an odd number of times. The parity
 // over all edges of a contour shows whether the contour runs around the point.
 bool crossed_by_ray(const Edge& edge, Vec2d point);
 
-// Whether the contour runs around the point, in either direction.
+// True if the contour runs around the point, in either direction.
 bool surrounds(const Contour& contour, Vec2d point);
 
-// Whether the point belongs to the region; undefined on a contour.
+// True if the point belongs to the region; undefined on a contour.
 bool contains(const Region2d& region, Vec2d point);
 
 // The least distance from the point to the contours' edges, by brute force.

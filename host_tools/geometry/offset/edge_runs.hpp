@@ -22,7 +22,7 @@ struct Run {
     bool open_end{};
 };
 
-// Where a point of the edge lies along it: 0 at the start, 1 at the end, in between in order.
+// Place of a point along the edge: 0 at the start, 1 at the end, in between in order.
 double share_of_chord(const Edge& edge, Vec2d point);
 
 // Joins runs at common ends. If several start at a vertex, the sharpest left turn separates parts

@@ -15,13 +15,13 @@ public:
 
     std::size_t size() const { return edges_.size(); }  // edges
 
-    // Whether some edge is nearer to the point than `reach`.
+    // True if some edge is nearer to the point than `reach`.
     bool any_nearer(Vec2d point, double reach) const;
 
     // The smaller of `limit` and the least distance to an edge.
     double nearest(Vec2d point, double limit) const;
 
-    // Whether the edges run around the point an odd number of times: for the contours of a region,
+    // True if the edges run around the point an odd number of times: for the contours of a region,
     // whether the point belongs to it. As cusp::offset::contains(), in O(log n + edges to the right
     // of the point).
     bool surrounds(Vec2d point) const;

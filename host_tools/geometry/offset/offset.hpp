@@ -10,9 +10,9 @@
 //     }
 //     pocket.clearance({3, 4});                       // mm from the nearest contour; < 0: outside
 //
-// All source contours are offset together. So an island that meets the boundary or another island,
-// a neck that closes, and a part that splits need no case of their own. Raw offset pieces are cut
-// where they cross. A piece belongs to the result exactly where no source edge is nearer.
+// All source contours are offset together. Thus an island that meets the boundary or another
+// island, a neck that closes, and a part that splits need no case of their own. Raw offset pieces
+// are cut where they cross. A piece belongs to the result exactly where no source edge is nearer.
 #pragma once
 
 #include <vector>
@@ -29,19 +29,20 @@ public:
     explicit RegionOffset(Region2d source);
 
     // The points of the region at least `distance` (mm, > 0) from its contours, as contours with
-    // the region on their left; empty if there is none. Where rounding defeats the joining at this distance
-    // and at ten more within 1e-6 mm of it, the contours that could be joined. Every point of the result is within 1e-6 mm
-    // of that distance from the source (tests/property/offset). Cost O(n log n) for n evenly spread
-    // edges; less after a smaller distance, which excludes edges.
+    // the region on their left; empty if there is none. If rounding defeats the joining at this
+    // distance and at ten more within 1e-6 mm of it, it returns the contours that could be joined.
+    // Every point of the result is within 1e-6 mm of that distance from the source
+    // (tests/property/offset). Cost O(n log n) for n evenly spread edges; less after a smaller
+    // distance, which excludes edges.
     Region2d at(double distance) const;
 
     // Distance from the nearest contour; negative outside the region.
     double clearance(Vec2d point) const;
 
-    // Whether the point belongs to the region; undefined on a contour.
+    // True if the point belongs to the region; undefined on a contour.
     bool contains(Vec2d point) const { return tree_.surrounds(point); }
 
-    // Whether the nearest contour is nearer than `reach`.
+    // True if the nearest contour is nearer than `reach`.
     bool any_nearer(Vec2d point, double reach) const { return tree_.any_nearer(point, reach); }
 
     // The smaller of `limit` and the distance from the nearest contour, on either side.

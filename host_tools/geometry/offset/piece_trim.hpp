@@ -8,9 +8,9 @@
 namespace cusp::offset {
 
 // The pieces without most of the parts that are nearer than `distance` (mm) to an edge of the
-// source, whose tree is given. Only parts nearer by at least 1e-5 mm are removed. So all points
-// where a piece becomes valid, and the crossings there, remain; new ends are always too near.
-// O(log n) per piece for spread source edges.
+// source, whose tree is given. Only parts nearer by at least 1e-5 mm are removed. Thus all points
+// where a piece becomes valid, and the crossings there, remain; new ends are always too near. O(log
+// n) per piece for spread source edges.
 //
 // This is for regions of many small curves. At a distance of many curve lengths each raw piece
 // crosses as many others, nearly all of them without effect.

@@ -15,9 +15,9 @@ struct SolidFace {
     bool solid;
 };
 
-// Adds the face's surfaces to the model: one, or several where it is read in patches or pieces. Of
-// solids those that look up nowhere are left out, unless `all_faces`; then one that cannot be read is
-// counted in `unread`.
+// Adds the face's surfaces to the model: one, or several where it is read in patches or pieces.
+// Faces of solids that face up nowhere are left out, unless `all_faces`; then one that cannot be
+// read is counted in `unread`.
 //
 // Throws InputError, with `place` before it.
 void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model);

@@ -18,7 +18,8 @@ inline std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-// How far a face may differ from the file, mm: its edges beside it, and their ends from each other.
+// Differences allowed between a face and the file, mm: of its edges from it, and of their ends from
+// each other.
 struct FaceTolerance {
     double off;
     double gap;

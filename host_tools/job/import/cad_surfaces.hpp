@@ -28,7 +28,8 @@ std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
                                               const Similarity& placed = {},
                                               std::vector<std::string>* notes = nullptr);
 
-// What is wrong with some faces of a file, and was mended or taken: of how many, and by how much, mm.
+// A fault of some faces of a file that was mended or taken: their number, and the largest change,
+// mm.
 struct FaceFault {
     static constexpr double kReported = 0.01;  // mm: less is rounding
 
@@ -62,7 +63,7 @@ struct CadModel {
                                         // if into it; 0: the face belongs to no solid
 };
 
-// What is wrong in the file and was mended, in words.
+// The faults of the file that were mended, in words.
 std::vector<std::string> notes_of(const CadModel& model, const std::string& file);
 
 // As read_cad_surfaces(), but faces of solids without an upward normal are kept.

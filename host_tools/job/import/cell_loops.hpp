@@ -33,7 +33,8 @@ public:
     explicit CellBoundary(unsigned sides) : sides_{sides} {}
     virtual ~CellBoundary() = default;
 
-    // How far a point lies beside a side, to compare; how far along it, 0 to 1 from corner to corner.
+    // Distance of a point beside a side, to compare; its place along it, 0 to 1 from corner to
+    // corner.
     virtual double beside(Vec3d point, unsigned side) const = 0;
     virtual double along(Vec3d point, unsigned side) const = 0;
     // A part of a side, 0 to 1.

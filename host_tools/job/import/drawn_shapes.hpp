@@ -7,7 +7,7 @@
 
 namespace cusp::import {
 
-// What one object of a drawing draws: its curves in order, each from the end of the one before.
+// The curves of one object of a drawing in order, each from the end of the one before.
 struct DrawingPath {
     std::vector<nurbs::Curve> curves;
     bool closed{};  // a loop by itself: as drawn, or since its ends meet

@@ -14,7 +14,7 @@ namespace cusp::import {
 // Seen from above, mm; of a drawing in x and z or in y and z, as its note says.
 struct DxfPaths {
     std::vector<DrawingPath> paths;  // in the order of the file; each of one curve or more
-    // Of the last decimal place that coordinates are written with; 0: they are whole numbers.
+    // Value of the last decimal place that coordinates are written with; 0: they are whole numbers.
     double resolution{};
 };
 

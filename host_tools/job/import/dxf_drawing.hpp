@@ -49,7 +49,7 @@ public:
     // mm: one unit of the last decimal place that coordinates of curves are written with; 0 where they
     // are whole numbers.
     double resolution() const;
-    // Whether anything may lie off the plane of x and y.
+    // True if anything may lie off the plane of x and y.
     bool has_depth() const;
     // The names of all layers that objects are on, those in blocks included, in order.
     std::set<std::string> layers() const;

@@ -1,4 +1,4 @@
-// What the entities of a drawing draw, with blocks drawn at each INSERT.
+// The curves that the entities of a drawing draw, with blocks drawn at each INSERT.
 #pragma once
 
 #include <map>
@@ -28,7 +28,7 @@ DxfPieces expanded(const DxfDrawing& drawing, const std::string& layer);
 // All layers, hidden ones too; what can't be drawn is left out.
 DxfPieces all_that_can_be_drawn(const DxfDrawing& drawing);
 
-// Of an object: its own, or that of the block's reference, for objects on layer "0".
+// Layer of an object: its own, or that of the block's reference, for objects on layer "0".
 //
 // within  the layer of the reference; "": not in a block
 std::string_view layer_of(const DxfEntity& entity, std::string_view within);

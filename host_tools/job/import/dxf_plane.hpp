@@ -9,7 +9,7 @@
 
 namespace cusp::import {
 
-// Where the axes of an object with this direction of extrusion go.
+// Directions of the axes of an object with this direction of extrusion.
 //
 // normal  of any length; 0 counts as z
 //
@@ -27,7 +27,7 @@ struct DrawingBox {
     Vec3d low, high;
 };
 
-// Of the control points, mm; of no path: low above high.
+// Box of the control points, mm; without a path low is above high.
 DrawingBox extent_of(const std::vector<DrawingPath>& paths);
 
 // Front or side where all of it has one y or one x, to 1e-3 mm, and not one z.

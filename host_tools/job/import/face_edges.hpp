@@ -34,7 +34,7 @@ inline double parameter_of(const FaceEdge& edge, int chord)
     return edge.from + (edge.to - edge.from) * chord / kEdgeChords;
 }
 
-// Whether a point lies on the left of the edge nearest to it; of edges nearest by the same, at a vertex,
+// True if a point lies on the left of the edge nearest to it; of edges nearest by the same, at a vertex,
 // by their sum.
 //
 // same   how much farther than the nearest one an edge may lie and count as well

@@ -26,7 +26,7 @@ public:
     // place  name of the table in messages, such as "operation 2"; "" for the file itself
     // known  every key that the table may have
     //
-    // Throws InputError where the table has another key, with the nearest known one. So a typo is
+    // Throws InputError where the table has another key, with the nearest known one. Thus a typo is
     // reported before the key that is missing because of it.
     JobTable(const toml::table& table,
              std::string file,
@@ -71,7 +71,7 @@ public:
     std::string required_text(const char* key);
     std::vector<std::string> required_texts(const char* key);
 
-    // Whether the value, or the first of a list, is a text; false where the key is absent.
+    // True if the value, or the first of a list, is a text; false where the key is absent.
     bool is_text(const char* key) const;
 
     // Known keys that other operations have: refuse_keys_of_others() has refused them here.

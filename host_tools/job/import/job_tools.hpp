@@ -24,7 +24,7 @@ public:
              const std::filesystem::path& folder,
              double unit);
 
-    // Whether every tool has a feed of its own.
+    // True if every tool has a feed of its own.
     bool has_feeds() const;
 
     // The tool that the key `tool` of an operation names, by number or name; without it the job's

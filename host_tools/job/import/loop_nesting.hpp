@@ -23,10 +23,11 @@ inline constexpr double kWidestJoin = 0.1;
 // resolution  mm: of that place; 0: none
 double join_limit(double resolution);
 
-// Closed paths are loops as they are, even where they have edges in common. Of all other curves, ends
-// within 1e-3 mm meet, as join_chains() joins them. Remaining open chains are joined where their ends are
-// at most `join` mm apart, the nearest first. Lengths and areas are integrals over the curves, with a
-// relative error of 1e-9 for arcs of up to a quarter turn for each span.
+// Closed paths are loops as they are, even where they have edges in common. All other curves meet
+// where their ends are within 1e-3 mm, as join_chains() joins them. Remaining open chains are
+// joined where their ends are at most `join` mm apart, the nearest first. Lengths and areas are
+// integrals over the curves, with a relative error of 1e-9 for arcs of up to a quarter turn for
+// each span.
 job::LoopNesting nest_loops(const std::vector<DrawingPath>& paths, double join = kJoinTolerance);
 job::LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves, double join = kJoinTolerance);
 

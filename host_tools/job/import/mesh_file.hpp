@@ -10,7 +10,7 @@ namespace cusp::import {
 
 // By its ending: .stl, .obj, .3mf.
 bool is_mesh_file(const std::string& file);
-// Whether files of this ending name no unit: STL, OBJ, JSON.
+// True if files of this ending name no unit: STL, OBJ, JSON.
 bool lacks_unit(const std::string& file);
 
 // millimetres  of one unit of the file, where it names none

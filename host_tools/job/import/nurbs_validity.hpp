@@ -11,7 +11,8 @@ namespace cusp::import {
 // Largest coordinate, mm: larger than any machine, and doubles resolve nanometres up to it.
 inline constexpr double kLargestCoordinate = 1e6;
 
-// Of a drawing before it is moved, mm: as survey coordinates have it. Doubles resolve 2e-6 up to it.
+// Limit of a drawing before it is moved, mm: as survey coordinates have it. Doubles resolve 2e-6 up
+// to it.
 inline constexpr double kLargestDrawn = 1e10;
 
 // Limit of the ratio of the largest weight to the smallest. A larger ratio approximates a corner,

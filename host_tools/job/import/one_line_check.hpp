@@ -14,7 +14,7 @@ void check_request(const OneLineRequest& request);
 // Throws InputError where the last tool can't finish the part as requested.
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);
 
-// Whether files of this ending hold parts (kPartEndings).
+// True if files of this ending hold parts (kPartEndings).
 bool is_part_file(const std::string& file);
 
 }  // namespace cusp::import

@@ -44,8 +44,8 @@ struct OneLineJob {
 };
 
 // The stock reaches from the part's lowest point to its highest (for a pocket: to z = 0 where the
-// floor is below). Where the part is deeper than half the diameter of the roughing tools, or
-// several tools are given, all but the last rough in layers of at most that depth.
+// floor is below). If the part is deeper than half the diameter of the roughing tools, or several
+// tools are given, all but the last rough in layers of at most that depth.
 //
 // parts  caches the files read here for `read_job`
 //

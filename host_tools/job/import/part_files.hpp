@@ -39,7 +39,7 @@ public:
     // All curves of a drawing, or of a JSON file, wherever they are.
     std::vector<nurbs::Curve> curves(const std::string& file, double millimetres) const;
 
-    // As read_holes() and read_chains(), placed. Of a model the holes have their heights
+    // As read_holes() and read_chains(), placed. The holes of a model have their heights
     // (cad_holes.hpp).
     std::vector<job::Hole> holes(const std::string& file,
                                  double millimetres,

@@ -24,10 +24,10 @@ struct ChainResult {
     std::optional<Junction> junction;  // the first one
 };
 
-// Chains begin at ends that meet no other, in the order of the pieces, and then at those left over. At a
-// junction a chain continues to the nearest end, and of those that are as near (up to `counted`) along the
-// straightest way, then to the first. Where it comes to a place that it has been at, the loop
-// from there is taken off as a closed chain: so loops that touch at a corner are two.
+// Chains begin at ends that meet no other, in the order of the pieces, and then at those left over.
+// At a junction a chain continues to the nearest end, and of those that are as near (up to
+// `counted`) along the straightest way, then to the first. If it comes to a place that it has been
+// at, the loop from there is taken off as a closed chain: so loops that touch at a corner are two.
 //
 // pieces   each open; in order
 // meets    mm: largest distance of ends that meet

@@ -9,15 +9,15 @@ namespace cusp::import {
 // With its dot, in lower case: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
-// Where "#layer" begins in the name of a drawing: at the first # after ".dxf", since names of layers may hold more of
-// them, and folders too. npos: none.
+// Place of "#layer" in the name of a drawing: at the first # after ".dxf", since names of layers
+// may hold more of them, and folders too. npos: none.
 std::size_t layer_mark(const std::string& name);
 
 // Files that hold parts, for messages.
 inline constexpr const char* kPartEndings =
     ".json, .step, .stp, .iges, .igs, .brep, .brp, .stl, .obj and .3mf";
 
-// Whether Open CASCADE reads it: .step, .stp, .iges, .igs, .brep, .brp.
+// True if Open CASCADE reads it: .step, .stp, .iges, .igs, .brep, .brp.
 bool is_cad_file(const std::string& file);
 
 }  // namespace cusp::import

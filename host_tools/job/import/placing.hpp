@@ -1,4 +1,4 @@
-// Where the parts of a job lie: scaled, turned, moved. docs/job_file.md has the keys.
+// Places the parts of a job: scales, turns and moves them. docs/job_file.md has the keys.
 #pragma once
 
 #include <optional>

@@ -35,8 +35,8 @@ public:
     // Refuses a set-up that none of the operations is in.
     void check_used(const std::vector<const toml::table*>& operations) const;
 
-    // Where a flip takes points of the drawn part: about the middle of the stock's box. The identity
-    // without a flip.
+    // The motion by which a flip takes points of the drawn part: about the middle of the stock's
+    // box. The identity without a flip.
     //
     // job      with its stock's box
     // has_top  whether the job gives the stock's top

@@ -8,7 +8,7 @@
 namespace cusp::import {
 
 struct Similarity {
-    // Where the unit vectors go: as long as the factor, square to each other, right-handed.
+    // Images of the unit vectors: as long as the factor, square to each other, right-handed.
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
     Vec3d shift{};  // mm, after the turn
 

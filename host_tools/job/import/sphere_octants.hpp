@@ -17,8 +17,8 @@ struct SphereOctant {
     std::vector<FaceLoop> loops;
 };
 
-// How well the planes of the axes cut the edges, 0 to 1: the least of how far ends lie from a plane, how
-// steeply edges cross one, and how far they stay from the corners of octants.
+// Quality of the cuts of edges by the planes of the axes, 0 to 1: the least of the distance of ends
+// from a plane, the angle at which edges cross one, and their distance from the corners of octants.
 double cut_quality(const std::vector<FaceEdge>& edges);
 
 // edges  on the unit sphere, as in sphere_patches()

@@ -48,7 +48,7 @@ public:
     // The drawing of `outline`, with its layer; empty: the table has none.
     const std::string& outline() const { return outline_; }
 
-    // Whether the table has the top.
+    // True if the table has the top.
     bool has_top() const { return top_.has_value(); }
 
 private:

@@ -7,8 +7,9 @@
 
 namespace cusp::import {
 
-// Where two edges of a blend meet almost along each other, rounding makes them cross near the vertex. Cuts
-// both where they are 5e-5 of the domain apart after the last crossing, and joins them by a line.
+// If two edges of a blend meet almost along each other, rounding makes them cross near the vertex.
+// Cuts both where they are 5e-5 of the domain apart after the last crossing, and joins them by a
+// line.
 //
 // loop  each curve starts at the end of the one before it, the first one at the end of the last one
 // gap   mm: how far apart they may be up to there

@@ -1,4 +1,4 @@
-// How deep the tip of a tool goes into a hole.
+// Depth to which the tip of a tool goes into a hole.
 #pragma once
 
 #include "host_tools/geometry/toolpath/tool.hpp"

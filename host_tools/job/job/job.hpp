@@ -75,7 +75,7 @@ struct Operation {
     std::optional<double>
         join_gaps;  // mm: of drawings; none: as plan_tolerance and the drawing say
     double floor_tolerance{};
-    // Of a level floor, where the job gives none: a post with fewer decimals may raise them.
+    // Default tolerances of a level floor: a post with fewer decimals may raise them.
     bool default_floor_tolerance{false};
     bool default_scallop{false};
     ToleranceSide tolerance_side{ToleranceSide::kOutside};
@@ -169,7 +169,7 @@ struct Job {
     std::vector<Loop> stock_outline;
     // Programs that have been cut before: the stock is what they leave.
     std::vector<std::string> stock_programs;
-    // Likewise, in set-ups whose stock lay otherwise. Where there are any, the stock has a box.
+    // Likewise, in set-ups whose stock lay otherwise. If there are any, the stock has a box.
     std::vector<SetupProgram> turned_programs;
     std::optional<Setup> setup;  // none: the job has no table of them
     std::vector<Fixture> fixtures;

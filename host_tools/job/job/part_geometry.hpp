@@ -60,7 +60,7 @@ struct PartLayer {
     LoopNesting loops;
 };
 
-// Of a mesh, seen from above: its box, mm.
+// Box of a mesh, seen from above, mm.
 struct OpenHole {
     Vec3d middle;
     Vec3d size;

@@ -1,4 +1,4 @@
-// What is left between the cuts of the two sides of a stock that was turned over.
+// The stock that is left between the cuts of the two sides of a stock that was turned over.
 //
 //     if (const auto floor = floor_between_sides(job, grid, stock.heights(), spacing)) {
 //         floor->thickness;  // mm; 0 or less: the cuts meet
@@ -39,7 +39,7 @@ std::optional<FloorBetweenSides> floor_between_sides(const job::Job& job,
 std::optional<FloorBetweenSides> floor_between_sides(const job::Job& job,
                                                      const std::string& program_file);
 
-// Whether the floor is thinner than the job allows.
+// True if the floor is thinner than the job allows.
 bool is_too_thin(const job::Job& job, const FloorBetweenSides& floor);
 
 // "0.4 mm are left between ... at x 3 y 4 z -5 mm (operation 3, pocket); ..."

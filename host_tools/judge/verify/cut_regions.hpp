@@ -1,4 +1,5 @@
-// Where each operation of a job with 2.5-D operations may cut, and how deep, from the job alone.
+// The regions in which each operation of a job with 2.5-D operations may cut, and how deep, from
+// the job alone.
 //
 //     const std::vector<CutRegion> regions = cut_regions(job, grid);
 //     const RegionAt here = regions.front().at(x, y, k);  // k: the point's place in the grid

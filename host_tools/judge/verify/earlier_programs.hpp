@@ -26,10 +26,10 @@ struct EarlierCut {
 // Errors: InputError where the program cannot be read, or a tool of its feed moves is not known.
 std::vector<EarlierCut> earlier_cuts(const job::Job& job, const std::string& file);
 
-// Of a program of another set-up, in the coordinates of this one. Where the stock was turned over only
-// what is proved to be gone counts: a feed move that goes through the box is the cut of a flat end, as
-// wide as the tool was at the box's bottom, down to open_level(). What was cut from below and not
-// through counts as stock.
+// Moves of a program of another set-up, in the coordinates of this one. If the stock was turned
+// over, only stock that is proved to be gone counts: a feed move that goes through the box is the
+// cut of a flat end, as wide as the tool was at the box's bottom, down to open_level(). Cuts from
+// below that do not go through count as stock.
 std::vector<EarlierCut> earlier_cuts(const job::Job& job, const job::SetupProgram& program);
 
 // z, below any move: the height of stock through which there is a hole. Precondition: the stock has a bottom.

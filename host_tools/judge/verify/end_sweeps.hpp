@@ -1,5 +1,5 @@
-// How low the end of a moving tool cuts over a point: profiles by the distance from the axis, and the sweeps of a
-// flat bottom and of a cone along a straight way.
+// Lowest height that the end of a moving tool cuts over a point: profiles by the distance from the
+// axis, and the sweeps of a flat bottom and of a cone along a straight way.
 #pragma once
 
 #include <algorithm>

@@ -15,15 +15,15 @@
 //
 // Accuracy, with a grid of shifted rows: in a straight cut the width R (1 - cos angle) is within
 // 0.7 pitches of the true one. At 60 degrees that is 2.7 degrees with the default grid and R 3 mm,
-// 0.8 with R 10 mm. The mean of a long cut is within 0.3 degrees. Where the load changes it is
-// spread over three pitches; two walls at once read too much, a few degrees each. Random paths that
-// cross each other: the mean is off by up to 1.7 degrees, the way over a limit by 3.5 % of all.
+// 0.8 with R 10 mm. The mean of a long cut is within 0.3 degrees. A change of the load is spread
+// over three pitches; two walls at once read too much, a few degrees each. Random paths that cross
+// each other: the mean is off by up to 1.7 degrees, the way over a limit by 3.5 % of all.
 //
 // In a hole of its own size the tool has no way at the side with less than half a turn in stock: what
 // it does after an entry at most a twentieth of its radius from the foot is part of the entry.
 //
 // Air is the way on which no point of the grid is cut by over 0.003 mm: between two cuts if it is
-// longer than three pitches. So cuts that are narrower than a third of a pitch may be air.
+// longer than three pitches. Thus cuts that are narrower than a third of a pitch may be air.
 #pragma once
 
 #include <array>

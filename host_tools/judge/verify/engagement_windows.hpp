@@ -1,8 +1,8 @@
 // Looks again, on finer grids, where the height map finds more engagement than is allowed.
 //
-// Trochoids advance by less than a pitch of the height map: it reads hundreds of millimetres of them
-// over the limit. So windows around such places are cut again by all runs, on a grid of a 150th of
-// the tool's radius.
+// Trochoids advance by less than a pitch of the height map: it reads hundreds of millimetres of
+// them over the limit. Windows around such places are cut again by all runs, on a grid of a 150th
+// of the tool's radius.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,10 @@
 namespace cusp::verify {
 
 // Replaces the angles around places over `counts_over` of their run by what the finer grid finds.
-// Those that it does not look at keep theirs: the windows with the most way over come first, until they
-// hold twice as many positions as all runs together, and no more follow where the first confirms 80 % of
-// its way. So a program that is over its limit nearly everywhere costs one window.
+// Those that it does not look at keep theirs: the windows with the most way over come first, until
+// they hold twice as many positions as all runs together, and no more follow where the first
+// confirms 80 % of its way. Thus a program that is over its limit nearly everywhere costs one
+// window.
 //
 // grid     of the height map, with which `found` was found
 // spacing  mm between positions

@@ -9,7 +9,7 @@
 namespace cusp::verify {
 
 // Between points the ball is too low by up to a fraction of the squared pitch over its radius, more
-// beside cliffs. So a ball blocked by the points is blocked by the floor too.
+// beside cliffs. Thus a ball blocked by the points is blocked by the floor too.
 class FloorSamples {
 public:
     // heights  of the floor at the grid's points; NaN where there is none

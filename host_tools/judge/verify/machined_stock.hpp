@@ -115,7 +115,8 @@ private:
     std::vector<double> heights_;
     std::vector<double> row_x_;  // mm: offset of a row's points from their columns
     std::vector<double> row_y_;  // mm: of rows in a column without a shift
-    // How many points left of and below a point, both included, are looked at; empty: all are.
+    // Number of points left of and below a point, both included, that are looked at; empty: all
+    // are.
     std::vector<std::uint32_t> looked_at_;
 };
 

@@ -33,9 +33,9 @@ public:
 
     bool empty() const { return pockets_.empty() && everywhere_.empty(); }
 
-    // mm from the nearest wall of the pocket that the place is deepest in, negative beyond the walls
-    // of all. Where pockets overlap it is at most the distance to the edge of their union. Infinite
-    // without walls.
+    // mm from the nearest wall of the pocket that the place is deepest in, negative beyond the
+    // walls of all. If pockets overlap it is at most the distance to the edge of their union.
+    // Infinite without walls.
     double at(double x, double y) const
     {
         double inside = pockets_.empty() ? kInfinite : -kInfinite;

@@ -1,4 +1,4 @@
-// How far the stock's top is from the material under and beside it.
+// Distance of the stock's top from the material under and beside it.
 #pragma once
 
 #include <cstddef>

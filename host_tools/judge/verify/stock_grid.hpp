@@ -1,4 +1,4 @@
-// How finely a job's stock is looked at: the grid of its heights and the positions of its tools.
+// Resolution of a job's stock: the grid of its heights and the positions of its tools.
 #pragma once
 
 #include <optional>

@@ -16,7 +16,7 @@
 namespace cusp::verify {
 
 // Drops each tool on the surfaces, starting from the best places of a grid with a pitch of an
-// eighth of the radius (`LowestPositionSearch`). Where the samples of the floor alone prove that a
+// eighth of the radius (`LowestPositionSearch`). If the samples of the floor alone prove that a
 // ball gets no lower, the surfaces are skipped. Not for use by two threads at once.
 class ToolAccess {
 public:

@@ -25,7 +25,7 @@ private:
     std::string begun_;  // of a comment on a tool whose sizes are not complete yet
 };
 
-// Whether shape and sizes are equal.
+// True if shape and sizes are equal.
 bool is_same_cutter(const toolpath::Tool& a, const toolpath::Tool& b);
 
 }  // namespace cusp::verify

@@ -4,10 +4,10 @@
 //     stock.cut(positions, spacing, progress, nullptr, &trace);
 //     for (const BodyContact& contact : trace.finish()) { contact.depth; }  // mm
 //
-// Stock in a height map has no undercuts. So a cylinder of the tool meets stock exactly where stock
-// inside its radius is higher than its lower end. Each cylinder is therefore a disc at a height over
-// the tip, grown by `holder_clearance` in radius and downward. A tool that is longer by the depth of
-// the worst contact has no contact.
+// Stock in a height map has no undercuts. Thus a cylinder of the tool meets stock exactly where
+// stock inside its radius is higher than its lower end. Each cylinder is therefore a disc at a
+// height over the tip, grown by `holder_clearance` in radius and downward. A tool that is longer by
+// the depth of the worst contact has no contact.
 //
 // - Beyond the flutes: stock that the cutter removes higher over its tip than the flutes are long. Less
 //   than 0.02 mm, or twice the job's tolerance, of it in height or width does not count.

@@ -1,4 +1,4 @@
-// Where a tool has been: the places at which the stock is cut.
+// The positions of a tool: the places at which the stock is cut.
 #pragma once
 
 #include <cstdint>

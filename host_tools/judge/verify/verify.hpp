@@ -42,7 +42,7 @@ struct LevelLeft {
     std::string strategy;
 };
 
-// Where something is wrong, and the move to blame.
+// The place of a fault, and the move to blame.
 struct FaultPlace {
     Vec3d place;
     std::uint32_t line{};  // 0: of no move of the program
@@ -88,7 +88,7 @@ struct VerifyFigures {
     // The deepest into a fixture grown by its margin, and where; nothing where the job has none.
     std::optional<double> fixture_hit_max;
     std::string fixture_hit_at;  // fixture and place; empty where there is no hit
-    // Of each part that the job gives lengths of, for a tool of the program.
+    // Figures of each part of a tool that the job gives lengths of.
     std::vector<ContactFigures> contacts;
     double cut_depth_max{};
     std::vector<ToolFigures> tools;  // those that cut, in the order of their first cut
@@ -107,7 +107,7 @@ struct VerifyFigures {
     std::optional<LevelLeft> level_left;
     int tabs_standing{};
     int tabs_wanted{};
-    // Of a stock that was turned over: the thinnest floor over a cut of the other side.
+    // The thinnest floor over a cut of the other side, of a stock that was turned over.
     std::optional<FloorBetweenSides> between_sides;
     std::optional<EngagementFigures> engagement;  // if requested
 };
