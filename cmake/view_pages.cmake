@@ -1,7 +1,7 @@
 # Bundles the pages of host_tools/judge/view/web into OUTPUT, a C++ source that holds them. Run at build time.
 # cmake -DWEB=<host_tools/judge/view/web> -DFOLDER=<build folder> -DOUTPUT=<file> -DNPM=<npm> -DNODE=<node> -DNEEDED=ON|OFF
-#   -DDEVELOPMENT=ON|OFF -DNO_PAGE=<no_page.cpp.in> [-DCORE=<wasm>] -P view_pages.cmake
-# If npm can't fetch what package-lock.json names, NEEDED=OFF writes a source that says so.
+#   -DDEVELOPMENT=ON|OFF -DBUNDLE=<host_tools/judge/view/bundle> [-DCORE=<wasm>] -P view_pages.cmake
+# If npm can't fetch what package-lock.json names, NEEDED=OFF takes the bundle.
 
 # The packages are fetched once for a lock file.
 file(SHA256 ${WEB}/package-lock.json lock)
@@ -24,9 +24,10 @@ if(NOT fetched STREQUAL stamp)
     if(NEEDED)
       message(FATAL_ERROR "npm ci failed: see ${FOLDER}/npm.log")
     endif()
-    message("cusp view: npm could not fetch the page's libraries (${FOLDER}/npm.log): built without its page")
-    set(why "npm could not fetch the libraries of the page when cusp was built")
-    configure_file(${NO_PAGE} ${OUTPUT} @ONLY)
+    message("cusp view: npm could not fetch the page's libraries (${FOLDER}/npm.log): the page is ${BUNDLE}")
+    set(FOLDER ${BUNDLE})
+    set(HOLDS_CORE OFF)
+    include(${CMAKE_CURRENT_LIST_DIR}/view_page_text.cmake)
     return()
   endif()
   file(WRITE ${FOLDER}/fetched.txt "${stamp}")
@@ -35,8 +36,11 @@ set(core "")
 if(CORE)
   set(core --core ${CORE})
 endif()
-execute_process(COMMAND ${NODE} build.mjs --out ${FOLDER}/out --cpp ${OUTPUT} ${core}
+execute_process(COMMAND ${NODE} build.mjs --out ${FOLDER}/out ${core}
   WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "the pages of cusp view could not be bundled")
 endif()
+set(FOLDER ${FOLDER}/out)
+set(HOLDS_CORE ${CORE})
+include(${CMAKE_CURRENT_LIST_DIR}/view_page_text.cmake)

@@ -17,7 +17,6 @@
 #include "host_tools/controller/simulate/settings_file.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
-#include "host_tools/judge/view/page_text.hpp"
 #include "host_tools/judge/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
@@ -33,12 +32,9 @@ using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
 using verify::Verification;
-using view::Page;
-using view::page_text;
 using view::run_page;
 using view::RunPage;
 using view::RunPageOptions;
-using view::why_no_page;
 
 namespace {
 
@@ -67,22 +63,13 @@ void make_folder(const fs::path& folder)
     }
 }
 
-struct DemoRun {
-    SimulationResult result;
-    std::string page;  // a sentence on the page
-};
-
-// Runs the program and writes its page, if this build includes one.
-DemoRun run_with_page(const fs::path& folder,
-                      const fs::path& program,
-                      const Job& job,
-                      const SimulationOptions& mill,
-                      const Verification& cut)
+// Runs the program and writes its page.
+SimulationResult run_with_page(const fs::path& folder,
+                               const fs::path& program,
+                               const Job& job,
+                               const SimulationOptions& mill,
+                               const Verification& cut)
 {
-    if (page_text(Page::kView).empty()) {
-        return {run_program(program, mill, folder / "sim.json"),
-                fmt::format("no RUN.html: {}\n", why_no_page())};
-    }
     RunPageOptions options;
     options.simulation = mill;
     options.job = &job;
@@ -90,7 +77,7 @@ DemoRun run_with_page(const fs::path& folder,
     const RunPage page = run_page(program, options);
     write_text(folder / "sim.json", statistics_json(page.run));
     write_text(folder / "RUN.html", page.html);
-    return {page.run, "RUN.html shows the run: any browser opens it\n"};
+    return page.run;
 }
 
 int run_demo(const DemoOptions& options)
@@ -120,23 +107,23 @@ int run_demo(const DemoOptions& options)
     mill.progress = [&bar](const SimulationProgress& progress) {
         bar(progress.fraction);
     };
-    const DemoRun run = run_with_page(out, program, job, mill, cut);
+    const SimulationResult run = run_with_page(out, program, job, mill, cut);
     bar(1.0);
 
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
-               demo_summary(plan, run.result, cut));
+               demo_summary(plan, run, cut));
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
-        "plan.json sim.json verify.json verify.txt (figures){}\n{}",
+        "plan.json sim.json verify.json verify.txt (figures){}\n"
+        "RUN.html shows the run: any browser opens it\n",
         out.string(),
-        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "",
-        run.page);
+        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
     std::fflush(stdout);
-    print_faults(program, run.result);
+    print_faults(program, run);
     for (const std::string& broken : cut.broken) {
         fmt::print("broken: {}\n", broken);
     }
-    return cut.broken.empty() && run.result.good() ? kDone : kFoundWrong;
+    return cut.broken.empty() && run.good() ? kDone : kFoundWrong;
 }
 
 }  // namespace

@@ -33,7 +33,6 @@ using view::pages_hold_core;
 using view::run_page;
 using view::RunPage;
 using view::RunPageOptions;
-using view::why_no_page;
 
 namespace {
 
@@ -81,13 +80,10 @@ int write_playground(const ViewArguments& arguments)
             "cusp view --playground takes no program, job, settings or still: its page does"};
     }
     const std::string_view page = page_text(Page::kPlayground);
-    if (page.empty()) {
-        throw InputError{fmt::format("cusp view has no page: {}", why_no_page())};
-    }
-    if (!pages_hold_core()) {
+    if (page.empty() || !pages_hold_core()) {
         throw InputError{
-            "cusp view --playground has no core to run: the packages for WebAssembly were missing "
-            "when cusp was built"};
+            "cusp view --playground has no core to run: cusp was built without npm "
+            "(CUSP_VIEW=ON) or without the packages for WebAssembly"};
     }
     write_text(arguments.page, page);
     return kDone;

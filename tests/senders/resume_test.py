@@ -7,6 +7,7 @@ Faults come over the control port of the virtual mill; the steps in its VCD file
 program's path must have been passed; and wherever the tool was below the height of travel, it was on that path.
 """
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -14,6 +15,7 @@ import sys
 import time
 import unittest
 
+import side_by_side
 from vcd_steps import read_steps
 from virtual_mill import VirtualMill
 
@@ -59,7 +61,7 @@ class ResumeTest(unittest.TestCase):
     options = ()
 
     def serve_with_steps(self):
-        self.vcd = pathlib.Path(f"/tmp/resume_{id(self)}.vcd")
+        self.vcd = pathlib.Path(f"/tmp/resume_{os.getpid()}_{id(self)}.vcd")
         self.addCleanup(lambda: self.vcd.unlink(missing_ok=True))
         self.mill = VirtualMill(CUSP, "--vcd", str(self.vcd), *self.faults, settings=self.settings,
                                 tap=False, steps_per_mm=STEPS)
@@ -245,4 +247,4 @@ class Interrupted(ResumeTest):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    side_by_side.main(6)

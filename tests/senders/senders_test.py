@@ -15,6 +15,7 @@ import threading
 import time
 import unittest
 
+import side_by_side
 from port import Port
 from virtual_mill import VirtualMill
 
@@ -427,4 +428,4 @@ class Answers(SenderTest):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    side_by_side.main(4)

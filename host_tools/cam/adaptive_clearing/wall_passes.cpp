@@ -39,7 +39,7 @@ constexpr double kLeadAngle = kPi / 5;
 constexpr double kShortest = 1e-6;   // mm
 constexpr double kOnContour = 5e-5;  // mm: a lead ends on the contour, which is that exact
 
-bool is_inside(const Box2d& box, Vec2d p)
+bool is_in_box(const Box2d& box, Vec2d p)
 {
     return p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1;
 }
@@ -161,7 +161,7 @@ private:
     bool has_stock(const Edge& edge, double share) const
     {
         const Vec2d place = point_on(edge, share);
-        return is_inside(space_.spot, place) &&
+        return is_in_box(space_.spot, place) &&
                space_.swept.engagement(place, tangent_on(edge, share), -space_.sliver) >=
                    kBarelyOpen;
     }

@@ -1,4 +1,4 @@
-// The pages as bundled at build time: HTML with script and style inside.
+// The pages, bundled at build time or taken from bundle/: HTML with script and style inside.
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,8 @@ namespace cusp::view {
 
 enum class Page { kView, kPlayground };
 
-// HTML; kView contains the lines kFactsPlace and kDataPlace. Empty if the page was not built.
+// HTML; kView contains the lines kFactsPlace and kDataPlace. kPlayground is empty where the build took the page of bundle/.
 std::string_view page_text(Page page);
-
-// The reason why page_text() is empty; empty if it is not.
-std::string_view why_no_page();
 
 // True if the pages contain the firmware's core in WebAssembly.
 bool pages_hold_core();

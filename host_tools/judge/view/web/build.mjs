@@ -1,15 +1,15 @@
 // Bundles the pages: one HTML file each, script (deflated) and style inside, and a policy that forbids every request.
 //
-//   node build.mjs --out FOLDER [--core CORE.wasm] [--cpp FILE.cpp]
+//   node build.mjs --out FOLDER [--core CORE.wasm] [--compare FOLDER]
 //
 // src/NAME_page.ts, NAME.html and page.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
 // `import wasm from "core-wasm"` gives as base64 ("" without). `import text from "worker:./x.ts"` gives the bundle of
-// a worker as text. --cpp: also writes the pages as strings of C++.
+// a worker as text. --compare: exit status 1 where a page of that folder, unpacked, is not the same byte for byte.
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { deflateRawSync } from "node:zlib";
+import { deflateRawSync, inflateRawSync } from "node:zlib";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -69,17 +69,12 @@ function page(name, start, script, style) {
     .replace("@START@", () => start);
 }
 
-// A string literal of C++ in short pieces.
-function literal(text) {
-  const escaped = [...Buffer.from(text)].map((byte) =>
-    byte === 10 ? "\\n" : byte === 34 || byte === 92 ? "\\" + String.fromCharCode(byte)
-      : byte === 63 || byte < 32 || byte > 126 ? "\\" + byte.toString(8).padStart(3, "0") : String.fromCharCode(byte));
-  const pieces = [];
-  for (let k = 0; k < escaped.length; k += 4000) pieces.push(`    "${escaped.slice(k, k + 4000).join("")}"`);
-  return pieces.join("\n") || '    ""';
-}
+// A page with its script unpacked: versions of zlib deflate one script to different bytes.
+const unpacked = (page) => page.replace(/(id="packed-script">)([^<]*)/, (_, tag, packed) =>
+  tag + inflateRawSync(Buffer.from(packed, "base64")).toString());
 
 mkdirSync(out, { recursive: true });
+writeFileSync(join(out, "LICENCES.txt"), licences());
 const start = (await bundled(join(here, "src", "start.ts"))).trim();
 const pages = {};
 for (const name of ["view", "playground"]) {
@@ -93,26 +88,13 @@ for (const name of ["view", "playground"]) {
     console.log(`${name}.html ${(pages[name].length / 1024).toFixed(0)} KiB`);
   }
 }
-if (option("cpp")) {
-  writeFileSync(option("cpp"), `// Made by host_tools/judge/view/web/build.mjs.
-#include "host_tools/judge/view/page_text.hpp"
-
-namespace cusp::view {
-
-std::string_view page_text(Page page)
-{
-    static constexpr char kView[] =
-${literal(pages.view)};
-    static constexpr char kPlayground[] =
-${literal(pages.playground)};
-    return page == Page::kView ? std::string_view{kView, sizeof kView - 1}
-                               : std::string_view{kPlayground, sizeof kPlayground - 1};
-}
-
-std::string_view why_no_page() { return ""; }
-
-bool pages_hold_core() { return ${core ? "true" : "false"}; }
-
-}  // namespace cusp::view
-`);
+if (option("compare")) {
+  for (const name of readdirSync(option("compare")).filter((file) => file.endsWith(".html")).map((file) => file.slice(0, -5))) {
+    if (unpacked(readFileSync(join(option("compare"), name + ".html"), "utf8")) === unpacked(pages[name] ?? "")) {
+      console.log(`${name}.html is what the sources make`);
+      continue;
+    }
+    console.error(`${name}.html in ${option("compare")} is not what the sources make: cmake --build --preset dev --target view_bundle`);
+    process.exitCode = 1;
+  }
 }
