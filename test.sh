@@ -101,6 +101,7 @@ else
     echo "making the packages"
     install_packages $package_packages $wasm_packages $(npm_packages) $fresh_packages
     quietly build/package.log .ci/package
+    grep '^build_cost:' build/package.log
     step packages tests/fresh/lint.sh out/packages
     step "bare roots" tests/fresh/fresh_test.sh out/packages
 fi

@@ -41,7 +41,8 @@ lacking() {
 
 demo() {
     "$here/bare_root.sh" --keep "$work/demo" --user --out "$work/out" ./demo.sh &&
-        grep -q '<svg' "$work/out/demo/left.svg" && grep -q M30 "$work/out/demo/pocket.ngc"
+        grep -q '<svg' "$work/out/demo/left.svg" && grep -q M30 "$work/out/demo/pocket.ngc" &&
+        grep -q packed-script "$work/out/demo/RUN.html"
 }
 
 installed() {
