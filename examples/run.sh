@@ -1,7 +1,7 @@
 #!/bin/sh
 # Plans an example, cuts it in memory and draws it: examples/run.sh grid_pocket/rectangle
 # Without a name: all of them, one after the other.
-# G-code, figures and pictures go to out/examples/<name>. Needs build/release/bin/cusp (demo.sh builds it).
+# G-code, figures and pictures go to out/examples/<name>. Needs the preset release, built.
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 if [ $# -eq 0 ]; then

@@ -38,7 +38,8 @@ CadModel read_model(const std::string& file, const Similarity& placed, bool all_
     void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_model");
     if (door == nullptr) {
         throw InputError(
-            fmt::format("{}: STEP, IGES and BREP can't be read: {}; it is built where Open CASCADE "
+            fmt::format("{}: STEP, IGES and BREP can't be read: {}; the whole build makes it where "
+                        "Open CASCADE "
                         "(libocct-data-exchange-dev) is installed",
                         file, dlerror()));
     }
