@@ -44,7 +44,7 @@ def main():
     times += reference()
     unit = sum(times) / len(times)
     cost = seconds / unit
-    print(f"build_cost: {seconds:.0f} CPU s, {cost:.0f} times the reference's {unit:.2f} s; limit {limit:.0f}")
+    print(f"build_cost: {seconds:.0f} CPU s, {cost:.1f} times the reference's {unit:.2f} s; limit {limit:g}")
     if cost > limit:
         print("build_cost: the build has become slower: see what ninja's log says of each file (docs/testing.md), and optimise, "
               "include or split less", file=sys.stderr)
