@@ -170,7 +170,7 @@ Plan plan_job(Job& job, RestOfJob& rest, std::FILE* said)
     std::vector<PlannedOperation> operations;
     std::vector<std::size_t> pockets;  // places in job.operations
     for (std::size_t i = 0; i < job.operations.size(); ++i) {
-        const Operation& operation = job.operations[i];
+        Operation& operation = job.operations[i];
         fmt::print(said, "operation {} of {}: {}\n", i + 1, job.operations.size(),
                    operation.strategy);
         std::fflush(said);
@@ -181,8 +181,8 @@ Plan plan_job(Job& job, RestOfJob& rest, std::FILE* said)
         job.progress = [progress](double share) {
             (*progress)(share);
         };
-        std::vector<PlannedOperation> results = planned(job, operation, plan);
-        rest.keep(job, operation, results);
+        std::vector<PlannedOperation> results =
+            rest.rest_of(job, operation, [&] { return planned(job, operation, plan); });
         job.report_progress(1.0);
         const double seconds = seconds_since(begin) / static_cast<double>(results.size());
         for (PlannedOperation& result : results) {

@@ -54,7 +54,7 @@ std::vector<std::string> RestOfJob::programs_before(const Job& job,
     return files;
 }
 
-RestOfJob::RestOfJob(Job& job)
+RestOfJob::RestOfJob(const Job& job)
 {
     for (const std::string& file : earlier_programs(job)) {
         cuts_.emplace(file, earlier_cuts(job, file));
@@ -65,28 +65,50 @@ RestOfJob::RestOfJob(Job& job)
             cuts_.emplace(program.file, std::move(cuts));
         }
     }
-    for (Operation& operation : job.operations) {
-        if (programs_before(job, operation).empty()) {
-            continue;
-        }
-        const RestTolerance found = rest_tolerance(operation);
-        tolerances_.insert_or_assign(operation.number, found);
-        const double tolerance = found.surface;
-        const double least =
-            operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
-        if (operation.scallop && !operation.rest_tolerance &&
-            *operation.scallop - tolerance > least) {
-            *operation.scallop -= tolerance;
+    for (const Operation& operation : job.operations) {
+        if (!programs_before(job, operation).empty()) {
+            tolerances_.insert_or_assign(operation.number, rest_tolerance(operation));
         }
     }
 }
 
-void RestOfJob::keep(const Job& job,
+std::vector<PlannedOperation> RestOfJob::rest_of(const Job& job,
+                                                 Operation& operation,
+                                                 const PlanOne& plan)
+{
+    std::vector<PlannedOperation> results = plan();
+    if (keep(job, operation, results) && lower_scallop(job, operation)) {
+        results = plan();
+        keep(job, operation, results);
+    }
+    if (!cuts_.empty()) {
+        for (const PlannedOperation& result : results) {
+            paths_.push_back(result.path);
+        }
+    }
+    return results;
+}
+
+bool RestOfJob::lower_scallop(const Job& job, Operation& operation) const
+{
+    if (programs_before(job, operation).empty() || !operation.scallop || operation.rest_tolerance) {
+        return false;
+    }
+    const double least =
+        operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
+    const double lower = *operation.scallop - tolerances_.at(operation.number).surface;
+    if (lower > least) {
+        operation.scallop = lower;
+    }
+    return lower > least;
+}
+
+bool RestOfJob::keep(const Job& job,
                      const Operation& operation,
                      std::vector<PlannedOperation>& results)
 {
     if (cuts_.empty()) {
-        return;
+        return false;
     }
     const std::vector<std::string> programs = programs_before(job, operation);
     for (PlannedOperation& result : results) {
@@ -103,7 +125,6 @@ void RestOfJob::keep(const Job& job,
             }
             keep_rest(stock, job, {programs, tolerances_.at(operation.number)}, result);
         }
-        paths_.push_back(result.path);
     }
     const bool nothing = std::all_of(results.begin(), results.end(), [](const auto& result) {
         return result.stats.rest && result.path.moves.empty();
@@ -114,6 +135,7 @@ void RestOfJob::keep(const Job& job,
             operation.number, operation.strategy, tolerances_.at(operation.number).surface,
             fmt::join(programs, ", ")));
     }
+    return !nothing;
 }
 
 }  // namespace cusp::cli

@@ -210,6 +210,45 @@ class RestMachining(CuspCase):
         self.assertLessEqual(float(numpy.max(rest.z - whole.z)), FLOOR)
         self.assertIn("all bounds hold", self.cusp(0, "verify", "rest.toml", "rest.ngc", "--grid", "0.3"))
 
+    def test_after_its_own_program_is_nothing(self):
+        corners = [[0, 0, -1], [0, 20, -1], [30, 0, -3], [30, 20, -3]]
+        self.write("slope.json", json.dumps({"shape": {"type": "surface", "count": 1, "data": [{
+            "degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2, "knotvector_u": [0, 0, 1, 1],
+            "knotvector_v": [0, 0, 1, 1], "control_points": {"points": corners, "weights": [1, 1, 1, 1]}}]}}))
+        self.drawing(loop([(4, 4), (26, 4), (26, 16), (4, 16)]))
+        floor = 'tool = "ball"\nfloor = ["slope.json"]\nscallop = {}\n'
+        for name, text, scallops in (("planes", 'strategy = "parallel_planes"\n' + floor, (0.05, 0.04)),
+                                     ("pocket", 'strategy = "contour_pocket"\nboundary = "part.dxf"\n' + floor, (0.05, 0.04)),
+                                     ("carved", 'strategy = "v_carve"\ndepth = 1\nboundary = "part.dxf"\nscallop = {}\n',
+                                      (0.2, 0.1))):
+            jobs = [f"""[[tool]]
+shape = "vee"
+diameter = 8
+tip_angle = 60
+[[tool]]
+name = "ball"
+shape = "ball"
+diameter = 6
+[cutting]
+feed = 1000
+[stock]
+top = 0
+bottom = -6
+x = [-6, 36]
+y = [-6, 26]
+[[operation]]
+{text.format(scallop)}""" for scallop in scallops]
+            for job, lines in (("first", jobs[0]), ("again", jobs[0] + 'after = "first.ngc"\n'),
+                               ("finer", jobs[1] + 'after = "first.ngc"\n')):
+                self.write(job + ".toml", lines)
+            whole = self.plan("first.toml", "first.ngc")[1]
+            again = self.plan("again.toml", "again.ngc")[1]
+            finer = self.plan("finer.toml", "finer.ngc")[1]
+            self.assertGreater(whole["cut_length_mm"], 100, name)
+            self.assertEqual(0, again["cut_length_mm"], name)
+            self.assertGreater(finer["cut_length_mm"], 50, name)
+            self.assertIn("all bounds hold", self.cusp(0, "verify", "finer.toml", "finer.ngc"))
+
     def test_takes_the_tool_of_a_foreign_program_from_the_job(self):
         first = self.simple_pocket()
         bare = re.sub(r"\(.*?\)\n", "", first)
