@@ -4,10 +4,11 @@ those with one planted fault are broken, with the size of the fault, and its lin
 
 usage: verdicts_test.py CUSP [CASES [FIRST_SEED]]
 
-Jobs and programs of cases that fail are kept, and named.
+CUSP_PROPERTY_CASES and CUSP_PROPERTY_FIRST count too. Jobs and programs of cases that fail are kept, and named.
 """
 import json
 import math
+import os
 import pathlib
 import random
 import re
@@ -17,8 +18,8 @@ import sys
 import tempfile
 
 CUSP = pathlib.Path(sys.argv[1]).resolve()
-CASES = int(sys.argv[2]) if len(sys.argv) > 2 else 10
-FIRST = int(sys.argv[3]) if len(sys.argv) > 3 else 7000
+CASES = int(os.environ.get("CUSP_PROPERTY_CASES", sys.argv[2] if len(sys.argv) > 2 else 10))
+FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", sys.argv[3] if len(sys.argv) > 3 else 7000))
 POSTS = ("cusp", "fanuc", "grbl", "grblhal", "linuxcnc", "mach3")
 INCH = 25.4
 
