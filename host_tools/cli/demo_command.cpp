@@ -7,10 +7,11 @@
 
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/plan/plan.hpp"
 #include "host_tools/cli/cli.hpp"
+#include "host_tools/cli/console_watcher.hpp"
 #include "host_tools/cli/demo_summary.hpp"
 #include "host_tools/cli/examples_folder.hpp"
-#include "host_tools/cli/plan_program.hpp"
 #include "host_tools/cli/run_program.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/verify_program.hpp"
@@ -27,6 +28,9 @@ namespace cusp::cli {
 using files::write_text;
 using import::read_job;
 using job::Job;
+using plan::plan_job;
+using plan::PlannedProgram;
+using plan::PlanOptions;
 using simulate::read_settings_file;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
@@ -90,10 +94,12 @@ int run_demo(const DemoOptions& options)
     make_folder(out);
 
     const fs::path program = out / "pocket.ngc";
-    PlanOutput plan_output;
-    plan_output.program = program;
-    plan_output.stats = out / "plan.json";
-    const Plan plan = plan_program(job, "job " + job.file, plan_output);
+    ConsoleWatcher watcher{stdout};
+    PlanOptions plan_options;
+    plan_options.title = "job " + job.file;
+    const PlannedProgram plan = plan_job(job, plan_options, watcher);
+    write_text(program, plan.gcode);
+    write_text(out / "plan.json", statistics_json(job, plan));
     verify::VerifySettings settings;
     settings.engagement = true;
     const Verification cut = verify_program(

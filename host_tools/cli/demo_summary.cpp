@@ -8,6 +8,7 @@
 
 namespace cusp::cli {
 
+using plan::PlannedProgram;
 using program_run::ToolTime;
 using simulate::SimulationResult;
 using toolpath::PlannedOperation;
@@ -56,7 +57,7 @@ std::string allowed(double value, int decimals, double limit)
     return fmt::format("{:.{}f} mm (allowed {:g} mm)", value, decimals, limit);
 }
 
-int retracts(const Plan& plan)
+int retracts(const PlannedProgram& plan)
 {
     int sum = 0;
     for (const PlannedOperation& operation : plan.operations) {
@@ -65,7 +66,7 @@ int retracts(const Plan& plan)
     return sum;
 }
 
-double planning(const Plan& plan)
+double planning(const PlannedProgram& plan)
 {
     double sum = 0;
     for (const PlannedOperation& operation : plan.operations) {
@@ -76,7 +77,9 @@ double planning(const Plan& plan)
 
 }  // namespace
 
-std::string demo_summary(const Plan& plan, const SimulationResult& run, const Verification& cut)
+std::string demo_summary(const PlannedProgram& plan,
+                         const SimulationResult& run,
+                         const Verification& cut)
 {
     constexpr double kPercent = 100;
     const VerifyFigures& f = cut.figures;

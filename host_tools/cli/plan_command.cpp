@@ -5,44 +5,54 @@
 #include <vector>
 
 #include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/plan/plan.hpp"
 #include "host_tools/cli/cli.hpp"
+#include "host_tools/cli/console_watcher.hpp"
 #include "host_tools/cli/one_line_options.hpp"
-#include "host_tools/cli/plan_program.hpp"
-#include "host_tools/cli/plan_statistics.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/import/post_reader.hpp"
 #include "host_tools/job/job/job.hpp"
-#include "host_tools/judge/verify/between_sides.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 
 namespace cusp::cli {
 
+using files::write_text;
 using import::OneLineJob;
 using import::PartFiles;
 using import::read_job;
 using import::read_post;
 using import::read_setups;
 using job::Job;
-using verify::floor_between_sides;
-using verify::is_too_thin;
-using verify::sentence_of;
+using plan::plan_setups;
+using plan::PlannedProgram;
+using plan::PlanOptions;
+using plan::statistics_json;
+using plan::summary_text;
 
 namespace {
 
-struct PlanOptions {
+struct PlanFiles {
+    std::string program;      // G-code to write
+    std::string stats;        // JSON to write; empty: none
+    std::FILE* said{stdout};  // receives the lines for people
+};
+
+struct PlanArguments {
     PlanCall call;
-    PlanOutput output;
+    PlanFiles output;
+    double blend{};  // in the job's units: G64 P; 0: the exact path
     Resources resources;
 };
 
 // Builds the job from parts and options, prints it, and reads it as if it were a file.
-Job one_line_job_of(const PlanOptions& options)
+Job one_line_job_of(const PlanArguments& options)
 {
     PartFiles parts;
     const OneLineJob job = one_line_job(options.call.request, parts);
@@ -56,37 +66,51 @@ Job one_line_job_of(const PlanOptions& options)
     return read_job({job.toml, options.call.job_name(), ""}, parts);
 }
 
-// A program for each; those before it have made the stock of the later ones.
-void plan_setups(std::vector<Job>& setups, const std::string& title, const PlanOutput& output)
+void write_files(const Job& job, const PlannedProgram& program, const PlanFiles& files)
 {
-    std::vector<std::string> programs;
-    for (std::size_t k = 0; k < setups.size(); ++k) {
-        Job& job = setups[k];
-        PlanOutput own = output;
-        std::string own_title = title;
-        if (job.setup) {
-            own.program =
-                setups.size() > 1 ? file_of_setup(output.program, *job.setup) : output.program;
-            own.stats = setups.size() > 1 ? file_of_setup(output.stats, *job.setup) : output.stats;
-            own_title += ", " + description_of(*job.setup);
-            fmt::print(output.said, "{}\n", description_of(*job.setup));
-        }
-        for (std::size_t before = 0; before < k; ++before) {
-            add_earlier_program(job, *setups[before].setup, programs[before]);
-        }
-        Plan plan = plan_program(job, own_title, own);
-        cancellation::set_work("looking for breaks into the other side in " + own.program);
-        if (const auto floor = floor_between_sides(job, own.program);
-            floor && is_too_thin(job, *floor)) {
-            plan.warnings.push_back(sentence_of(job, *floor));
-        }
-        print_summary(plan, job.notes, own.program, own.said);
-        programs.push_back(own.program);
-        job.operations.clear();  // meshes are large
+    const cancellation::FinishOutput finish;
+    write_text(files.program, program.gcode);
+    if (!files.stats.empty()) {
+        write_text(files.stats, statistics_json(job, program));
     }
 }
 
-int run_plan(PlanOptions& options)
+// A program for each; those before it have made the stock of the later ones.
+void plan_files(std::vector<Job>& setups, const PlanOptions& common, const PlanFiles& files)
+{
+    ConsoleWatcher watcher{files.said};
+    const bool several = setups.size() > 1;
+    const auto files_of = [&](const Job& job) {
+        PlanFiles own = files;
+        if (several) {
+            own.program = file_of_setup(files.program, *job.setup);
+            own.stats = file_of_setup(files.stats, *job.setup);
+        }
+        return own;
+    };
+    plan_setups(
+        setups, watcher,
+        [&](const Job& job) {
+            PlanOptions options = common;
+            options.name = files_of(job).program;
+            options.measures_engagement = !files.stats.empty();
+            if (job.setup) {
+                options.title += ", " + description_of(*job.setup);
+                fmt::print(files.said, "{}\n", description_of(*job.setup));
+            }
+            return options;
+        },
+        [&](const Job& job, const PlannedProgram& program) {
+            const PlanFiles own = files_of(job);
+            write_files(job, program, own);
+            fmt::print(own.said, "{}", summary_text(program));
+            print_warnings(job.notes);
+            print_warnings(program.all_warnings());
+            fmt::print(own.said, "wrote {}\n", own.program);
+        });
+}
+
+int run_plan(PlanArguments& options)
 {
     const PlanCall& call = options.call;
     if (options.output.program.empty() && !call.print_job) {
@@ -109,7 +133,10 @@ int run_plan(PlanOptions& options)
         }
     }
     if (!options.output.program.empty()) {
-        plan_setups(setups, (call.is_one_line() ? "" : "job ") + call.job_name(), options.output);
+        PlanOptions common;
+        common.title = (call.is_one_line() ? "" : "job ") + call.job_name();
+        common.blend = options.blend;
+        plan_files(setups, common, options.output);
     }
     return kDone;
 }
@@ -149,7 +176,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "Pockets (contour_pocket, grid_pocket) add boundary = \"outline.dxf\", islands = [...];\n"
         "max_depth makes layers.\n"
         "A job with several set-ups gives a program for each: part-NAME.ngc.");
-    auto options = std::make_shared<PlanOptions>();
+    auto options = std::make_shared<PlanArguments>();
     command->add_option("JOB", options->call.files,
                         "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf");
     command->add_option("-o,--output", options->output.program, "G-code to write");
@@ -160,7 +187,7 @@ void add_plan_command(CLI::App& app, Work& work)
                      "a file .toml (docs/posts.md); default: the job's")
         ->type_name("NAME");
     command
-        ->add_option("--blend", options->output.blend,
+        ->add_option("--blend", options->blend,
                      "let the controller round corners by this much, in the job's units (G64 P); "
                      "default: the exact path (G61)")
         ->check(CLI::NonNegativeNumber);

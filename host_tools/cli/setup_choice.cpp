@@ -25,7 +25,8 @@ constexpr double kStartHigh = 1000;  // mm over the stock: above any program's s
 
 std::size_t place_of_program(const std::vector<Job>& setups, const std::string& program)
 {
-    const auto offsets = read_program(program, setups.front().stock_top + kStartHigh).offsets;
+    const auto offsets =
+        read_program(setups.front(), program, setups.front().stock_top + kStartHigh).offsets;
     if (offsets.size() > 1) {
         throw InputError(
             fmt::format("{}: has moves in {} work offsets, but {} has a program for each "

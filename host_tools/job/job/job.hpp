@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -171,6 +172,8 @@ struct Job {
     std::vector<std::string> stock_programs;
     // Likewise, in set-ups whose stock lay otherwise. If there are any, the stock has a box.
     std::vector<SetupProgram> turned_programs;
+    // Texts of programs that are in no file, by the names that are used for them here.
+    std::map<std::string, std::shared_ptr<const std::string>> programs;
     std::optional<Setup> setup;  // none: the job has no table of them
     std::vector<Fixture> fixtures;
     bool group_by_tool{true};

@@ -71,7 +71,7 @@ double spacing_for(const path::Move& move)
 
 std::vector<EarlierCut> earlier_cuts(const Job& job, const std::string& file)
 {
-    const Program program = read_program(file, job.stock_top + kStartHigh);
+    const Program program = read_program(job, file, job.stock_top + kStartHigh);
     std::vector<EarlierCut> cuts;
     std::vector<Vec3d> points;
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
@@ -174,7 +174,7 @@ std::vector<ToolPositions> program_positions(const Job& job,
                                              double spacing)
 {
     std::vector<ToolPositions> runs;
-    const Program program = read_program(file, job.stock_top + kStartHigh);
+    const Program program = read_program(job, file, job.stock_top + kStartHigh);
     int current = -1;
     for (std::size_t k = 1; k < program.moves.size(); ++k) {
         const ProgramMove& m = program.moves[k];

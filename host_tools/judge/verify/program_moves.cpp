@@ -201,11 +201,12 @@ private:
 
 }  // namespace
 
-Program read_program(const std::string& file, double start_z)
+Program read_program(const job::Job& job, const std::string& name, double start_z)
 {
-    const std::string text = files::text_of_file(file);
-    ProgramReader reader{file, start_z};
-    dialect::LineSource source = dialect::LineSource::of_text(file, text);
+    const auto held = job.programs.find(name);
+    const std::string text = held == job.programs.end() ? files::text_of_file(name) : *held->second;
+    ProgramReader reader{name, start_z};
+    dialect::LineSource source = dialect::LineSource::of_text(name, text);
     dialect::EndLine end_line;
     while (const auto line = source.next()) {
         if (end_line.at(*line) || !reader.read_line(*line)) {

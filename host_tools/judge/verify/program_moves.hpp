@@ -9,6 +9,7 @@
 
 #include "firmware/path/move.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "host_tools/job/job/job.hpp"
 
 namespace cusp::verify {
 
@@ -27,9 +28,11 @@ struct Program {
 // Machine coordinates are program coordinates: offsets are those of a fresh controller, with the
 // tool at x = y = 0 and at `start_z`.
 //
+// name  of a text in job.programs, else a file
+//
 // Errors: InputError with the line and the controller's error, or where comments describe one tool
 // in two ways.
-Program read_program(const std::string& file, double start_z);
+Program read_program(const job::Job& job, const std::string& name, double start_z);
 
 // Points of a move, mm, at most `spacing` apart; with its end, without its start.
 void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points);

@@ -403,7 +403,7 @@ Verification verify(const Job& job,
                      kUncoveredAllowed};
     // high enough above any program's start that its first move descends
     constexpr double kStartAbove = 1000;
-    result.program = read_program(program_file, job.stock_top + kStartAbove);
+    result.program = read_program(job, program_file, job.stock_top + kStartAbove);
     VerifyFigures& figures = result.figures;
     figures.moves = result.program.counts;
 

@@ -101,7 +101,7 @@ TEST(ToolComment, has_all_sizes_in_every_form_of_program)
         }
         std::ostringstream out;
         write_program(out, form, {{path, {}}});
-        const Program program = read_program(folder.with("p.ngc", out.str()), 5);
+        const Program program = read_program({}, folder.with("p.ngc", out.str()), 5);
         LONGS_EQUAL(1, program.tools.size());
         const Tool& tool = program.tools.begin()->second;
         LONGS_EQUAL(path.tool.number, tool.number);

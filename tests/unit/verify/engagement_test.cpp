@@ -248,7 +248,8 @@ TEST(Engagement, LimitIsThatOfTheToolsOperations)
 TEST(Engagement, TimeIsThatOfFeedAndRapidRates)
 {
     folder.with("p.ngc", "G21 G90 F1000\nG0 X0 Y0 Z20\nG1 X60\nG0 X30 Z40\nM30\n");
-    DOUBLES_EQUAL(3.6 + 0.4, programmed_seconds(read_program(folder.file("p.ngc"), 1000)), 1e-6);
+    DOUBLES_EQUAL(3.6 + 0.4, programmed_seconds(read_program({}, folder.file("p.ngc"), 1000)),
+                  1e-6);
 }
 
 namespace {

@@ -14,7 +14,10 @@ using namespace cusp::verify;
 TEST_GROUP(ProgramMoves)
 {
     cusp::test::TemporaryFolder folder;
-    Program read(const std::string& text) { return read_program(folder.with("p.ngc", text), 100); }
+    Program read(const std::string& text)
+    {
+        return read_program({}, folder.with("p.ngc", text), 100);
+    }
     std::string refused(const std::string& text)
     {
         return cusp::test::refusal([&] { read(text); });
@@ -85,8 +88,9 @@ TEST(ProgramMoves, NameTheLineThatCannotBeUsed)
 TEST(ProgramMoves, RefuseAnEmptyProgram)
 {
     STRCMP_CONTAINS("no move", refused("(nothing)\n").c_str());
-    STRCMP_CONTAINS("No such file",
-                    cusp::test::refusal([&] { read_program(folder.file("none.ngc"), 0); }).c_str());
+    STRCMP_CONTAINS("No such file", cusp::test::refusal([&] {
+                                        read_program({}, folder.file("none.ngc"), 0);
+                                    }).c_str());
 }
 
 TEST(ProgramMoves, AreThoseOfTheTipWhateverTheLengthOfTheTool)

@@ -1,15 +1,16 @@
 // Statistics as JSON and as a summary.
-#include "host_tools/cli/plan_statistics.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "host_tools/base/input_error/counted.hpp"
+#include "host_tools/base/json_text/json_text.hpp"
+#include "host_tools/cam/plan/plan.hpp"
 
 #include "fmt/format.h"
+#include "nlohmann/json.hpp"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 using toolpath::MoveCounts;
 using toolpath::OperationStats;
@@ -63,15 +64,15 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
 }
 
 // Totals of the program, under the keys of an operation's figures.
-Json totals(const Plan& plan)
+Json totals(const PlannedProgram& program)
 {
     MoveCounts moves;
     PathMeasure sum;
     OperationStats stats;
-    const bool finished = std::any_of(plan.operations.begin(), plan.operations.end(),
+    const bool finished = std::any_of(program.operations.begin(), program.operations.end(),
                                       [](const auto& o) { return !o.stats.roughing; });
-    for (std::size_t i = 0; i < plan.operations.size(); ++i) {
-        const PathMeasure& m = plan.measures[i];
+    for (std::size_t i = 0; i < program.operations.size(); ++i) {
+        const PathMeasure& m = program.measures[i];
         moves.lines += m.moves.lines;
         moves.arcs += m.moves.arcs;
         moves.nurbs += m.moves.nurbs;
@@ -79,7 +80,7 @@ Json totals(const Plan& plan)
         sum.cut_length_mm += m.cut_length_mm;
         sum.rapid_length_mm += m.rapid_length_mm;
         sum.estimated_s += m.estimated_s;
-        const OperationStats& s = plan.operations[i].stats;
+        const OperationStats& s = program.operations[i].stats;
         stats.passes += s.passes;
         stats.levels += s.levels;
         stats.cl_points += s.cl_points;
@@ -90,7 +91,7 @@ Json totals(const Plan& plan)
             stats.scallop_bound_mm = std::max(stats.scallop_bound_mm, s.scallop_bound_mm);
         }
     }
-    return {{"strategy", plan.operations.front().stats.strategy},
+    return {{"strategy", program.operations.front().stats.strategy},
             {"passes", stats.passes},
             {"levels", stats.levels},
             {"cl_points", stats.cl_points},
@@ -104,56 +105,39 @@ Json totals(const Plan& plan)
             {"estimated_s", sum.estimated_s}};
 }
 
-void print_warnings(const std::vector<std::string>& warnings)
-{
-    for (const std::string& warning : warnings) {
-        fmt::print(stderr, "cusp: warning: {}\n", warning);
-    }
-}
-
 }  // namespace
 
-std::vector<const toolpath::Toolpath*> paths_of(const Plan& plan)
+std::string summary_text(const PlannedProgram& program)
 {
-    std::vector<const toolpath::Toolpath*> paths;
-    for (const toolpath::PlannedOperation& operation : plan.operations) {
-        paths.push_back(&operation.path);
-    }
-    return paths;
+    const Json all = totals(program);
+    return fmt::format(
+        "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s\n"
+        "gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
+        all["cut_length_mm"].get<double>(), all["rapid_length_mm"].get<double>(),
+        counted(all["retracts"].get<std::size_t>(), "retract"), all["estimated_s"].get<double>(),
+        all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
+        all["planning_s"].get<double>());
 }
 
-void print_summary(const Plan& plan,
-                   const std::vector<std::string>& notes,
-                   const std::string& output,
-                   std::FILE* said)
+std::string statistics_json(const job::Job& job, const PlannedProgram& program)
 {
-    const Json all = totals(plan);
-    fmt::print(said, "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s\n",
-               all["cut_length_mm"].get<double>(), all["rapid_length_mm"].get<double>(),
-               counted(all["retracts"].get<std::size_t>(), "retract"),
-               all["estimated_s"].get<double>());
-    fmt::print(said, "gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
-               all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
-               all["planning_s"].get<double>());
-    print_warnings(notes);
-    print_warnings(plan.warnings);
-    for (const PlannedOperation& operation : plan.operations) {
-        print_warnings(operation.stats.warnings);
+    Json stats = totals(program);
+    stats.update(Json{
+        {"job", job.file}, {"units", job.inch ? "inch" : "mm"}, {"bytes", program.gcode.size()}});
+    if (job.setup) {
+        stats["setup"] = job.setup->name;
+        stats["offset"] = fmt::format("G{}", job.setup->offset);
     }
-    fmt::print(said, "wrote {}\n", output);
+    if (!job.notes.empty()) {
+        stats["notes"] = job.notes;
+    }
+    if (!program.warnings.empty()) {
+        stats["warnings"] = program.warnings;
+    }
+    for (std::size_t i = 0; i < program.operations.size(); ++i) {
+        stats["operations"].push_back(operation_stats(program.operations[i], program.measures[i]));
+    }
+    return json_text::written(stats, 1) + "\n";
 }
 
-nlohmann::ordered_json plan_statistics(const Plan& plan, const Json& about)
-{
-    Json stats = totals(plan);
-    stats.update(about);
-    if (!plan.warnings.empty()) {
-        stats["warnings"] = plan.warnings;
-    }
-    for (std::size_t i = 0; i < plan.operations.size(); ++i) {
-        stats["operations"].push_back(operation_stats(plan.operations[i], plan.measures[i]));
-    }
-    return stats;
-}
-
-}  // namespace cusp::cli
+}  // namespace cusp::plan

@@ -1,21 +1,19 @@
 // Words first, then decimals.
-#include "host_tools/cli/post_fit.hpp"
-
 #include <algorithm>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/plan/stages.hpp"
 #include "host_tools/geometry/toolpath/post.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 using job::Job;
 using job::Operation;
 using job::OutputForm;
 using toolpath::added_rounding;
 using toolpath::Coolant;
-using toolpath::PlannedOperation;
 using toolpath::Post;
 using toolpath::Tool;
 
@@ -49,9 +47,8 @@ void check_offset(const Job& job)
     }
 }
 
-}  // namespace
-
-void check_post(const Job& job, double blend)
+// Throws InputError if the post has no words for what the job asks: NURBS, coolant, `blend`.
+void check_words(const Job& job, double blend)
 {
     const Post& post = job.post;
     if (blend > 0 && post.blend.empty()) {
@@ -74,6 +71,8 @@ void check_post(const Job& job, double blend)
     }
 }
 
+// Takes what the post's rounding adds off the tolerances, so that the written path holds them. Throws InputError if
+// a tolerance is too small for that.
 void leave_room_for_rounding(Job& job)
 {
     const double added = added_rounding(job.post, job.inch);
@@ -107,17 +106,12 @@ void leave_room_for_rounding(Job& job)
     }
 }
 
-void add_rounding(const Job& job, PlannedOperation& operation)
+}  // namespace
+
+void fit_to_post(Planning& planning)
 {
-    const double added = added_rounding(job.post, job.inch);
-    if (!(added > 0)) {
-        return;
-    }
-    operation.stats.gouge_bound_mm += added;
-    operation.stats.scallop_bound_mm += added;
-    operation.path.comments.push_back(
-        fmt::format("rounded to {} decimals: both bounds are {:.4f} mm more",
-                    job.post.decimals(job.inch), added));
+    check_words(planning.job, planning.options.blend);
+    leave_room_for_rounding(planning.job);
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::plan

@@ -6,7 +6,7 @@
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/judge/verify/path_rapids.hpp"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 // A rapid move straight down ends toolpath::kRapidClearance above the stock that its end is in, then the tool goes on
 // at the plunge feed; any other one goes up to the clearance height first, across and down. A drilling cycle keeps its
@@ -18,4 +18,4 @@ toolpath::Toolpath lifted(const toolpath::Toolpath& path,
                           const std::vector<verify::RapidInStock>& rapids,
                           double clearance_z);
 
-}  // namespace cusp::cli
+}  // namespace cusp::plan

@@ -1,18 +1,16 @@
 // Wanted feeds at positions become stretches of one feed, stretches become parts of moves.
-#include "host_tools/cli/chip_load.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/base/cancellation/cancellation.hpp"
-#include "host_tools/cli/share_progress.hpp"
+#include "host_tools/cam/plan/chip_load.hpp"
+#include "host_tools/cam/plan/stages.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/judge/verify/path_engagement.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 using job::ChipLoad;
 using job::Job;
@@ -131,12 +129,6 @@ std::optional<ToolMove> part_to(const ToolMove& move, Vec3d end)
     return std::nullopt;
 }
 
-struct FeedRange {
-    double low{kUnbounded};
-    double high{};
-    int changes{};
-};
-
 // Sets the feeds, dividing moves where stretches end inside them.
 FeedRange put_feeds(const PathEngagement& found, const ChipLoad& limits, Toolpath& path)
 {
@@ -196,18 +188,6 @@ void add_removal(const PathEngagement& found, double seconds, toolpath::Operatio
                               seconds > 0 ? found.removed_mm3 / seconds * kSecondsPerMinute : 0.0);
 }
 
-// A plan with a bound for some operations and none for others can't know what is over in all.
-std::vector<std::optional<double>> limits_of(const Job& job, const Plan& plan)
-{
-    std::vector<std::optional<double>> out;
-    for (const PlannedOperation& planned : plan.operations) {
-        const Operation& operation = operation_of(job, planned);
-        out.push_back(operation.strategy == "grid_pocket" ? operation.max_engagement
-                                                          : std::nullopt);
-    }
-    return out;
-}
-
 }  // namespace
 
 double feed_by_load(double feed, double degrees, const ChipLoad& limits)
@@ -220,67 +200,69 @@ double feed_by_load(double feed, double degrees, const ChipLoad& limits)
     return std::clamp(feed * share, low, high);
 }
 
-bool wants_engagement(const Job& job, bool with_stats)
+void find_engagement(Planning& planning)
 {
-    return std::any_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
-        return (with_stats && o.max_engagement.has_value()) || o.chip_load.has_value();
-    });
+    const Job& job = planning.job;
+    const bool counts = planning.options.measures_engagement;
+    if (std::none_of(job.operations.begin(), job.operations.end(), [counts](const Operation& o) {
+            return (counts && o.max_engagement.has_value()) || o.chip_load.has_value();
+        })) {
+        return;
+    }
+    // Of operations that cut with a bound and without one: the plan can't know what is over in all.
+    for (const PlannedOperation& planned : planning.program.operations) {
+        const Operation& operation = operation_of(job, planned);
+        planning.limits.push_back(operation.strategy == "grid_pocket" ? operation.max_engagement
+                                                                      : std::nullopt);
+    }
+    planning.begin("looking for the engagement");
+    planning.engagement = path_engagement(job, paths_of(planning.program), planning.limits,
+                                          planning.reports("engagement"));
 }
 
-void put_feeds_by_load(const Job& job,
-                       const MachineRates& rates,
-                       Plan& plan,
-                       const std::function<void()>& seconds)
+void put_feeds_by_load(Planning& planning)
 {
-    constexpr double kQuiet = 1.0;  // s
-    std::vector<const Toolpath*> paths;
-    for (const PlannedOperation& planned : plan.operations) {
-        paths.push_back(&planned.path);
+    const Job& job = planning.job;
+    PlannedProgram& program = planning.program;
+    if (planning.engagement.empty()) {
+        return;
     }
-    const std::vector<std::optional<double>> limits = limits_of(job, plan);
-    std::vector<PathEngagement> found;
-    {
-        cancellation::set_work("looking for the engagement");
-        const ShareProgress progress{"engagement", kQuiet};
-        found = path_engagement(job, paths, limits, progress);
-    }
-    seconds();
-    std::vector<double> before;
-    std::vector<FeedRange> ranges(plan.operations.size());
-    bool scaled = false;
-    for (std::size_t k = 0; k < plan.operations.size(); ++k) {
-        PlannedOperation& planned = plan.operations[k];
-        before.push_back(plan.measures[k].estimated_s);
+    planning.feeds.resize(program.operations.size());
+    for (std::size_t k = 0; k < program.operations.size(); ++k) {
+        PlannedOperation& planned = program.operations[k];
         const auto& chip_load = operation_of(job, planned).chip_load;
         if (chip_load && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
-            ranges[k] = put_feeds(found[k], *chip_load, planned.path);
-            scaled = true;
+            planning.feeds[k] = put_feeds(planning.engagement[k], *chip_load, planned.path);
+            planning.is_written = false;
         }
+        planning.feeds[k].before_s = program.measures[k].estimated_s;
     }
-    if (scaled) {
-        Vec3d at{0, 0, job.stock_top + job.clearance};
-        for (std::size_t k = 0; k < plan.operations.size(); ++k) {
-            plan.measures[k] = measure(plan.operations[k].path, at, rates);
-            at = plan.measures[k].end;
-        }
-        seconds();
+    if (!planning.is_written) {
+        measure_paths(planning);
     }
-    for (std::size_t k = 0; k < plan.operations.size(); ++k) {
-        toolpath::OperationStats& stats = plan.operations[k].stats;
-        if (operation_of(job, plan.operations[k]).max_engagement) {
-            add_removal(found[k], plan.measures[k].estimated_s, stats);
-            if (limits[k]) {
-                stats.counts.emplace_back("found_over_engagement_mm", found[k].over_mm);
+}
+
+void count_engagement(Planning& planning)
+{
+    PlannedProgram& program = planning.program;
+    for (std::size_t k = 0; k < planning.engagement.size(); ++k) {
+        toolpath::OperationStats& stats = program.operations[k].stats;
+        const double seconds = program.measures[k].estimated_s;
+        if (operation_of(planning.job, program.operations[k]).max_engagement) {
+            add_removal(planning.engagement[k], seconds, stats);
+            if (planning.limits[k]) {
+                stats.counts.emplace_back("found_over_engagement_mm",
+                                          planning.engagement[k].over_mm);
             }
         }
-        if (ranges[k].high > 0) {
-            stats.counts.emplace_back("chip_load_before_s", before[k]);
-            stats.counts.emplace_back("chip_load_after_s", plan.measures[k].estimated_s);
-            stats.counts.emplace_back("chip_load_feed_least", ranges[k].low);
-            stats.counts.emplace_back("chip_load_feed_most", ranges[k].high);
-            stats.counts.emplace_back("chip_load_feed_changes", ranges[k].changes);
+        if (planning.feeds[k].high > 0) {
+            stats.counts.emplace_back("chip_load_before_s", planning.feeds[k].before_s);
+            stats.counts.emplace_back("chip_load_after_s", seconds);
+            stats.counts.emplace_back("chip_load_feed_least", planning.feeds[k].low);
+            stats.counts.emplace_back("chip_load_feed_most", planning.feeds[k].high);
+            stats.counts.emplace_back("chip_load_feed_changes", planning.feeds[k].changes);
         }
     }
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::plan

@@ -1,5 +1,5 @@
 // Move by move; in a lifted hole the height of the cycle's rapids is that above the stock.
-#include "host_tools/cli/lifted_path.hpp"
+#include "host_tools/cam/plan/lifted_path.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -8,7 +8,7 @@
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/geometry/toolpath/toolpath_writer.hpp"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 using toolpath::end_of;
 using toolpath::kRapidClearance;
@@ -89,4 +89,4 @@ Toolpath lifted(const Toolpath& path, const std::vector<RapidInStock>& rapids, d
     return out;
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::plan

@@ -1,14 +1,14 @@
 // The stock is what earlier programs and earlier operations leave.
-#include "host_tools/cli/rest_of_job.hpp"
+#include "host_tools/cam/plan/rest_of_job.hpp"
 
 #include <algorithm>
 
-#include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/cam/plan/stages.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
-namespace cusp::cli {
+namespace cusp::plan {
 
 using job::Job;
 using job::Operation;
@@ -72,21 +72,13 @@ RestOfJob::RestOfJob(const Job& job)
     }
 }
 
-std::vector<PlannedOperation> RestOfJob::rest_of(const Job& job,
-                                                 Operation& operation,
-                                                 const PlanOne& plan)
+void RestOfJob::remember(const std::vector<PlannedOperation>& results)
 {
-    std::vector<PlannedOperation> results = plan();
-    if (keep(job, operation, results) && lower_scallop(job, operation)) {
-        results = plan();
-        keep(job, operation, results);
-    }
     if (!cuts_.empty()) {
         for (const PlannedOperation& result : results) {
             paths_.push_back(result.path);
         }
     }
-    return results;
 }
 
 bool RestOfJob::lower_scallop(const Job& job, Operation& operation) const
@@ -105,7 +97,7 @@ bool RestOfJob::lower_scallop(const Job& job, Operation& operation) const
 
 bool RestOfJob::keep(const Job& job,
                      const Operation& operation,
-                     std::vector<PlannedOperation>& results)
+                     std::vector<PlannedOperation>& results) const
 {
     if (cuts_.empty()) {
         return false;
@@ -113,9 +105,6 @@ bool RestOfJob::keep(const Job& job,
     const std::vector<std::string> programs = programs_before(job, operation);
     for (PlannedOperation& result : results) {
         if (!programs.empty() && !result.path.moves.empty()) {
-            cancellation::set_work(
-                fmt::format("looking for what is left for operation {} ({}) of {}",
-                            operation.number, operation.strategy, job.file));
             SweptStock stock{job.stock_top};
             for (const std::string& file : programs) {
                 cut_from(cuts_.at(file), stock);
@@ -138,4 +127,22 @@ bool RestOfJob::keep(const Job& job,
     return !nothing;
 }
 
-}  // namespace cusp::cli
+void read_earlier_programs(Planning& planning) { planning.rest = RestOfJob{planning.job}; }
+
+void keep_rest(Planning& planning)
+{
+    Job& job = planning.job;
+    const RestOfJob& rest = planning.rest;
+    for (Planned& planned : planning.planned) {
+        Operation& operation = job.operations[planned.place];
+        planning.begin(fmt::format("looking for what is left for operation {} ({}) of {}",
+                                   operation.number, operation.strategy, job.file));
+        if (rest.keep(job, operation, planned.paths) && rest.lower_scallop(job, operation)) {
+            planned.paths = plan_operation_at(planning, planned.place);
+            rest.keep(job, operation, planned.paths);
+        }
+        planning.rest.remember(planned.paths);
+    }
+}
+
+}  // namespace cusp::plan

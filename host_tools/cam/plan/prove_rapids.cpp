@@ -1,0 +1,73 @@
+// Rapid moves are looked at in the stock as it is by then, before a line is written.
+#include <algorithm>
+#include <map>
+
+#include "host_tools/base/input_error/counted.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/plan/lifted_path.hpp"
+#include "host_tools/cam/plan/stages.hpp"
+#include "host_tools/job/job/fixture_clearance.hpp"
+#include "host_tools/judge/verify/path_rapids.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::plan {
+
+using job::Job;
+using job::keep_off_fixtures;
+using toolpath::PlannedOperation;
+using verify::RapidInStock;
+using verify::rapids_in_stock;
+
+namespace {
+
+bool is_less_deep(const RapidInStock& a, const RapidInStock& b) { return a.depth < b.depth; }
+
+// Errors: InputError if a rapid move would cut into stock that earlier operations and programs leave: operation, place,
+// depth and limit.
+void refuse_rapids(const Job& job, const PlannedProgram& program)
+{
+    const std::vector<RapidInStock> rapids = rapids_in_stock(job, paths_of(program));
+    const auto rapid = std::max_element(rapids.begin(), rapids.end(), is_less_deep);
+    if (rapid == rapids.end()) {
+        return;
+    }
+    const PlannedOperation& operation = program.operations[rapid->path];
+    throw InputError(fmt::format(
+        "{}: operation {}, {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would cut "
+        "{:.4g} mm deep into stock that is there by then, the limit is {:g}: let an operation "
+        "before it cut that stock away, or begin this one at its top",
+        job.file, operation.operation, operation.stats.strategy, operation.path.tool.number,
+        rapid->tip.x, rapid->tip.y, rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));
+}
+
+}  // namespace
+
+void prove_rapids(Planning& planning)
+{
+    const Job& job = planning.job;
+    PlannedProgram& program = planning.program;
+    planning.begin("checking rapid moves");
+    std::map<std::size_t, std::vector<RapidInStock>> by_path;
+    for (const RapidInStock& rapid : rapids_in_stock(job, paths_of(program))) {
+        by_path[rapid.path].push_back(rapid);
+    }
+    for (const auto& [path, rapids] : by_path) {
+        PlannedOperation& operation = program.operations[path];
+        const std::string name =
+            fmt::format("operation {}, {}", operation.operation, operation.stats.strategy);
+        operation.path = lifted(operation.path, rapids, job.stock_top + job.clearance);
+        operation.stats.retracts += keep_off_fixtures(job, name, operation.path);
+        const auto deepest = std::max_element(rapids.begin(), rapids.end(), is_less_deep);
+        program.warnings.push_back(fmt::format(
+            "{}: it begins below stock that stands by then, up to {:.4g} mm of it at x {:.3f} y "
+            "{:.3f}: tool {} goes through it at the plunge feed, at {}",
+            name, deepest->depth, deepest->tip.x, deepest->tip.y, operation.path.tool.number,
+            counted(rapids.size(), "place")));
+    }
+    if (!by_path.empty()) {
+        refuse_rapids(job, program);
+    }
+}
+
+}  // namespace cusp::plan
