@@ -14,10 +14,11 @@
 #include "host_tools/cli/examples_folder.hpp"
 #include "host_tools/cli/run_program.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/cli/verify_program.hpp"
 #include "host_tools/controller/simulate/settings_file.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/report/report.hpp"
+#include "host_tools/judge/verify/verify_statistics.hpp"
 #include "host_tools/judge/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
@@ -102,8 +103,10 @@ int run_demo(const DemoOptions& options)
     write_text(out / "plan.json", statistics_json(job, plan));
     verify::VerifySettings settings;
     settings.engagement = true;
-    const Verification cut = verify_program(
-        job, program, settings, {out / "verify.json", out / "path.svg", out / "left.svg"});
+    const Verification cut = verify::verify(job, program, settings, ShareProgress{"cutting"});
+    write_text(out / "verify.json", statistics_json(cut));
+    write_text(out / "path.svg", report::path_picture(job, cut.program));
+    write_text(out / "left.svg", report::left_picture(job, cut));
     write_text(out / "verify.txt", verification_text(cut));
     if (options.traces) {
         mill.vcd_file = out / "pocket.vcd";

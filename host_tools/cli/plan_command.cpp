@@ -1,5 +1,6 @@
 // cusp plan: from a job file, or from parts and tools, to G-code and its statistics.
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,6 @@
 #include "host_tools/cli/console_watcher.hpp"
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/resource_options.hpp"
-#include "host_tools/cli/setup_choice.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/import/post_reader.hpp"
@@ -73,6 +73,16 @@ void write_files(const Job& job, const PlannedProgram& program, const PlanFiles&
     if (!files.stats.empty()) {
         write_text(files.stats, statistics_json(job, program));
     }
+}
+
+// "part.ngc" of the set-up "bottom" is "part-bottom.ngc"; "" stays.
+std::string file_of_setup(const std::string& file, const job::Setup& setup)
+{
+    const std::filesystem::path path{file};
+    return file.empty() ? file
+                        : (path.parent_path() /
+                           (path.stem().string() + "-" + setup.name + path.extension().string()))
+                              .string();
 }
 
 // A program for each; those before it have made the stock of the later ones.

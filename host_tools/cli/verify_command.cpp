@@ -6,24 +6,37 @@
 #include <vector>
 
 #include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/files/files.hpp"
 #include "host_tools/cli/cli.hpp"
+#include "host_tools/cli/program_job.hpp"
 #include "host_tools/cli/resource_options.hpp"
-#include "host_tools/cli/setup_choice.hpp"
-#include "host_tools/cli/verify_program.hpp"
-#include "host_tools/job/import/import.hpp"
+#include "host_tools/cli/share_progress.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/report/report.hpp"
+#include "host_tools/judge/verify/verify_statistics.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 
 namespace cusp::cli {
 
-using import::read_setups;
+using files::write_text;
 using job::Job;
+using report::engagement_picture;
+using report::left_picture;
+using report::path_picture;
 using verify::Verification;
 using verify::VerifySettings;
 
 namespace {
+
+// Files to write; empty: none.
+struct VerifyOutput {
+    std::string stats;               // JSON
+    std::string path_picture;        // SVG
+    std::string left_picture;        // SVG
+    std::string engagement_picture;  // SVG
+};
 
 struct VerifyOptions {
     std::string job;
@@ -60,6 +73,20 @@ bool asks_for_engagement(const VerifyOptions& options, const Job& job)
                        [](const auto& operation) { return operation.max_engagement.has_value(); });
 }
 
+void write_output(const Job& job, const Verification& result, const VerifyOutput& output)
+{
+    const cancellation::FinishOutput finish;
+    const auto write = [](const std::string& file, const auto& text_of) {
+        if (!file.empty()) {
+            write_text(file, text_of());
+        }
+    };
+    write(output.stats, [&] { return statistics_json(result); });
+    write(output.path_picture, [&] { return path_picture(job, result.program); });
+    write(output.left_picture, [&] { return left_picture(job, result); });
+    write(output.engagement_picture, [&] { return engagement_picture(job, result); });
+}
+
 int run_verify(const VerifyOptions& options)
 {
     apply(options.resources);
@@ -71,10 +98,13 @@ int run_verify(const VerifyOptions& options)
     if (options.spacing > 0) {
         settings.spacing = options.spacing;
     }
-    const Job job = job_of_program(read_setups(options.job), options.program, options.after);
+    const Job job = job_for(options.job, options.program, options.after);
     settings.max_engagement = options.max_engagement;
     settings.engagement = asks_for_engagement(options, job);
-    const Verification result = verify_program(job, options.program, settings, options.output);
+    cancellation::set_work("cutting " + options.program);
+    const Verification result =
+        verify::verify(job, options.program, settings, ShareProgress{"cutting"});
+    write_output(job, result, options.output);
     fmt::print("{}", verification_text(result));
     return result.broken.empty() ? kDone : kFoundWrong;
 }

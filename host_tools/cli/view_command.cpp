@@ -7,10 +7,9 @@
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
-#include "host_tools/cli/setup_choice.hpp"
+#include "host_tools/cli/program_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/controller/simulate/settings_file.hpp"
-#include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/judge/view/page_still.hpp"
 #include "host_tools/judge/view/page_text.hpp"
@@ -22,7 +21,6 @@
 namespace cusp::cli {
 
 using files::write_text;
-using import::read_setups;
 using job::Job;
 using simulate::read_settings_file;
 using simulate::SimulationProgress;
@@ -55,7 +53,7 @@ RunPage page_of(const ViewArguments& arguments)
     }
     std::optional<Job> job;
     if (!arguments.job_file.empty()) {
-        job = job_of_program(read_setups(arguments.job_file), arguments.program, arguments.after);
+        job = job_for(arguments.job_file, arguments.program, arguments.after);
         options.job = &*job;
     }
     constexpr double kQuiet = 2.0;

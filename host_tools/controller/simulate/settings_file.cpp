@@ -30,7 +30,7 @@ Settings read_settings_file(const std::string& file)
     if (const auto refusal = program_run::read_settings(source, settings)) {
         const std::string place =
             refusal->line == 0 ? file : fmt::format("{}:{}", file, refusal->line);
-        throw InputError{place + ": " + refusal->text};
+        throw InputError{place + ": " + refusal->text, {file, refusal->line}};
     }
     return settings;
 }

@@ -120,10 +120,15 @@ private:
 SimulationResult simulate(const std::string& program_file, const SimulationOptions& options)
 {
     dialect::LineSource source{program_file};
+    return simulate(source, options);
+}
+
+SimulationResult simulate(dialect::LineSource& program, const SimulationOptions& options)
+{
     const auto start = WallClock::now();
     Recorder recorder{options};
     const RunOptions run_options = recorder.run_options();
-    ProgramRun run{source, run_options};
+    ProgramRun run{program, run_options};
     Reporter reporter{run, options};
     while (run.advance()) {
         reporter.tick();

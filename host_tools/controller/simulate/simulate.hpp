@@ -51,6 +51,8 @@ struct SimulationResult : program_run::RunResult {
 
 // Errors: InputError if a file cannot be read or written.
 SimulationResult simulate(const std::string& program_file, const SimulationOptions& options);
+// A program from anywhere: dialect::LineSource::of_text("part.ngc", gcode).
+SimulationResult simulate(dialect::LineSource& program, const SimulationOptions& options);
 
 // The result as JSON, one key a figure.
 std::string statistics_json(const SimulationResult& result);

@@ -17,11 +17,19 @@ namespace {
 
 constexpr const char* kModule = "libcusp_cad.so";
 
-// Searches the build folder, the installation folder and (tests) RUNPATH. Null: not found, with the
+// Searches the folder of this code, the build folder, the installation folder and (tests) RUNPATH. Null: not found, with the
 // reason in dlerror(). The module is never unloaded, since Open CASCADE keeps state between calls.
 void* load_module()
 {
     std::error_code error;
+    // A library of another program, as Python's module, has it beside itself.
+    Dl_info here{};
+    if (dladdr(reinterpret_cast<void*>(&load_module), &here) != 0) {
+        const auto beside = std::filesystem::path{here.dli_fname}.parent_path() / kModule;
+        if (std::filesystem::exists(beside, error)) {
+            return dlopen(beside.c_str(), RTLD_NOW | RTLD_LOCAL);
+        }
+    }
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     for (const char* folder : {"lib", CUSP_CAD_FOLDER}) {
         const std::filesystem::path file = program.parent_path().parent_path() / folder / kModule;

@@ -35,6 +35,8 @@ struct JobText {
     std::string folder;  // base of its relative paths; "": the current folder
 };
 class PartFiles;
+// As read_setups(), from text.
+std::vector<job::Job> read_setups(const JobText& job);
 // As above, from text. Files that `parts` already holds are not read again.
 job::Job read_job(const JobText& job, PartFiles& parts);
 

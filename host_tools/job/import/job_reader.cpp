@@ -467,13 +467,17 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
 
 std::vector<Job> read_setups(const std::string& file)
 {
-    const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
-    const std::string text = files::text_of_file(file);
+    return read_setups(JobText{files::text_of_file(file), file,
+                               std::filesystem::path{file}.parent_path().string()});
+}
+
+std::vector<Job> read_setups(const JobText& job)
+{
     std::vector<Job> jobs;
     std::size_t setups = 1;
     for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
         PartFiles parts;
-        jobs.push_back(JobReader{file, folder, parts}.read(text, place, setups));
+        jobs.push_back(JobReader{job.name, job.folder, parts}.read(job.text, place, setups));
     }
     return jobs;
 }

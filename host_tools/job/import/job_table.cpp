@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "host_tools/base/input_error/input_error.hpp"
@@ -18,7 +19,15 @@ namespace {
 std::string range_in_words(Range range)
 {
     const char* low = range.above_low ? "above" : "at least";
-    return fmt::format("it must be {} {:g} and at most {:g}", low, range.low, range.high);
+    return fmt::format("{} {:g} and at most {:g}", low, range.low, range.high);
+}
+
+// As in the file.
+std::string text_of(const toml::node& node)
+{
+    std::ostringstream text;
+    node.visit([&](const auto& value) { text << value; });
+    return text.str();
 }
 
 }  // namespace
@@ -29,8 +38,9 @@ toml::table parsed_toml(const std::string& text, const std::string& file)
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw InputError(fmt::format("{}:{}: not TOML: {}", file, error.source().begin.line,
-                                     error.description()));
+        const auto line = error.source().begin.line;
+        throw InputError(fmt::format("{}:{}: not TOML: {}", file, line, error.description()),
+                         {file, line});
     }
 }
 
@@ -43,13 +53,14 @@ JobTable::JobTable(const toml::table& table,
     refuse_unknown_keys();
 }
 
-void JobTable::refuse(const char* key, const std::string& reason) const
+void JobTable::refuse(const char* key, const std::string& reason, const std::string& limit) const
 {
     const toml::node* node = table_.get(key);
-    const auto line = (node != nullptr ? node->source() : table_.source()).begin.line;
+    const auto line = std::max((node != nullptr ? node->source() : table_.source()).begin.line,
+                               toml::source_index{1});
     const std::string dot = place_.empty() ? "" : place_ + ": ";
-    throw InputError(fmt::format("{}:{}: {}{}: {}", file_, std::max(line, toml::source_index{1}),
-                                 dot, key, reason));
+    throw InputError(fmt::format("{}:{}: {}{}: {}", file_, line, dot, key, reason),
+                     {file_, line, key, node == nullptr ? "" : text_of(*node), limit});
 }
 
 const toml::node* JobTable::find(const char* key)
@@ -67,7 +78,8 @@ double JobTable::checked(const toml::node& node, const char* key, Range range) c
     const bool low_enough = *value <= range.high;
     const bool high_enough = range.above_low ? *value > range.low : *value >= range.low;
     if (!low_enough || !high_enough) {
-        refuse(key, fmt::format("is {:g}, {}", *value, range_in_words(range)));
+        const std::string limit = range_in_words(range);
+        refuse(key, fmt::format("is {:g}, it must be {}", *value, limit), limit);
     }
     return *value;
 }

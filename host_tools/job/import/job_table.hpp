@@ -79,7 +79,10 @@ public:
 
     bool has(const char* key) const { return table_.contains(key); }
 
-    [[noreturn]] void refuse(const char* key, const std::string& reason) const;
+    // limit  in words, where the reason names one
+    [[noreturn]] void refuse(const char* key,
+                             const std::string& reason,
+                             const std::string& limit = {}) const;
 
     // Throws std::logic_error where a known key was never read: it would have no effect.
     void check_all_read() const;

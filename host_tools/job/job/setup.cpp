@@ -3,6 +3,8 @@
 
 #include "host_tools/job/job/job.hpp"
 
+#include "fmt/format.h"
+
 namespace cusp::job {
 
 void add_earlier_program(Job& job, const Setup& of, const std::string& file)
@@ -16,6 +18,14 @@ void add_earlier_program(Job& job, const Setup& of, const std::string& file)
                    ((*job.stock_y)[0] + (*job.stock_y)[1]) / 2,
                    (*job.stock_bottom + job.stock_top) / 2};
     job.turned_programs.push_back({file, turn});
+}
+
+std::string description_of(const Setup& setup)
+{
+    const char* flip = setup.flip == Flip::kX   ? ", turned over about x"
+                       : setup.flip == Flip::kY ? ", turned over about y"
+                                                : "";
+    return fmt::format("set-up {}, G{}{}", setup.name, setup.offset, flip);
 }
 
 }  // namespace cusp::job

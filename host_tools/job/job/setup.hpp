@@ -24,6 +24,9 @@ struct Setup {
     Flip flip{Flip::kNone};
 };
 
+// "set-up bottom, G55, turned over about x".
+std::string description_of(const Setup& setup);
+
 // A half turn about an axis through `middle`, or none. It is its own inverse.
 struct SetupFlip {
     Vec3d signs{1, 1, 1};

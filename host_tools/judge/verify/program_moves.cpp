@@ -138,7 +138,8 @@ public:
         if (!status) {
             const int code = static_cast<int>(status.error());
             throw InputError(
-                fmt::format("{}:{}: error {}: {}", file_, number_, code, refusal(code, line).text));
+                fmt::format("{}:{}: error {}: {}", file_, number_, code, refusal(code, line).text),
+                {file_, number_, "", std::string{line}});
         }
         gcode::Action action;
         while (interpreter_.next(action)) {
@@ -178,7 +179,8 @@ private:
         const auto [known, is_new] = program_.tools.emplace(tool->number, *tool);
         if (!is_new && !is_same_cutter(known->second, *tool)) {
             throw InputError(fmt::format("{}:{}: tool {} is another one than in a comment before",
-                                         file_, number_, tool->number));
+                                         file_, number_, tool->number),
+                             {file_, number_});
         }
     }
 

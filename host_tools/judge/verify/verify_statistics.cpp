@@ -1,31 +1,14 @@
 // Writes the figures as JSON, one key for each.
-#include "host_tools/cli/verify_program.hpp"
+#include "host_tools/judge/verify/verify_statistics.hpp"
 
 #include <cmath>
 
-#include "host_tools/base/cancellation/cancellation.hpp"
-#include "host_tools/base/files/files.hpp"
 #include "host_tools/base/json_text/json_text.hpp"
-#include "host_tools/cli/share_progress.hpp"
-#include "host_tools/judge/report/report.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
-namespace cusp::cli {
-
-using files::write_text;
-using job::Job;
-using report::engagement_picture;
-using report::left_picture;
-using report::path_picture;
-using verify::ContactFigures;
-using verify::EngagementFigures;
-using verify::FloorBetweenSides;
-using verify::ToolFigures;
-using verify::Verification;
-using verify::VerifyFigures;
-using verify::VerifySettings;
+namespace cusp::verify {
 
 namespace {
 
@@ -89,7 +72,7 @@ void add_between_sides_to(Json& out, const std::optional<FloorBetweenSides>& flo
 }
 
 // name  of the figure, which ends in _max_mm
-void add_place_to(Json& out, const std::string& name, const std::optional<verify::FaultPlace>& at)
+void add_place_to(Json& out, const std::string& name, const std::optional<FaultPlace>& at)
 {
     if (at) {
         out[name + "_at_mm"] = {rounded(at->place.x), rounded(at->place.y), rounded(at->place.z)};
@@ -163,27 +146,9 @@ Json stats_of(const Verification& result)
 
 }  // namespace
 
-Verification verify_program(const Job& job,
-                            const std::string& program_file,
-                            const VerifySettings& settings,
-                            const VerifyOutput& output)
+std::string statistics_json(const Verification& result)
 {
-    cancellation::set_work("cutting " + program_file);
-    Verification result = verify::verify(job, program_file, settings, ShareProgress{"cutting"});
-    const cancellation::FinishOutput finish;
-    if (!output.stats.empty()) {
-        write_text(output.stats, json_text::written(stats_of(result), 1) + "\n");
-    }
-    if (!output.path_picture.empty()) {
-        write_text(output.path_picture, path_picture(job, result.program));
-    }
-    if (!output.left_picture.empty()) {
-        write_text(output.left_picture, left_picture(job, result));
-    }
-    if (!output.engagement_picture.empty()) {
-        write_text(output.engagement_picture, engagement_picture(job, result));
-    }
-    return result;
+    return json_text::written(stats_of(result), 1) + "\n";
 }
 
 std::string verification_text(const Verification& result)
@@ -201,4 +166,4 @@ std::string verification_text(const Verification& result)
     return text + (result.broken.empty() ? "all bounds hold\n" : "");
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::verify

@@ -1,23 +1,18 @@
 // A program says by its work offset which set-up it is for.
-#include "host_tools/cli/setup_choice.hpp"
+#include "host_tools/judge/verify/program_setup.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/judge/verify/program_moves.hpp"
 
-#include "CLI/CLI.hpp"
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
-namespace cusp::cli {
+namespace cusp::verify {
 
-using job::Flip;
 using job::Job;
-using job::Setup;
-using verify::read_program;
 
 namespace {
 
@@ -51,35 +46,6 @@ std::size_t place_of_program(const std::vector<Job>& setups, const std::string& 
 
 }  // namespace
 
-std::string description_of(const Setup& setup)
-{
-    const std::string flip = setup.flip == Flip::kX   ? ", turned over about x"
-                             : setup.flip == Flip::kY ? ", turned over about y"
-                                                      : "";
-    return fmt::format("set-up {}, G{}{}", setup.name, setup.offset, flip);
-}
-
-std::string file_of_setup(const std::string& file, const Setup& setup)
-{
-    if (file.empty()) {
-        return file;
-    }
-    const std::filesystem::path path{file};
-    return (path.parent_path() /
-            (path.stem().string() + "-" + setup.name + path.extension().string()))
-        .string();
-}
-
-void add_after_option(CLI::App& command, std::vector<std::string>& after)
-{
-    command
-        .add_option(
-            "--after", after,
-            "programs that were cut before, in other set-ups of the job: the stock is what they "
-            "leave")
-        ->type_name("PROGRAM");
-}
-
 Job job_of_program(std::vector<Job> setups,
                    const std::string& program,
                    const std::vector<std::string>& after)
@@ -93,7 +59,6 @@ Job job_of_program(std::vector<Job> setups,
     Job job = std::move(setups[place]);
     setups[place].setup = job.setup;
     setups[place].file = job.file;
-    fmt::print("{}\n", description_of(*job.setup));
     for (const std::string& file : after) {
         const std::size_t before = place_of_program(setups, file);
         if (before > place) {
@@ -102,10 +67,7 @@ Job job_of_program(std::vector<Job> setups,
         }
         add_earlier_program(job, *setups[before].setup, file);
     }
-    if (place > 0 && after.empty()) {
-        fmt::print("the stock is uncut: --after PROGRAM names what earlier set-ups have cut\n");
-    }
     return job;
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::verify
