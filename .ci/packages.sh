@@ -8,7 +8,8 @@ cad_packages="libocct-data-exchange-dev lib3mf-dev"
 # Builds the images of the boards.
 image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
 # Makes the Debian packages of it all, and checks them.
-package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian"
+package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian pybind11-dev python3-dev
+    python3-numpy python3-wheel"
 # Runs all tests.
 test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-numpy
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"

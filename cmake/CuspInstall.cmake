@@ -1,5 +1,5 @@
 # The files that `cmake --install` puts beside the programs, and the Debian packages that `cpack` makes of it all:
-# cusp_<version>_<architecture>.deb and cusp-dev_<version>_<architecture>.deb.
+# cusp_<version>_<architecture>.deb, cusp-dev_... and python3-cusp_...
 #
 # The preset `package` switches on what belongs into them: Open CASCADE, Eigen, the boards' images, the man pages.
 
@@ -45,6 +45,9 @@ set(CPACK_PACKAGE_CONTACT "The cusp developers <cusp@cusp.example>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(CUSP_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -62,10 +65,25 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME cusp-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the CMake package (find_package(cusp)) of the
 freestanding core that cusp simulates: G-code, planner, interpolator, pulses.
-For a board of one's own.")
+For a board of one's own. Programs that plan, verify and simulate link
+cusp::plan, cusp::verify and cusp::simulate.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libfmt-dev, libtbb-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-cusp)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS cusp)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "cusp for Python: plan, verify and simulate tool paths
+Plans a job file to G-code with computed bounds, cuts the stock in memory to
+verify a program, and runs it on the core of the controller's firmware. Moves
+and set points are numpy arrays. STEP and IGES need the package cusp.")
 
 # Debian wants the licence and a changelog in each package.
-foreach(pair program:cusp development:cusp-dev)
+set(packages program:cusp development:cusp-dev)
+if(CUSP_PYTHON)
+  list(APPEND packages python:python3-cusp)
+endif()
+foreach(pair IN LISTS packages)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 component)
   list(GET pair 1 package)

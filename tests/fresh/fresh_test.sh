@@ -47,7 +47,8 @@ demo() {
 
 installed() {
     "$here/bare_root.sh" --keep "$work/deb" --copy "$packages/cusp_${version}_amd64.deb" \
-        --copy "$packages/cusp-dev_${version}_amd64.deb" --copy "$here/installed.sh" 'cd && sh installed.sh'
+        --copy "$packages/cusp-dev_${version}_amd64.deb" \
+        --copy "$packages/python3-cusp_${version}_amd64.deb" --copy "$(echo "$packages"/cusp-"$version"-*.whl)" --copy "$here/installed.sh" 'cd && sh installed.sh'
 }
 
 # Both mostly unpack packages: together. The demo, whose time counts, has the machine for itself.

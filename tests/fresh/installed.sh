@@ -24,7 +24,16 @@ bash -c '. /usr/share/bash-completion/completions/cusp
     COMP_WORDS=(cusp plan --sta) COMP_CWORD=2; _cusp; [ "${COMPREPLY[*]}" = --stats ]'
 
 # The core, for a board of one's own.
-apt-get install -y -qq --no-install-recommends ./cusp-dev_*.deb g++ cmake make >/dev/null
+apt-get install -y -qq --no-install-recommends ./cusp-dev_*.deb g++ cmake make libfmt-dev libtbb-dev nlohmann-json3-dev >/dev/null
 cmake -S cusp/tests/checks/installed -B board >/dev/null
 cmake --build board >/dev/null
 board/board
+board/plan_example /usr/share/cusp/examples/hull_rough/tap.toml 2>/dev/null | grep -q M30
+
+# Python: the package, and the wheel in an environment of its own.
+apt-get install -y -qq --no-install-recommends ./python3-cusp_*.deb python3-venv >/dev/null
+python3 cusp/tests/fresh/python_example.py /usr/share/cusp/examples
+apt-get remove -y -qq python3-cusp >/dev/null
+python3 -m venv --system-site-packages environment
+environment/bin/pip install -q --no-index --no-deps ./cusp-*.whl
+environment/bin/python cusp/tests/fresh/python_example.py /usr/share/cusp/examples
