@@ -20,7 +20,6 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kStartHigh = 1000;     // mm over the stock: above any program's start
 constexpr double kEarlierChord = 2e-4;  // mm
 constexpr double kCurveStep = 0.05;     // mm: of NURBS
 

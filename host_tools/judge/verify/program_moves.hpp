@@ -25,6 +25,8 @@ struct Program {
     toolpath::MoveCounts counts;          // a NURBS of many pieces counts once
 };
 
+inline constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start
+
 // Machine coordinates are program coordinates: offsets are those of a fresh controller, with the
 // tool at x = y = 0 and at `start_z`.
 //

@@ -16,8 +16,6 @@ using job::Job;
 
 namespace {
 
-constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start
-
 std::size_t place_of_program(const std::vector<Job>& setups, const std::string& program)
 {
     const auto offsets =

@@ -3,4 +3,7 @@
 
 #include "firmware/base/assert.hpp"
 
-void cusp::fault(const char* /*text*/, const char* /*file*/, int /*line*/) noexcept { std::abort(); }
+void cusp::fault(const char* /*text*/, const char* /*file*/, int /*line*/) noexcept
+{
+    std::abort();
+}
