@@ -209,7 +209,7 @@ void find_engagement(Planning& planning)
         })) {
         return;
     }
-    // Of operations that cut with a bound and without one: the plan can't know what is over in all.
+    // A plan with a bound for some operations and none for others can't know what is over in all.
     for (const PlannedOperation& planned : planning.program.operations) {
         const Operation& operation = operation_of(job, planned);
         planning.limits.push_back(operation.strategy == "grid_pocket" ? operation.max_engagement

@@ -467,7 +467,8 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
 
 std::vector<Job> read_setups(const std::string& file)
 {
-    return read_setups({files::text_of_file(file), file, std::filesystem::path{file}.parent_path()});
+    return read_setups(
+        {files::text_of_file(file), file, std::filesystem::path{file}.parent_path()});
 }
 
 std::vector<Job> read_setups(const JobText& job)
