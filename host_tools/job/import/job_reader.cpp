@@ -467,8 +467,8 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
 
 std::vector<Job> read_setups(const std::string& file)
 {
-    return read_setups(
-        {files::text_of_file(file), file, std::filesystem::path{file}.parent_path()});
+    const std::filesystem::path path{file};
+    return read_setups({files::text_of_file(file), file, path.parent_path()});
 }
 
 std::vector<Job> read_setups(const JobText& job)
@@ -485,9 +485,8 @@ std::vector<Job> read_setups(const JobText& job)
 Job read_job(const std::string& file)
 {
     std::vector<Job> jobs = read_setups(file);
-    if (jobs.size() > 1) {
-        throw InputError(
-            fmt::format("{}: has {} set-ups, only one can be read here", file, jobs.size()));
+    if (const std::size_t count = jobs.size(); count > 1) {
+        throw InputError(fmt::format("{}: has {} set-ups, only one can be read here", file, count));
     }
     return std::move(jobs.front());  // meshes are large
 }
