@@ -1,8 +1,7 @@
 // The stock is what earlier programs and earlier operations leave.
-#include "host_tools/cam/plan/rest_of_job.hpp"
-
 #include <algorithm>
 
+#include "host_tools/cam/plan/rest_of_job.hpp"
 #include "host_tools/cam/plan/stages.hpp"
 
 #include "fmt/format.h"

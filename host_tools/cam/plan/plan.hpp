@@ -89,7 +89,7 @@ void plan_setups(std::vector<job::Job>& setups,
                  const std::function<PlanOptions(const job::Job&)>& begin,
                  const std::function<void(const job::Job&, PlannedProgram)>& done);
 
-// The figures of the program, then of each operation, in mm and s: docs/statistics.md. JSON text.
+// The figures of the program, then of each operation, in mm and s: docs/stats.md. JSON text.
 std::string statistics_json(const job::Job& job, const PlannedProgram& program);
 
 // Three lines for people: lengths, times, bounds.

@@ -7,7 +7,7 @@
 
 namespace cusp::verify {
 
-// One key for each figure, mm rounded to 1e-6, and "broken": docs/statistics.md.
+// One key for each figure, mm rounded to 1e-6, and "broken": docs/stats.md.
 std::string statistics_json(const Verification& result);
 
 // One line for each figure, then the bounds that do not hold.
