@@ -40,7 +40,7 @@ public:
           log_{board.settings_store},
           machine_{queue, factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
     {
-        machine_.start(log_.load(machine_.stored().bytes()));
+        machine_.start(machine::load_state(log_, machine_.stored()));
         wanted_ = machine_.outputs();
         driven_ = wanted_;
         board_.panel.set(driven_);

@@ -24,15 +24,12 @@ Machine::Machine(planner::PathQueue& queue,
 
 void Machine::start(LogState loaded) noexcept
 {
-    if (!stored_.settings.sound(board_)) {
-        restore_settings();
-        loaded = LogState::kLost;
-    }
+    const bool mended = stored_.settings.mend(factory_ != nullptr ? *factory_ : Settings{}, board_);
     motion_.configure(stored_.settings);
     interpreter_.set_parameters(stored_.parameters);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
     interpreter_.reset();
-    const bool damaged = loaded == LogState::kDamaged || loaded == LogState::kLost;
+    const bool damaged = mended || loaded == LogState::kDamaged || loaded == LogState::kLost;
     if (damaged || stored_.settings.on(Setting::kHoming)) {
         state_ = State::kAlarm;
     }
@@ -52,6 +49,10 @@ void Machine::start(LogState loaded) noexcept
             answer(Error::kSettingReadFail);
             message("Settings lost: defaults in force, $RST=* stores them");
             break;
+    }
+    if (mended) {
+        answer(Error::kSettingReadFail);
+        message("Settings damaged: some are defaults, see $$");
     }
 }
 

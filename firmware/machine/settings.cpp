@@ -52,40 +52,40 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {130, 3, 300, kLeastPositive, 100000},
     {131, 3, 200, kLeastPositive, 100000},
     {132, 3, 80, kLeastPositive, 100000},
-    {8, 0, 0, 0, 7},
+    {8, 0, 0, 0, 7, 3},
     {14, 0, 0, 0, 511},
     {15, 0, 0, 0, 3},
     {16, 0, 0, 0, 7},
     {29, 0, 5, 1, 100},
-    {170, 3, 0, -10, 10},
-    {171, 3, 0, -10, 10},
-    {172, 3, 0, -10, 10},
-    {341, 0, 0, 0, 4},
-    {342, 3, 30, kLeastPositive, 1000},
-    {343, 3, 25, kLeastPositive, kMostAny},
-    {344, 3, 200, kLeastPositive, kMostAny},
-    {347, 3, 5, 0, 100},
-    {348, 3, 2.5F, kLeastPositive, 1000},
-    {349, 3, 25, kLeastPositive, 1000},
-    {394, 3, 0, 0, 60},
+    {170, 3, 0, -10, 10, 3},
+    {171, 3, 0, -10, 10, 3},
+    {172, 3, 0, -10, 10, 3},
+    {341, 0, 0, 0, 4, 2},
+    {342, 3, 30, kLeastPositive, 1000, 2},
+    {343, 3, 25, kLeastPositive, kMostAny, 2},
+    {344, 3, 200, kLeastPositive, kMostAny, 2},
+    {347, 3, 5, 0, 100, 3},
+    {348, 3, 2.5F, kLeastPositive, 1000, 3},
+    {349, 3, 25, kLeastPositive, 1000, 3},
+    {394, 3, 0, 0, 60, 5},
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
     {792, 0, 0, 0, 1},
-    {793, 0, 0, 0, 3},
-    {794, 0, 0, 0, 1},
-    {795, 0, 0, 0, 1},
+    {793, 0, 0, 0, 3, 3},
+    {794, 0, 0, 0, 1, 3},
+    {795, 0, 0, 0, 1, 5},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
-    {810, 0, 0, 0, 3},
-    {811, 0, 0, 0, 3},
-    {812, 0, 0, 0, 3},
-    {820, 3, 40, kLeastVibration, kMostVibration},
-    {821, 3, 40, kLeastVibration, kMostVibration},
-    {822, 3, 40, kLeastVibration, kMostVibration},
-    {830, 3, 0.05F, 0, kMostDamping},
-    {831, 3, 0.05F, 0, kMostDamping},
-    {832, 3, 0.05F, 0, kMostDamping},
+    {810, 0, 0, 0, 3, 4},
+    {811, 0, 0, 0, 3, 4},
+    {812, 0, 0, 0, 3, 4},
+    {820, 3, 40, kLeastVibration, kMostVibration, 4},
+    {821, 3, 40, kLeastVibration, kMostVibration, 4},
+    {822, 3, 40, kLeastVibration, kMostVibration, 4},
+    {830, 3, 0.05F, 0, kMostDamping, 4},
+    {831, 3, 0.05F, 0, kMostDamping, 4},
+    {832, 3, 0.05F, 0, kMostDamping, 4},
 }};
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept
@@ -99,6 +99,15 @@ std::optional<std::size_t> find_index(std::uint32_t number) noexcept
 }
 
 }  // namespace
+
+std::size_t settings_in_layout(std::uint8_t layout) noexcept
+{
+    std::size_t count = 0;
+    for (const SettingEntry& entry : kTable) {
+        count += entry.since <= layout ? 1U : 0U;
+    }
+    return count;
+}
 
 const SettingEntry& setting_entry(std::size_t index) noexcept { return kTable[index]; }
 
@@ -185,15 +194,70 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
     return std::nullopt;
 }
 
-bool Settings::sound(const BoardLimits& board) const noexcept
+bool Settings::in_range_at(std::size_t index) const noexcept
+{
+    // This form of the comparison refuses a NaN.
+    return values_[index] >= kTable[index].least && values_[index] <= kTable[index].most;
+}
+
+bool Settings::in_range() const noexcept
 {
     for (std::size_t i = 0; i < kSettingCount; ++i) {
-        // This form of the comparison refuses a NaN.
-        if (!(values_[i] >= kTable[i].least && values_[i] <= kTable[i].most)) {
+        if (!in_range_at(i)) {
             return false;
         }
     }
-    return !find_fault(board);
+    return true;
+}
+
+bool Settings::sound(const BoardLimits& board) const noexcept
+{
+    return in_range() && !find_fault(board);
+}
+
+bool Settings::mend(const Settings& standard, const BoardLimits& board) noexcept
+{
+    bool mended = false;
+    for (std::size_t i = 0; i < kSettingCount; ++i) {
+        if (!in_range_at(i)) {
+            values_[i] = standard.values_[i];
+            mended = true;
+        }
+    }
+    const auto take_standard = [&](std::uint16_t number) {
+        const std::optional<std::size_t> index = find_index(number);
+        if (index) {
+            values_[*index] = standard.values_[*index];
+        }
+    };
+    // A fault names two settings of an axis at most, and there are three kinds of an axis.
+    constexpr unsigned kMostFaults = 3 * kAxisCount + 3;
+    for (unsigned i = 0; i < kMostFaults; ++i) {
+        const std::optional<SettingFault> fault = find_fault(board);
+        if (!fault) {
+            return mended;
+        }
+        mended = true;
+        if (fault->error == Error::kSoftLimitError) {
+            values_[index_of(Setting::kSoftLimits)] = 0;
+            continue;
+        }
+        take_standard(fault->first);
+        take_standard(fault->second);
+        if (fault->error == Error::kMaxStepRateExceeded && !fault->of_board) {
+            values_[index_of(Setting::kStepPulse)] = standard.value(Setting::kStepPulse);
+        }
+    }
+    if (find_fault(board)) {
+        *this = standard;
+    }
+    return mended;
+}
+
+Span<std::uint8_t> Settings::bytes() noexcept
+{
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): trivially copyable, bytes only.
+    return {reinterpret_cast<std::uint8_t*>(values_.data()), sizeof values_};
 }
 
 MachineLimits Settings::limits() const noexcept

@@ -12,6 +12,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/error.hpp"
 #include "firmware/base/machine_limits.hpp"
+#include "firmware/base/span.hpp"
 #include "firmware/planner/input_shaper.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
 
@@ -86,9 +87,16 @@ struct SettingEntry {
     float standard;         // the default: a 3-axis mill
     float least;
     float most;
+    std::uint8_t since{1};  // the layout of stored settings that has it first
 };
 
+// The version of the stored record. A new setting raises it and has it as its `since`; then records of
+// earlier versions are still read, and the new setting keeps its default.
+inline constexpr std::uint8_t kSettingsLayout = 5;
+
 const SettingEntry& setting_entry(std::size_t index) noexcept;
+// The number of settings that a record of this layout holds, in the table's order.
+std::size_t settings_in_layout(std::uint8_t layout) noexcept;
 
 // The reason why a value is refused. If two settings contradict each other, both are here.
 struct SettingFault {
@@ -143,9 +151,15 @@ public:
     //   kSettingDisabled       a second motor on a board without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
-    // Every value is in its range and none contradict: put() and find_fault() accept them.
-    // Stored bytes of another firmware may not be.
+    // Every value is in its range.
+    bool in_range() const noexcept;
+    // As above, and none contradict: put() and find_fault() accept them.
     bool sound(const BoardLimits& board = {}) const noexcept;
+
+    // Gives each value that put() or find_fault() would refuse, as stored bytes of another firmware
+    // may hold them, that of `standard`; all of them where these contradict what is left. Returns
+    // whether there was one.
+    bool mend(const Settings& standard, const BoardLimits& board = {}) noexcept;
 
     // The axis with the second motor.
     std::optional<unsigned> second_motor_axis() const noexcept
@@ -163,7 +177,11 @@ public:
     pulse::StepSettings steps() const noexcept;
     planner::InputShaper input_shaper() const noexcept;
 
+    // As they are stored, in the table's order.
+    Span<std::uint8_t> bytes() noexcept;
+
 private:
+    bool in_range_at(std::size_t index) const noexcept;
     unsigned slowest_shaped_axis() const noexcept;
 
     std::array<float, kSettingCount> values_{};

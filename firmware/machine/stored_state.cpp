@@ -2,10 +2,25 @@
 #include "firmware/machine/stored_state.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "firmware/base/assert.hpp"
 
 namespace cusp::machine {
+namespace {
+
+constexpr std::size_t kRest = offsetof(StoredState, parameters);  // all behind the settings
+
+// Where the rest begins behind so many settings.
+constexpr std::size_t rest_behind(std::size_t settings) noexcept
+{
+    constexpr std::size_t kAlign = alignof(gcode::Parameters);
+    return (settings * sizeof(float) + kAlign - 1) / kAlign * kAlign;
+}
+static_assert(sizeof(Settings) == kSettingCount * sizeof(float));
+static_assert(rest_behind(kSettingCount) == kRest);
+
+}  // namespace
 
 std::string_view StoredText::view() const noexcept
 {
@@ -30,6 +45,40 @@ Span<const std::uint8_t> StoredState::bytes() const noexcept
 {
     return {reinterpret_cast<const std::uint8_t*>(this), sizeof(StoredState)};
 }
+
+// From the last on: nothing is overwritten before it is read.
+void widen(Settings& settings, std::uint8_t layout, const Settings& standard) noexcept
+{
+    std::uint8_t* const bytes = settings.bytes().begin();
+    const auto* const defaults = reinterpret_cast<const std::uint8_t*>(&standard);
+    std::size_t held = settings_in_layout(layout);
+    for (std::size_t i = kSettingCount; i > 0; --i) {
+        const std::size_t place = (i - 1) * sizeof(float);
+        const bool holds = setting_entry(i - 1).since <= layout;
+        held -= holds ? 1U : 0U;
+        __builtin_memmove(bytes + place, holds ? bytes + held * sizeof(float) : defaults + place,
+                     sizeof(float));
+    }
+}
+
+void StoredState::widen(std::uint8_t layout, const Settings& standard) noexcept
+{
+    std::uint8_t* const all = bytes().begin();
+    __builtin_memmove(all + kRest, all + rest_behind(settings_in_layout(layout)),
+                 sizeof(StoredState) - kRest);
+    machine::widen(settings, layout, standard);
+}
 // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
+
+EarlierLayouts earlier_layouts() noexcept
+{
+    EarlierLayouts layouts{};
+    for (std::size_t i = 0; i < layouts.size(); ++i) {
+        const auto version = static_cast<std::uint8_t>(kSettingsLayout - 1 - i);
+        const std::size_t rest = rest_behind(settings_in_layout(version));
+        layouts[i] = {version, static_cast<std::uint32_t>(rest + sizeof(StoredState) - kRest)};
+    }
+    return layouts;
+}
 
 }  // namespace cusp::machine

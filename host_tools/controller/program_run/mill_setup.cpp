@@ -33,7 +33,8 @@ machine::Settings stored_settings(const hal::SimulatedStore& store)
 {
     hal::SimulatedStore copy = store;
     machine::StoredState state{};
-    machine::SettingsLog<hal::SimulatedStore>{copy}.load(state.bytes());
+    machine::SettingsLog<hal::SimulatedStore> log{copy};
+    (void)machine::load_state(log, state);
     return state.settings;
 }
 
@@ -41,7 +42,7 @@ bool store_settings(const machine::Settings& settings, hal::SimulatedStore& stor
 {
     machine::StoredState state{};
     machine::SettingsLog<hal::SimulatedStore> log{store};
-    const machine::LogState found = log.load(state.bytes());
+    const machine::LogState found = machine::load_state(log, state);
     if (found == machine::LogState::kDamaged || found == machine::LogState::kLost) {
         return true;
     }
