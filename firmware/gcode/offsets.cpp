@@ -72,6 +72,10 @@ Status set_table_entry(LineContext& line, G10Value how, MotionPlan& plan) noexce
     if (!ToolTable::holds(tool)) {
         return Error::kGcodeMaxValueExceeded;
     }
+    command.use('L');
+    if (!names_axes(command)) {
+        return kDone;  // R alone
+    }
     if (command.axes() != letter('Z')) {
         return Error::kGcodeG43DynamicAxisError;
     }
@@ -84,7 +88,6 @@ Status set_table_entry(LineContext& line, G10Value how, MotionPlan& plan) noexce
     if (!fits_tool_table(length)) {
         return Error::kGcodeMaxValueExceeded;
     }
-    command.use('L');
     line.parameters.tools.enter(tool, length);
     keep(plan, true, tool);
     return kDone;
@@ -137,9 +140,10 @@ Status set_offset(LineContext& line, MotionPlan& plan) noexcept
     if (!of_tool && how != G10Value::kOffset && how != G10Value::kOffsetHere) {
         return Error::kGcodeUnsupportedCommand;
     }
-    // R turns a coordinate system: by nothing, or not here.
+    // R is a tool's radius, which nothing asks for without G41 and G42, or turns a coordinate system:
+    // by nothing, or not here.
     if (command.has('R')) {
-        if (how != G10Value::kOffset || !command.value('R').is_zero()) {
+        if (!of_tool && (how != G10Value::kOffset || !command.value('R').is_zero())) {
             return Error::kGcodeUnsupportedCommand;
         }
         command.use('R');

@@ -72,6 +72,19 @@ TEST(ToolTable, AToolThatWasNotEnteredIsRefusedOnceOneWas)
     check_position(0, 0, 0, runner.interpreter.position());
 }
 
+// As LinuxCNC and grblHAL take it; without G41 and G42 nothing asks for a radius.
+TEST(ToolTable, TakesTheRadiusAndLeavesTheLengthAlone)
+{
+    run("G10 L1 P2 Z-7.3 R3.175");
+    run("G10 L1 P2 R1");
+    LONGS_EQUAL(-7300000, table().length_nm(2));
+    run("G10 L1 P3 R1");
+    CHECK_FALSE(table().has(3));
+    run("G10 L11 P4 Z1 R-2");
+    CHECK(table().has(4));
+    refuse(38, "G10 L1 P17 R1");
+}
+
 TEST(ToolTable, RefusesBadEntries)
 {
     refuse(26, "G10 L1 P1");
@@ -82,7 +95,8 @@ TEST(ToolTable, RefusesBadEntries)
     refuse(23, "G10 L11 P1.5 Z1");
     refuse(37, "G10 L1 P1 X1");
     refuse(37, "G10 L1 P1 X1 Z1");
-    refuse(20, "G10 L1 P1 Z1 R3");
+    refuse(20, "G10 L20 P1 Z1 R3");
+    refuse(20, "G10 L20 P1 R0");
     refuse(38, "G10 L1 P1 Z2001");
     refuse(24, "G10 L1 P1 Z1 G0");
     CHECK(table().empty());
