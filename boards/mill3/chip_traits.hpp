@@ -17,6 +17,8 @@
 #include <cstdint>
 
 #include "boards/mill3/mill_panel.hpp"
+#include "firmware/machine/accessories.hpp"
+#include "firmware/machine/stored_state.hpp"
 #include "hal/stm32f4/chip.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/dma_link.hpp"
@@ -59,6 +61,19 @@ struct ChipTraits {
     }
     static constexpr unsigned serial_interrupt() noexcept { return SerialPort::kInterrupt; }
     static constexpr unsigned send_interrupt() noexcept { return SerialPort::kSendInterrupt; }
+
+    // Outputs and lines at rest, as the settings invert them; left as they are where the store holds
+    // something that can't be read. Context: before statics have their values.
+    static void rest() noexcept
+    {
+        SettingsStore store;
+        if (const auto settings = machine::glimpse_settings(store)) {
+            const OutputLevels off = machine::output_levels({}, 100, false, *settings);
+            hal::stm32f4::start_peripherals<Chip>({clocks_of_ports(), 0, 0});
+            Panel::rest(off);
+            PulsePlayer::rest(off.inverted_lines);
+        }
+    }
 
     template <class Board>
     static void start(Board& board) noexcept

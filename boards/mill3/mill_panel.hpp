@@ -62,8 +62,20 @@ constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
 template <class Chip, class Rules>
 class MillPanel {
 public:
-    // Sets the inputs' modes. Outputs stay inputs, as the reset left them, until set() knows which
-    // level is off.
+    // Drives all outputs at rest before start() and set(). Uses no statics.
+    static void rest(const hal::OutputLevels& off) noexcept
+    {
+        using namespace hal::stm32f4;
+        put_levels(off);
+        make_outputs();
+        if constexpr (Rules::kSpindleTimer) {
+            constexpr Pin kPulses = Rules::kPanelPins.spindle_pulses.pin;
+            put(kPulses, false, inverts(off, kSpindlePulsesOutput));
+            set_pin(port(kPulses), kPulses.number, PinMode::kOutput);
+        }
+    }
+
+    // Sets the inputs' modes; leaves the outputs as they are.
     static void start() noexcept
     {
         using namespace hal::stm32f4;
@@ -129,16 +141,18 @@ private:
     {
         hal::stm32f4::set_level(port(pin), pin.number, on != inverted);
     }
-    static void apply(const hal::OutputLevels& levels) noexcept
+    static bool inverts(const hal::OutputLevels& levels, OutputBit bit) noexcept
+    {
+        return (levels.inverted_outputs & bit) != 0;
+    }
+    // All but the spindle's pulses.
+    static void put_levels(const hal::OutputLevels& levels) noexcept
     {
         constexpr const PanelPins& kPins = Rules::kPanelPins;
-        const auto inverted = [&levels](OutputBit bit) {
-            return (levels.inverted_outputs & bit) != 0;
-        };
-        put(kPins.spindle_reverse, levels.spindle_reverse, inverted(kSpindleReverseOutput));
-        put(kPins.spindle_on, levels.spindle_on, inverted(kSpindleOnOutput));
-        put(kPins.flood, levels.flood, inverted(kFloodOutput));
-        put(kPins.mist, levels.mist, inverted(kMistOutput));
+        put(kPins.spindle_reverse, levels.spindle_reverse, inverts(levels, kSpindleReverseOutput));
+        put(kPins.spindle_on, levels.spindle_on, inverts(levels, kSpindleOnOutput));
+        put(kPins.flood, levels.flood, inverts(levels, kFloodOutput));
+        put(kPins.mist, levels.mist, inverts(levels, kMistOutput));
         for (const Pin pin : kPins.drives_off) {
             if (is_there(pin)) {
                 put(pin, !levels.drives_enabled, levels.drives_enabled_inverted);
@@ -147,15 +161,19 @@ private:
         if constexpr (is_there(kPins.power)) {
             put(kPins.power, true, false);
         }
+    }
+    static void apply(const hal::OutputLevels& levels) noexcept
+    {
+        put_levels(levels);
         if constexpr (Rules::kSpindleTimer) {
             // The polarity of the timer's output; 0 of the compare is off.
-            constexpr unsigned kPlace = 4 * (kPins.spindle_pulses.channel - 1);
-            Chip::timer3().ccer.write((inverted(kSpindlePulsesOutput) ? 3U : 1U) << kPlace);
+            constexpr unsigned kPlace = 4 * (Rules::kPanelPins.spindle_pulses.channel - 1);
+            Chip::timer3().ccer.write((inverts(levels, kSpindlePulsesOutput) ? 3U : 1U) << kPlace);
             spindle_compare().write(levels.spindle_on ? levels.spindle_pwm : 0U);
         }
     }
     // Levels are set before the mode, so that no output is on in between.
-    static void switch_outputs_on() noexcept
+    static void make_outputs() noexcept
     {
         using namespace hal::stm32f4;
         constexpr const PanelPins& kPins = Rules::kPanelPins;
@@ -171,6 +189,10 @@ private:
              {kPins.flood, kPins.mist, kPins.spindle_on, kPins.spindle_reverse, kPins.power}) {
             make_output(pin);
         }
+    }
+    static void switch_outputs_on() noexcept
+    {
+        make_outputs();
         if constexpr (Rules::kSpindleTimer) {
             start_spindle_timer();
         }

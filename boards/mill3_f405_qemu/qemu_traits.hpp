@@ -83,6 +83,9 @@ struct QemuTraits {
         }
     }
 
+    // The pins of QEMU's machine drive nothing.
+    static void rest() noexcept {}
+
     // After a fault: the reason on the terminal, the end of the run.
     [[noreturn]] static void stop() noexcept
     {

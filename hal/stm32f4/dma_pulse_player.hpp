@@ -44,6 +44,9 @@ public:
     // underrun.
     void start(std::uint32_t timer_hz, std::uint32_t gate_hz, bool moved = false) noexcept;
 
+    // Drives the lines low, as `inverted` says, before start(). Uses no statics.
+    static void rest(PulseLines inverted) noexcept;
+
     // See hal/contract/board.hpp; takes the frame and drops it after an underrun. Also false, and
     // nothing written, where less than kFillTime is left of the half that plays. A frame that is
     // still being written when its half begins is an underrun, even from rest: its first edges may
@@ -197,14 +200,21 @@ void DmaPulsePlayer<Chip, Table, Pace>::start(std::uint32_t timer_hz,
         requests |= Pace::kRequests[port].enable;
     }
     timer.dier.write(requests);
-    apply_inversion();
+    inverted_ = wanted_inversion_.load(std::memory_order_relaxed);
+    rest(inverted_);
+    underrun_.store(moved, std::memory_order_relaxed);
+    start_stream();
+}
+
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::rest(PulseLines inverted) noexcept
+{
+    set_lines(pin_levels(0, Ports::kAllLines, inverted), EachPort{});
     for (const Pin pin : Table::kLines) {
         if (is_there(pin)) {
             set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
         }
     }
-    underrun_.store(moved, std::memory_order_relaxed);
-    start_stream();
 }
 
 // The lines keep their logical levels; only the pins change.

@@ -1,4 +1,4 @@
-// From reset to cusp_main(): floating-point unit, initial values of statics, constructors. From a
+// From reset to cusp_main(): floating-point unit, outputs at rest, initial values of statics, constructors. From a
 // fault of the core to fault_entry(), with the registers that the core has saved.
 #include <cstdint>
 
@@ -28,6 +28,9 @@ void cusp_reset()
     // A boot loader that has started the firmware may have left its own table in force.
     Chip::system().vtor.write(Chip::bus_address(&cusp_vectors));
     __asm volatile("dsb\n isb" ::: "memory");
+
+    // The memory takes 10 ms at the clock of the reset; outputs do not wait for it.
+    cusp_rest();
 
     const std::uint32_t* from = &cusp_data_load;
     for (std::uint32_t* to = &cusp_data_begin; to < &cusp_data_end; ++to) {

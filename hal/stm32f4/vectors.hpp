@@ -54,6 +54,8 @@ extern std::uint32_t cusp_stack_top;
 void cusp_reset();
 void cusp_exception();
 // By the board: what runs after the start. Not main(), which has no C linkage without a C library.
+// The first call after a reset, before statics have their values: outputs at rest.
+void cusp_rest();
 [[noreturn]] void cusp_main();
 // By the board: steps low, drives off, and the handling of the fault. Context: any.
 [[noreturn]] void cusp_board_stop();

@@ -28,6 +28,7 @@ void cusp_reset() {{ {reset} leaf(); }}
 void cusp_servo_tick() {{ number = number * 2.0F; {tick} leaf(); }}
 void cusp_serial_interrupt() {{ {serial} leaf(); }}
 void cusp_player_interrupt() {{ {player} leaf(); }}
+void cusp_rest() {{}}
 int cusp_main() {{ return 0; }}
 void cusp_board_stop() {{}}
 __attribute__((section(".vectors"), used)) const unsigned vectors[2] = {{0x20020000u, 0x0800C001u}};

@@ -11,6 +11,7 @@ import unittest
 from chip import CHIPS, ROOT, Chip, CosimFailed
 
 options = None
+MOST_HZ = {"black_pill_f411": 100e6, "nucleo_f446_cnc_shield": 180e6, "octopus_f446": 180e6}
 QUICK = "$0=2\n" + "".join(f"$10{axis}=800.000\n$11{axis}=9000.000\n$12{axis}=5000.000\n$80{axis}=1000000.000\n"
                            for axis in range(3))
 # Pins that are channels of timer 3, by alternate function 2.
@@ -82,6 +83,32 @@ class Pins(unittest.TestCase):
                 edges = machine.edges_of(pin, changes[1:])
                 self.assertEqual({at for _, at in edges} - {level}, set(), pin)
                 self.assertEqual(machine.levels()[pin], level, pin)
+
+    def test_all_outputs_are_driven_within_a_millisecond_of_the_reset(self):
+        """By the instructions till then, at the 16 MHz of the reset; the model counts them at the full clock."""
+        slower = MOST_HZ.get(options.board, 168e6) / 16e6
+        with chip() as machine:
+            for settings, high in (("", 0), ("$2=7\n$3=7\n$4=1\n$15=3\n$16=7", 1)):
+                machine.boot()
+                for line in settings.split():
+                    self.assertIn("ok", machine.ask(line))
+                machine.changes()
+                began = machine.state()["now"] * 1000
+                machine.command("power cycle")
+                machine.boot()
+                changes = machine.changes()
+                names = ("spindle on", "spindle reverse", "spindle pulses", "flood", "mist")
+                wanted = {machine.pins[name]: high for name in names if name in machine.pins}
+                wanted.update({pin: high for pin in machine.lines})
+                wanted.update({pin: 1 - high for pin in machine.enables})
+                for pin, level in wanted.items():
+                    driven = [time for time, port, driven, _ in changes[1:]
+                              if port == pin[1] and driven >> int(pin[2:]) & 1]
+                    self.assertTrue(driven, pin)
+                    self.assertLessEqual((driven[0] - began) / 1e6 * slower, 1.0, pin)
+                    if pin != machine.pins.get("spindle pulses"):
+                        edges = machine.edges_of(pin, changes[1:])
+                        self.assertEqual({at for _, at in edges} - {level}, set(), pin)
 
     def test_the_drives_are_off_at_power_up_until_something_moves(self):
         with chip() as machine:
