@@ -94,9 +94,9 @@ bool App<Board>::poll() noexcept
 {
     machine_.begin_slice();
     const bool read = read_bytes();
-    if (board_.pulse_player.underrun()) {
+    const bool missed = board_.pulse_player.underrun();
+    if (missed) {
         machine_.frame_missed();
-        board_.pulse_player.clear_underrun();
     }
     const bool worked = machine_.poll();
     const OutputLevels outputs = machine_.outputs();
@@ -104,6 +104,10 @@ bool App<Board>::poll() noexcept
         want_outputs(outputs);
     }
     machine_.end_slice();
+    if (missed) {
+        // Only now, with the machine's stop in force: until then the underrun cuts the outputs.
+        board_.pulse_player.clear_underrun();
+    }
     slices_.store(slices_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     const bool stores = machine_.wants_store();
     if (stores) {
@@ -120,8 +124,8 @@ void App<Board>::tick() noexcept
         frame_.edges.clear();
         machine_.tick(board_.panel.inputs(), frame_);
     }
-    drive_outputs();
     frame_waits_ = !board_.pulse_player.try_play(frame_);
+    drive_outputs();
 }
 
 template <class Board>
@@ -175,7 +179,8 @@ void App<Board>::scan_bytes() noexcept
 template <class Board>
 void App<Board>::drive_outputs() noexcept
 {
-    const bool cut = machine_.cuts_outputs();
+    // No tick follows an underrun until the main loop acts.
+    const bool cut = machine_.cuts_outputs() || board_.pulse_player.underrun();
     const bool drives_cut = machine_.cuts_drives();
     const bool other = wants_other_.load(std::memory_order_acquire);
     if (!other && cut == cut_ && drives_cut == drives_cut_) {

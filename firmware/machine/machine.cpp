@@ -101,8 +101,8 @@ bool Machine::poll() noexcept
 
 void Machine::end_slice() noexcept
 {
-    const bool cut = reset_wanted_ || door_wanted_;
-    motion_.stops().want(cut || hold_wanted_, cut, reset_wanted_);
+    const bool cut = reset_wanted_ || door_wanted_ || frame_missed_;
+    motion_.stops().want(cut || hold_wanted_, cut, reset_wanted_ || frame_missed_);
     motion_.stops().confirm();
 }
 

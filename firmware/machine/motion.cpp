@@ -131,7 +131,7 @@ void Motion::resume() noexcept
 void Motion::abandon() noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
-    const Position at = interpolator_.position();
+    const Position at = set_point_;
     planner_.reset(at);
     interpolator_.reset(at);
     open_ = false;
@@ -197,12 +197,21 @@ std::optional<Position> Motion::later_contact() const noexcept
 
 void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
 {
+    bool cuts = false;
     if (!gate_shut_.load(std::memory_order_acquire)) {
         sample(raw_inputs);
-        if (!limit_hit_.load(std::memory_order_relaxed) &&
-            !halted_.load(std::memory_order_relaxed)) {
+        const bool ends =
+            limit_hit_.load(std::memory_order_relaxed) || halted_.load(std::memory_order_relaxed);
+        if (!ends) {
             set_point_ = interpolator_.tick();
         }
+        cuts = ends && !ended_;
+        ended_ = ends;
+    }
+    if (cuts) {
+        // Back to where the steps end that the player has by now.
+        set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
+        recent_.fill(set_point_);
     }
     for (std::size_t i = kPlayedBehind; i > 0; --i) {
         recent_[i] = recent_[i - 1];
@@ -210,6 +219,8 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
     recent_[0] = set_point_;
     if (stands_still_.load(std::memory_order_acquire)) {
         frame.edges.clear();
+    } else if (cuts) {
+        pulses_.cut(set_point_, frame);
     } else {
         pulses_.make_frame(set_point_, frame);
     }

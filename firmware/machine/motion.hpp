@@ -134,6 +134,7 @@ private:
     std::uint16_t inverted_inputs_{0};
     std::uint16_t used_inputs_{0};
     std::uint8_t filter_ticks_{0};
+    bool ended_{false};  // a limit or a stop has ended motion, and its last steps are made
     bool watch_off_{false};
     bool watch_filtered_{false};
     std::atomic<std::uint16_t> watched_{0};

@@ -114,6 +114,17 @@ void PulseMaker::make_frame(Position set_point, PulseFrame& frame) noexcept
     compress(frame);
 }
 
+void PulseMaker::cut(Position at, PulseFrame& frame) noexcept
+{
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        AxisState& axis = axes_[i];
+        axis.next = 0;
+        axis.now = 0;
+        axis.set_point = at[i] * static_cast<std::int64_t>(settings_.millisteps_per_mm[i]);
+    }
+    compress(frame);
+}
+
 // Begins the next tick of an axis. Returns its travel in the tick before, 1e-9 steps.
 inline std::int64_t PulseMaker::take_set_point(unsigned index, std::int64_t nanometres) noexcept
 {

@@ -54,6 +54,11 @@ public:
     // delay_us() after their set points.
     void make_frame(Position set_point, PulseFrame& frame) noexcept;
 
+    // In place of make_frame(), at a stop that outweighs smoothness: no step follows those of the
+    // frames that were made, and the frame has what these left over. `at`: the last set point but
+    // one, which is where those steps end.
+    void cut(Position at, PulseFrame& frame) noexcept;
+
     // True if all lines are low and the last set points are played.
     bool idle() const noexcept;
 

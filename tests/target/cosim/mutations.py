@@ -99,6 +99,9 @@ FAULTS_OF_STOPS = {
     "bytes not seen by the tick": (APP, "        machine_.notice(byte);\n", ""),
     "outputs left to the main loop": (APP, "    if (cut) {\n", "    if (cut && false) {\n"),
     "drives left to the main loop": (APP, "levels.drives_enabled && !drives_cut", "levels.drives_enabled"),
+    "outputs on after an underrun": (APP, " || board_.pulse_player.underrun()", ""),
+    "a door that cuts nothing": ("firmware/machine/stops.hpp", "kCutting = kHalting | kDoor", "kCutting = kHalting"),
+    "a byte that cuts nothing": ("firmware/machine/stops.hpp", "byte_pending(cutting_byte_) ||", "false ||"),
     "an overrun that is not read away": (LINK, "static_cast<void>(Port::usart().dr.read());", ""),
     "a watchdog fed without ticks": ("boards/mill3/chip_traits.hpp", "if (ticks != fed_at)", "if (true)"),
 }

@@ -147,6 +147,25 @@ class Stops(unittest.TestCase):
                 self.assertIn(machine.status()[0], ("Alarm", "Door", "Idle"))
                 self.assertEqual(machine.levels()[machine.pins["spindle on"]], 0)
 
+    def test_an_underrun_cuts_the_outputs_of_a_main_loop_that_hangs(self):
+        with chip() as machine:
+            begin(machine, SPEED)
+            hinder(machine, "hang")
+            machine.command("core stop")
+            machine.run(5)
+            machine.changes()
+            machine.command("core go")
+            at = machine.state()["now"] * 1000
+            machine.run(50)
+            changes = machine.changes()
+            self.assertEqual(machine.steps(changes), 0)
+            for name in ("spindle on", "flood"):
+                edges = machine.edges_of(name, changes)
+                self.assertTrue(edges, name)
+                self.assertEqual(edges[-1][1], 0, name)
+                self.assertLessEqual((edges[-1][0] - at) / 1e6, WITHIN, name)
+            self.assertFalse(any(machine.answered("spindle").values()))
+
     def test_a_glitch_of_an_input_costs_no_motion(self):
         with chip() as machine:
             begin(machine, SPEED)
