@@ -57,7 +57,7 @@ void widen(Settings& settings, std::uint8_t layout, const Settings& standard) no
         const bool holds = setting_entry(i - 1).since <= layout;
         held -= holds ? 1U : 0U;
         __builtin_memmove(bytes + place, holds ? bytes + held * sizeof(float) : defaults + place,
-                     sizeof(float));
+                          sizeof(float));
     }
 }
 
@@ -65,7 +65,7 @@ void StoredState::widen(std::uint8_t layout, const Settings& standard) noexcept
 {
     std::uint8_t* const all = bytes().begin();
     __builtin_memmove(all + kRest, all + rest_behind(settings_in_layout(layout)),
-                 sizeof(StoredState) - kRest);
+                      sizeof(StoredState) - kRest);
     machine::widen(settings, layout, standard);
 }
 // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)

@@ -59,6 +59,9 @@ std::optional<Settings> glimpse_settings(Store& store) noexcept
 {
     const SettingsLog<Store> log{store};
     const Settings standard;
+    if (log.looks_empty()) {
+        return standard;
+    }
     const EarlierLayouts earlier = earlier_layouts();
     RecordLayout layout{kSettingsLayout, sizeof(StoredState)};
     for (std::size_t next = 0;; ++next) {
@@ -66,7 +69,9 @@ std::optional<Settings> glimpse_settings(Store& store) noexcept
             Settings settings;
             const std::size_t size = settings_in_layout(layout.version) * sizeof(float);
             store.read(place->sector, place->offset, settings.bytes().first(size));
-            widen(settings, layout.version, standard);
+            if (layout.version != kSettingsLayout) {
+                widen(settings, layout.version, standard);
+            }
             return settings.in_range() ? std::optional<Settings>{settings} : std::nullopt;
         }
         if (next == earlier.size()) {
@@ -74,7 +79,7 @@ std::optional<Settings> glimpse_settings(Store& store) noexcept
         }
         layout = earlier[next];
     }
-    return log.looks_empty() ? std::optional<Settings>{standard} : std::nullopt;
+    return std::nullopt;
 }
 
 // Loads what the store holds into `state`; what it does not hold stays as it is.
