@@ -236,7 +236,8 @@ inline void PulseMaker::take_edges(std::uint32_t end, PulseFrame& frame) noexcep
     frame.edges.grow(static_cast<std::size_t>(out - first));
 }
 
-void PulseMaker::compress(PulseFrame& frame) noexcept
+// In line in each frame, as if cut() did not call it, too.
+[[gnu::always_inline]] inline void PulseMaker::compress(PulseFrame& frame) noexcept
 {
     frame.edges.clear();
     if (edges_end_ != 0) {
