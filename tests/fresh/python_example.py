@@ -1,5 +1,6 @@
 """What a stranger does with the installed module: plans, verifies, simulates, is refused."""
 import pathlib
+import re
 import sys
 
 import cusp
@@ -13,8 +14,8 @@ assert len(program.moves) > 100 and set(program.moves["kind"]) <= set(range(len(
 assert shares and max(shares) == 1.0
 length = program.statistics["cut_length_mm"]
 assert cusp.verify(JOB, program.gcode).broken == []
-deeper = program.gcode.replace("Z-", "Z-1")
-assert any("gouge" in broken for broken in cusp.verify(JOB, deeper).broken)
+deeper = re.sub(r"Z(-?[0-9.]+)", lambda z: f"Z{float(z[1]) - 3:.4f}", program.gcode)
+assert any("gouge" in broken for broken in cusp.verify(JOB, deeper).broken), cusp.verify(JOB, deeper).broken
 run = cusp.simulate(program.gcode, settings="$110=3000")
 assert run.good and abs(run.statistics["duration_s"] - run.samples["seconds"][-1]) < 60
 text = JOB.read_text().replace("diameter = ", "diameter = -")
