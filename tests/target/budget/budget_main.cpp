@@ -267,6 +267,7 @@ void cusp_main()
 }
 
 extern "C" {
+void cusp_rest() {}
 void cusp_board_stop()
 {
     hal::qemu::Console console;
