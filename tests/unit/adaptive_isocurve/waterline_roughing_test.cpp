@@ -104,7 +104,7 @@ TEST(WaterlineRoughing, ACutterThatFindsNothingIsNamedAndLeftOut)
     operation.tools = {kFlat10, kFlat3};
     const auto planned = plan_waterline_roughing(job, operation);
     CHECK_EQUAL(1U, planned.size());
-    STRCMP_CONTAINS("tool 2 finds nothing", planned.front().stats.warnings.front().c_str());
+    STRCMP_CONTAINS("tool 2 fits nowhere", planned.front().stats.warnings.front().c_str());
 }
 
 TEST(WaterlineRoughing, ACutterThatFitsNowhereLeavesAllToTheSmallerOne)
