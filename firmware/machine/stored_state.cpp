@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRest = offsetof(StoredState, parameters);  // all behind the settings
 
-// Where the rest begins behind so many settings.
+// The byte at which the rest begins behind so many settings.
 constexpr std::size_t rest_behind(std::size_t settings) noexcept
 {
     constexpr std::size_t kAlign = alignof(gcode::Parameters);

@@ -56,7 +56,7 @@ public:
     {
         const py::gil_scoped_acquire lock;
         try {
-            if (!progress_.is_none() && !is_over_) {
+            if (progress_ && !is_over_) {
                 progress_(work_, share);
             }
         } catch (py::error_already_set& error) {

@@ -12,6 +12,7 @@ program = cusp.plan(JOB, progress=lambda work, share: shares.append(share))[0]
 assert program.gcode.rstrip().endswith("M30"), program.gcode[-40:]
 assert len(program.moves) > 100 and set(program.moves["kind"]) <= set(range(len(cusp.KINDS)))
 assert shares and max(shares) == 1.0
+assert cusp.plan(JOB)[0].gcode == program.gcode
 length = program.statistics["cut_length_mm"]
 assert cusp.verify(JOB, program.gcode).broken == []
 deeper = re.sub(r"Z(-?[0-9.]+)", lambda z: f"Z{float(z[1]) - 3:.4f}", program.gcode)

@@ -12,7 +12,7 @@
 
 namespace cusp {
 
-// What is wrong, in parts, as far as it is known: for editors, pages and callers from Python.
+// A fault in parts, as far as it is known: for editors, pages and callers from Python.
 struct InputFault {
     std::string file{};
     std::uint64_t line{};  // 0: none

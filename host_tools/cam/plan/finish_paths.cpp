@@ -1,4 +1,4 @@
-// What each path needs whatever strategy planned it.
+// Each path keeps off fixtures and counts its rounding, whatever strategy planned it.
 #include "host_tools/cam/plan/stages.hpp"
 #include "host_tools/geometry/toolpath/post.hpp"
 #include "host_tools/job/job/fixture_clearance.hpp"

@@ -64,7 +64,7 @@ struct PlannedProgram {
     std::vector<toolpath::PathMeasure> measures;  // of each operation; times are the controller's
     std::vector<std::string> warnings;            // on the whole job
 
-    // Those of the job, then those of each operation.
+    // The job's warnings, then those of each operation.
     std::vector<std::string> all_warnings() const;
 };
 

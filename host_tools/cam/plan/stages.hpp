@@ -1,4 +1,4 @@
-// The stages of a plan, in order. Each has a file of its name.
+// The stages of a plan, in order.
 #pragma once
 
 #include "host_tools/cam/plan/planning.hpp"
