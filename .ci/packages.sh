@@ -11,7 +11,7 @@ image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
 package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian pybind11-dev python3-dev
     python3-numpy python3-wheel"
 # Runs all tests.
-test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-numpy
+test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-jsonschema python3-numpy
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
 # Builds the core in WebAssembly, for the pages and npm.
 wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"

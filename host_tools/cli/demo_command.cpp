@@ -8,6 +8,7 @@
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/plan/plan.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/console_watcher.hpp"
 #include "host_tools/cli/demo_summary.hpp"
@@ -88,7 +89,7 @@ SimulationResult run_with_page(const fs::path& folder,
 int run_demo(const DemoOptions& options)
 {
     const fs::path examples = examples_folder(options.examples, kJob);
-    Job job = read_job(examples / kJob);
+    Job job = read_job(examples / kJob, strategies::all());
     SimulationOptions mill;
     mill.settings = read_settings_file(examples / kMill);
     const fs::path out = options.out;

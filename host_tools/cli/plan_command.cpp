@@ -9,11 +9,13 @@
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/plan/plan.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/console_watcher.hpp"
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/job_schema.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/import/post_reader.hpp"
 #include "host_tools/job/job/job.hpp"
@@ -24,11 +26,14 @@
 namespace cusp::cli {
 
 using files::write_text;
+using import::job_help;
+using import::job_schema;
 using import::OneLineJob;
 using import::PartFiles;
 using import::read_job;
 using import::read_post;
 using import::read_setups;
+using import::strategy_help;
 using job::Job;
 using plan::plan_setups;
 using plan::PlannedProgram;
@@ -49,13 +54,35 @@ struct PlanArguments {
     PlanFiles output;
     double blend{};  // in the job's units: G64 P; 0: the exact path
     Resources resources;
+    bool schema{false};
+    bool help_job{false};
+    std::string help_strategy;  // "": of the job's tables
 };
+
+// Whether the call asks for words on jobs alone; prints them.
+bool explain_jobs(const PlanOptions& options)
+{
+    if (options.schema) {
+        fmt::print("{}", job_schema(strategies::all()));
+    } else if (options.help_job && options.help_strategy.empty()) {
+        fmt::print("{}", job_help(strategies::all()));
+    } else if (options.help_job) {
+        const job::Strategy* const strategy =
+            find_strategy(strategies::all(), options.help_strategy);
+        if (strategy == nullptr) {
+            throw InputError("--help-job " + options.help_strategy +
+                             ": no such strategy; --help-job alone lists them");
+        }
+        fmt::print("{}", strategy_help(*strategy));
+    }
+    return options.schema || options.help_job;
+}
 
 // Builds the job from parts and options, prints it, and reads it as if it were a file.
 Job one_line_job_of(const PlanArguments& options)
 {
     PartFiles parts;
-    const OneLineJob job = one_line_job(options.call.request, parts);
+    const OneLineJob job = one_line_job(options.call.request, strategies::all(), parts);
     for (const std::string& line : job.said) {
         fmt::print(options.output.said, "{}\n", line);
     }
@@ -63,7 +90,7 @@ Job one_line_job_of(const PlanArguments& options)
     if (options.call.print_job) {
         fmt::print("{}", job.toml);
     }
-    return read_job({job.toml, options.call.job_name(), ""}, parts);
+    return read_job({job.toml, options.call.job_name(), ""}, strategies::all(), parts);
 }
 
 void write_files(const Job& job, const PlannedProgram& program, const PlanFiles& files)
@@ -134,7 +161,7 @@ int run_plan(PlanArguments& options)
     if (call.is_one_line()) {
         setups.push_back(one_line_job_of(options));
     } else {
-        setups = read_setups(call.files.front());
+        setups = read_setups(call.files.front(), strategies::all());
     }
     return_freed_memory();  // Open CASCADE's shapes take more than what is read of them
     for (Job& job : setups) {
@@ -149,6 +176,27 @@ int run_plan(PlanArguments& options)
         plan_files(setups, common, options.output);
     }
     return kDone;
+}
+
+int run_call(const CLI::App& command, PlanOptions& options)
+{
+    options.help_job = command.count("--help-job") > 0;
+    if (explain_jobs(options)) {
+        return kDone;
+    }
+    sort_call(command, options.call);
+    return run_plan(options);
+}
+
+void add_explaining_options(CLI::App& command, PlanOptions& options)
+{
+    command
+        .add_option("--help-job", options.help_strategy,
+                    "print the keys of a job file, or those of a strategy, and end")
+        ->type_name("[STRATEGY]")
+        ->expected(0, 1);
+    command.add_flag("--schema", options.schema,
+                     "print a JSON Schema of job files, for editors, and end");
 }
 
 }  // namespace
@@ -201,12 +249,12 @@ void add_plan_command(CLI::App& app, Work& work)
                      "let the controller round corners by this much, in the job's units (G64 P); "
                      "default: the exact path (G61)")
         ->check(CLI::NonNegativeNumber);
+    add_explaining_options(*command, *options);
     add_resource_options(*command, options->resources);
     add_one_line_options(*command, options->call);
     command->callback([&work, command, options] {
         work = [command, options] {
-            sort_call(*command, options->call);
-            return run_plan(*options);
+            return run_call(*command, *options);
         };
     });
 }

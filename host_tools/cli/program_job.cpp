@@ -1,6 +1,7 @@
 // A program says by its work offset which set-up it is for.
 #include "host_tools/cli/program_job.hpp"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/judge/verify/program_setup.hpp"
 
@@ -25,7 +26,7 @@ Job job_for(const std::string& job_file,
             const std::string& program,
             const std::vector<std::string>& after)
 {
-    std::vector<Job> setups = import::read_setups(job_file);
+    std::vector<Job> setups = import::read_setups(job_file, strategies::all());
     const auto first = setups.front().setup;
     Job job = verify::job_of_program(std::move(setups), program, after);
     if (job.setup) {

@@ -9,6 +9,7 @@
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/plan/plan.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/controller/dialect/line_source.hpp"
 #include "host_tools/controller/program_run/settings_lines.hpp"
 #include "host_tools/controller/simulate/simulate.hpp"
@@ -40,9 +41,9 @@ struct JobSource {
     std::vector<Job> read() const
     {
         if (text.empty()) {
-            return import::read_setups(name);
+            return import::read_setups(name, strategies::all());
         }
-        return import::read_setups({text, name, folder});
+        return import::read_setups({text, name, folder}, strategies::all());
     }
 };
 

@@ -97,22 +97,6 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "none\n")
         self.assertEqual(self.run_check("includes.py")[0], 2)
 
-    def test_job_keys_refuses_a_key_that_is_documented_or_known_alone(self):
-        self.write("host_tools/job/import/known_keys.cpp",
-                   'OperationKey kKeys[]{{"feed", ""}, {"grid", kGrids}};\nreturn {"top", "operation"};\n')
-        self.write("docs/job_file.md", "| `feed`, `grid` | needed | |\n| `top` | 0 | |\n")
-        self.assertEqual(self.run_check("job_keys.py")[0], 0)
-        self.write("docs/job_file.md", "| `feed`, `grid`, `tops` | needed | |\n")
-        status, text = self.run_check("job_keys.py")
-        self.assertEqual(status, 1)
-        self.assertIn("the key top ", text)
-        self.assertIn("a key tops ", text)
-
-    def test_job_keys_needs_keys(self):
-        self.write("host_tools/job/import/known_keys.cpp", "")
-        self.write("docs/job_file.md", "")
-        self.assertEqual(self.run_check("job_keys.py")[0], 2)
-
     def test_format_refuses_a_badly_laid_out_file(self):
         shutil.copy(HERE.parent.parent / ".clang-format", self.top)
         self.write("firmware/base/vec.hpp", "#pragma once\nint  x ;\n")

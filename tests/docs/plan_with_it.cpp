@@ -14,7 +14,7 @@ int main(int count, char** arguments)
         return 2;
     }
     try {
-        const cusp::job::Job job = cusp::import::read_job(arguments[1]);
+        const cusp::job::Job job = cusp::import::read_job(arguments[1], cusp::strategies::all());
         std::vector<cusp::toolpath::PlannedOperation> planned;
         for (const cusp::job::Operation& operation : job.operations) {
             for (const auto& result : cusp::strategies::plan_operation(job, operation)) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -28,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (kind == 0 || kind == 3) {
             cusp::import::read_surfaces(file);
         } else if (kind == 4) {
-            cusp::import::read_job(file);
+            cusp::import::read_job(file, cusp::strategies::all());
         } else {
             cusp::import::read_loop(file);
         }

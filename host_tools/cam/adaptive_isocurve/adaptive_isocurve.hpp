@@ -19,8 +19,13 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::adaptive_isocurve {
+
+// The records of the strategies.
+extern const job::Strategy kAdaptiveIsocurve;
+extern const job::Strategy kCompleteIsocurves;
 
 // Finishes the upper side of the operation's surfaces with a ball.
 //

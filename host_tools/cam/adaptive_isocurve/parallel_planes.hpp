@@ -5,8 +5,12 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::adaptive_isocurve {
+
+// The record of the strategy.
+extern const job::Strategy kParallelPlanes;
 
 // Passes along x (direction "u") or y ("v") over the upper side of all surfaces or of a mesh, and
 // beyond rims that the ball overhangs. They are `step_over` apart, or as far as `scallop` allows at

@@ -12,8 +12,13 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::contour_pocket {
+
+// The records of the pocket over a floor, and of the pocket down to a level, which starts at its own top.
+extern const job::Strategy kContourPocket;
+extern const job::Strategy kPocket;
 
 // Plans the operation. With tolerance_side "outside" the path is never below the floor and never
 // passes through a wall: each move has a computed lower bound of its clearance from the floor.

@@ -14,8 +14,12 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::grid_pocket {
+
+// The record of the strategy.
+extern const job::Strategy kGridPocket;
 
 // Plans the operation in the paper's order: layers 1 to N, P (the navigation from its end to its
 // start), W (the wall), N (zigzags along x, then y). Reports cells, backtracks, roughness and

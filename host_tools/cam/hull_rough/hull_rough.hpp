@@ -20,8 +20,12 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::hull_rough {
+
+// The record of the strategy.
+extern const job::Strategy kHullRough;
 
 // Plans the operation: one result for each run of layers with the same cutter, from the top down.
 // Reports layers, patches, boxes, islands and the time that the choice of cutters saves. If nothing

@@ -5,7 +5,7 @@
 //         bool cancelled() override { return stop_was_pressed; }
 //     };
 //     Bar bar;
-//     job::Job job = import::read_job("part.toml");
+//     job::Job job = import::read_job("part.toml", strategies::all());
 //     const PlannedProgram part = plan_job(job, {}, bar);
 //     files::write_text("part.ngc", part.gcode);
 //     for (const std::string& warning : part.all_warnings()) { fmt::print("{}\n", warning); }

@@ -14,8 +14,17 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::prismatic {
+
+// The records of the strategies below.
+extern const job::Strategy kProfile;
+extern const job::Strategy kDrill;
+extern const job::Strategy kFace;
+extern const job::Strategy kEngrave;
+extern const job::Strategy kVCarve;
+extern const job::Strategy kChamfer;
 
 // Cuts around each loop at every level, then at the bottom where an allowance was left; inner loops
 // first. The tool's centre stays one radius from the loops, within 0.001 mm (tests/property/prismatic).

@@ -1,8 +1,7 @@
-// The table of strategies; a new one is one line.
+// A new strategy is one line of the table.
 #include "host_tools/cam/strategies/strategies.hpp"
 
-#include <array>
-
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
 #include "host_tools/cam/contour_pocket/contour_pocket.hpp"
@@ -12,60 +11,35 @@
 
 namespace cusp::strategies {
 
-using adaptive_isocurve::plan_adaptive_isocurve;
-using adaptive_isocurve::plan_complete_isocurves;
-using adaptive_isocurve::plan_parallel_planes;
-using contour_pocket::plan_contour_pocket;
-using grid_pocket::plan_grid_pocket;
-using hull_rough::plan_hull_rough;
-using job::Job;
-using job::Operation;
-using toolpath::PlannedOperation;
-
-namespace {
-
-struct Strategy {
-    const char* name;
-    std::vector<PlannedOperation> (*plan)(const Job&, const Operation&);
-};
-
-// The contour pocket of a level floor, from its own top down.
-std::vector<PlannedOperation> plan_pocket(const Job& job, const Operation& operation)
+const job::Strategies& all()
 {
-    Job from_top = job;
-    from_top.operations.clear();
-    from_top.stock_top = operation.prismatic->top;
-    from_top.clearance = job.stock_top + job.clearance - from_top.stock_top;
-    return plan_contour_pocket(from_top, operation);
+    static const job::Strategies kAll{
+        &contour_pocket::kContourPocket,
+        &adaptive_isocurve::kAdaptiveIsocurve,
+        &grid_pocket::kGridPocket,
+        &hull_rough::kHullRough,
+        &adaptive_isocurve::kCompleteIsocurves,
+        &adaptive_isocurve::kParallelPlanes,
+        &contour_pocket::kPocket,
+        &prismatic::kProfile,
+        &prismatic::kDrill,
+        &prismatic::kFace,
+        &prismatic::kEngrave,
+        &prismatic::kVCarve,
+        &prismatic::kChamfer,
+    };
+    return kAll;
 }
 
-constexpr std::array kStrategies{
-    Strategy{"adaptive_isocurve", plan_adaptive_isocurve},
-    Strategy{"complete_isocurves", plan_complete_isocurves},
-    Strategy{"chamfer", prismatic::plan_chamfer},
-    Strategy{"contour_pocket", plan_contour_pocket},
-    Strategy{"drill", prismatic::plan_drill},
-    Strategy{"engrave", prismatic::plan_engrave},
-    Strategy{"face", prismatic::plan_face},
-    Strategy{"grid_pocket", plan_grid_pocket},
-    Strategy{"hull_rough", plan_hull_rough},
-    Strategy{"parallel_planes", plan_parallel_planes},
-    Strategy{"pocket", plan_pocket},
-    Strategy{"profile", prismatic::plan_profile},
-    Strategy{"v_carve", prismatic::plan_v_carve},
-};
-
-}  // namespace
-
-std::vector<PlannedOperation> plan_operation(const Job& job, const Operation& operation)
+std::vector<toolpath::PlannedOperation> plan_operation(const job::Job& job,
+                                                       const job::Operation& operation)
 {
-    for (const Strategy& strategy : kStrategies) {
-        if (operation.strategy == strategy.name) {
-            return strategy.plan(job, operation);
-        }
+    const job::Strategy* const strategy = find_strategy(all(), operation.strategy);
+    if (strategy == nullptr) {
+        throw InputError(job.file + ": strategy \"" + operation.strategy +
+                         "\" is not part of this build");
     }
-    throw InputError(job.file + ": strategy \"" + operation.strategy +
-                     "\" is not part of this build");
+    return strategy->plan(job, operation);
 }
 
 }  // namespace cusp::strategies

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/job/import/number_ranges.hpp"
 
 #include "fmt/format.h"
 
@@ -16,52 +15,41 @@ using job::Operation;
 
 namespace {
 
-constexpr double kDefaultEngagement = 60;  // degrees
-
 }  // namespace
 
-void read_clearing(JobTable& table, Operation& operation)
+void read_clearing(JobTable& table, const job::Strategy& strategy, Operation& operation)
 {
-    constexpr Range kEngagement{20, 150};
-    const bool pocket = operation.strategy == "contour_pocket" || operation.strategy == "pocket";
-    const bool hull = operation.strategy == "hull_rough";
-    const auto clearing = hull ? table.one_of("clearing", {"zigzag", "contour", "adaptive"})
-                               : table.one_of("clearing", {"contour", "adaptive"});
+    const auto clearing = table.choice("clearing");
     operation.contour_clearing = clearing == "contour";
-    const auto engagement = table.number("max_engagement", kEngagement);
+    const bool is_given = table.has("max_engagement");
+    const double engagement = table.number_or_default("max_engagement");
+    const double least = table.range_of("max_engagement").low;
     if (clearing == "adaptive") {
-        operation.max_engagement = engagement.value_or(kDefaultEngagement);
+        operation.max_engagement = engagement;
         const double radius = operation.tool.radius;
         // Elsewhere a step over is that of the finish.
-        if (pocket && operation.step_over && *operation.step_over < radius) {
+        if (strategy.traits.pocket && operation.step_over && *operation.step_over < radius) {
             // A straight cut of this width has this angle.
             operation.max_engagement =
                 std::min(*operation.max_engagement,
                          std::acos(1.0 - *operation.step_over / radius) * 180.0 / kPi);
         }
-        if (*operation.max_engagement < kEngagement.low) {
-            table.refuse("step_over",
-                         fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
-                                     "radius {:g} mm; the least is {:g}",
-                                     *operation.step_over, *operation.max_engagement, radius,
-                                     kEngagement.low));
+        if (*operation.max_engagement < least) {
+            table.refuse(
+                "step_over",
+                fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
+                            "radius {:g} mm; the least is {:g}",
+                            *operation.step_over, *operation.max_engagement, radius, least));
         }
-    } else if (engagement) {
+    } else if (is_given) {
         table.refuse("max_engagement", "needs clearing = \"adaptive\"");
     }
 }
 
 void read_chip_load(JobTable& table, double unit, Operation& operation)
 {
-    const bool wanted = table.flag("chip_load").value_or(false);
-    const auto rate = [&](const char* key) {
-        auto value = table.number(key, kFeed);
-        if (value) {
-            *value *= unit;
-        }
-        return value;
-    };
-    const job::ChipLoad load{rate("feed_min"), rate("feed_max")};
+    const bool wanted = table.flag_or_default("chip_load");
+    const job::ChipLoad load{table.length("feed_min", unit), table.length("feed_max", unit)};
     for (const char* key : {"feed_min", "feed_max"}) {
         if (!wanted && (std::string_view{key} == "feed_min" ? load.feed_min : load.feed_max)) {
             table.refuse(key, "needs chip_load = true");

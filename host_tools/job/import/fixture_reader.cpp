@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 
 #include "fmt/format.h"
 
@@ -12,8 +12,6 @@ namespace cusp::import {
 using job::Fixture;
 
 namespace {
-
-constexpr double kDefaultMargin = 1.0;  // mm
 
 [[noreturn]] void refuse_missing(const JobTable& keys, const char* key, const char* other)
 {
@@ -31,7 +29,7 @@ std::array<double, 2> extent_of(JobTable& keys, const char* key, const char* oth
 
 Vec2d centre_of(JobTable& keys, double unit)
 {
-    const auto values = keys.numbers("centre", kAnyNumber);
+    const auto values = keys.numbers("centre");
     if (!values) {
         refuse_missing(keys, "centre", "diameter");
     }
@@ -48,7 +46,7 @@ Fixture read_fixture(const toml::table& table,
 {
     Fixture fixture;
     fixture.name = keys.text("name").value_or(fmt::format("fixture {}", index));
-    const auto diameter = keys.number("diameter", kPositive);
+    const auto diameter = keys.number("diameter");
     const bool round = diameter || table.contains("centre");
     if (round) {
         const Vec2d centre = centre_of(keys, millimetres);
@@ -66,8 +64,8 @@ Fixture read_fixture(const toml::table& table,
         fixture.low = {x[0], y[0]};
         fixture.high = {x[1], y[1]};
     }
-    fixture.top = keys.required_number("top", kAnyNumber) * millimetres;
-    fixture.margin = keys.length("margin", kNotNegative, millimetres).value_or(kDefaultMargin);
+    fixture.top = keys.required_number("top") * millimetres;
+    fixture.margin = keys.length_or_default("margin", millimetres);
     return fixture;
 }
 
@@ -82,7 +80,7 @@ std::vector<Fixture> read_fixtures(JobTable& top,
     std::vector<Fixture> fixtures;
     const auto tables = top.tables("fixture");
     for (std::size_t i = 0; i < tables.size(); ++i) {
-        JobTable keys{*tables[i], file, fmt::format("fixture {}", i + 1), fixture_keys()};
+        JobTable keys{*tables[i], file, fmt::format("fixture {}", i + 1), fixture_table().keys};
         const std::size_t place = setups.place_of(keys);
         const Fixture fixture = read_fixture(*tables[i], keys, i + 1, millimetres);
         if (place == setup || !keys.has("setup")) {

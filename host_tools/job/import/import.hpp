@@ -1,6 +1,6 @@
 // Readers of job files, surfaces, meshes and loops. Results are in millimetres, and checked.
 //
-//     const job::Job job = read_job("part.toml");  // with the parts that it names
+//     const job::Job job = read_job("part.toml", strategies::all());  // with the parts that it names
 //     const std::vector<nurbs::Surface> faces = read_surfaces("part.step");
 //     const job::Loop wall = read_loop("plate.dxf#outline");
 //     const toolpath::Post post = read_post("linuxcnc", "");  // post_reader.hpp
@@ -19,14 +19,17 @@
 #include "host_tools/geometry/nurbs/nurbs.hpp"
 #include "host_tools/job/import/similarity.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::import {
 
 // Reads a TOML job and the parts it names. Throws InputError, also where it has several set-ups.
-job::Job read_job(const std::string& file);
+//
+// strategies  that operations may name: strategies::all()
+job::Job read_job(const std::string& file, const job::Strategies& strategies);
 // A job for each set-up, in order: its operations, fixtures, and parts as they lie in it. One for a job
 // without set-ups. Throws InputError.
-std::vector<job::Job> read_setups(const std::string& file);
+std::vector<job::Job> read_setups(const std::string& file, const job::Strategies& strategies);
 
 // A job given as text.
 struct JobText {
@@ -36,9 +39,9 @@ struct JobText {
 };
 class PartFiles;
 // As read_setups(), from text.
-std::vector<job::Job> read_setups(const JobText& job);
+std::vector<job::Job> read_setups(const JobText& job, const job::Strategies& strategies);
 // As above, from text. Files that `parts` already holds are not read again.
-job::Job read_job(const JobText& job, PartFiles& parts);
+job::Job read_job(const JobText& job, const job::Strategies& strategies, PartFiles& parts);
 
 // Geometry without a job, with clamped ends. Throws InputError.
 //

@@ -13,11 +13,10 @@
 #include "host_tools/job/import/clearing_keys.hpp"
 #include "host_tools/job/import/fixture_reader.hpp"
 #include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/job_table.hpp"
 #include "host_tools/job/import/job_tools.hpp"
-#include "host_tools/job/import/known_keys.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
-#include "host_tools/job/import/operation_check.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/import/placing_reader.hpp"
 #include "host_tools/job/import/post_reader.hpp"
@@ -27,6 +26,8 @@
 #include "host_tools/job/import/tool_reader.hpp"
 #include "host_tools/job/import/trim_loops.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/operation_check.hpp"
+#include "host_tools/job/job/operation_keys.hpp"
 
 #include "fmt/format.h"
 
@@ -35,8 +36,11 @@ namespace cusp::import {
 using job::CutDirection;
 using job::EntryKind;
 using job::Job;
+using job::Key;
 using job::Operation;
 using job::OutputForm;
+using job::Strategies;
+using job::Strategy;
 using job::ToleranceSide;
 using job::Traversal;
 using nurbs::Curve;
@@ -46,14 +50,26 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kDefaultTolerance = 0.02;  // mm
-constexpr double kDefaultLargestArcRadius = 1000.0;
+// Refuses keys of the table.
+job::Refuse refuse_in(const JobTable& table)
+{
+    return [&table](const char* key, const std::string& reason) {
+        table.refuse(key, reason);
+    };
+}
 
 class JobReader {
 public:
     // folder  base of relative paths
-    JobReader(const std::string& file, const std::filesystem::path& folder, PartFiles& parts)
-        : file_{file}, folder_{folder}, parts_{parts}
+    JobReader(const std::string& file,
+              const std::filesystem::path& folder,
+              const Strategies& strategies,
+              PartFiles& parts)
+        : file_{file},
+          folder_{folder},
+          strategies_{strategies},
+          all_keys_{job::all_keys(strategies)},
+          parts_{parts}
     {
         job_.file = file;
     }
@@ -70,29 +86,22 @@ private:
     void read_rest(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
-    void read_strategy_keys(JobTable& table, Operation& operation);
+    void read_strategy_keys(JobTable& table, const Strategy& strategy, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
-    bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
+    static bool takes_mesh(const Strategy& strategy, const std::vector<std::string>& floor);
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
-    void read_parts(JobTable& table, Operation& operation);
+    void read_parts(JobTable& table, const Strategy& strategy, Operation& operation);
     void place_files(JobTable& top,
                      const std::vector<const toml::table*>& operations,
                      const std::string& outline);
     void use_tools(const toml::table& table, std::size_t index);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
-    std::optional<double> length(JobTable& table, const char* key, Range range) const
-    {
-        return table.length(key, range, unit_);
-    }
-    double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
-    {
-        return length(table, key, range).value_or(otherwise_mm);
-    }
-
     std::string file_;
     std::filesystem::path folder_;
+    const Strategies& strategies_;
+    std::vector<Key> all_keys_;
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
@@ -104,7 +113,7 @@ private:
 
 void JobReader::read_units(JobTable& top)
 {
-    job_.inch = top.one_of("units", {"mm", "inch"}).value_or("mm") == "inch";
+    job_.inch = top.choice_or_default("units") == "inch";
     unit_ = job_.inch ? kMillimetresPerInch : 1.0;
 }
 
@@ -116,13 +125,11 @@ void JobReader::read_cutting(JobTable& top)
     if (table == nullptr && needed) {
         top.refuse("cutting", "is missing: a table [cutting] with at least feed");
     }
-    JobTable keys{table == nullptr ? kNothing : *table, file_, "cutting", cutting_keys()};
-    job_.feed =
-        (needed ? keys.required_number("feed", kFeed) : keys.number("feed", kFeed).value_or(0)) *
-        unit_;
+    JobTable keys{table == nullptr ? kNothing : *table, file_, "cutting", cutting_table().keys};
+    job_.feed = (needed ? keys.required_number("feed") : keys.number("feed").value_or(0)) * unit_;
     // cutter makers recommend a quarter of the feed for plunging where they give no figure
-    job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
-    job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
+    job_.plunge_feed = keys.length("plunge_feed", unit_).value_or(job_.feed / 4);
+    job_.spindle = keys.number_or_default("spindle");
     keys.check_all_read();
 }
 
@@ -141,18 +148,17 @@ void JobReader::read_tool_choice(JobTable& table, Operation& operation)
 
 void JobReader::read_common(JobTable& table, Operation& operation)
 {
-    const auto output = table.one_of("output", {"lines", "arcs", "nurbs"}).value_or("lines");
+    const auto output = table.choice_or_default("output");
     operation.output = output == "lines"  ? OutputForm::kLines
                        : output == "arcs" ? OutputForm::kArcs
                                           : OutputForm::kNurbs;
-    operation.plan_tolerance = length(table, "plan_tolerance", kTolerance, kDefaultTolerance);
-    operation.join_gaps = length(table, "join_gaps", kNotNegative);
-    operation.floor_tolerance = length(table, "floor_tolerance", kTolerance, kDefaultTolerance);
-    operation.tolerance_side =
-        table.one_of("tolerance_side", {"outside", "both"}).value_or("outside") == "both"
-            ? ToleranceSide::kBoth
-            : ToleranceSide::kOutside;
-    operation.scallop = length(table, "scallop", kTolerance);
+    operation.plan_tolerance = table.length_or_default("plan_tolerance", unit_);
+    operation.join_gaps = table.length("join_gaps", unit_);
+    operation.floor_tolerance = table.length_or_default("floor_tolerance", unit_);
+    operation.tolerance_side = table.choice_or_default("tolerance_side") == "both"
+                                   ? ToleranceSide::kBoth
+                                   : ToleranceSide::kOutside;
+    operation.scallop = table.length("scallop", unit_);
     if (operation.scallop && operation.tolerance_side == ToleranceSide::kOutside &&
         *operation.scallop <= operation.floor_tolerance) {
         table.refuse("scallop",
@@ -160,28 +166,24 @@ void JobReader::read_common(JobTable& table, Operation& operation)
                                  "includes; raise it or set tolerance_side = \"both\"",
                                  *operation.scallop, operation.floor_tolerance));
     }
-    operation.direction_of_cut =
-        table.one_of("direction_of_cut", {"climb", "conventional"}).value_or("climb") == "climb"
-            ? CutDirection::kClimb
-            : CutDirection::kConventional;
-    const auto entry = table.one_of("entry", {"auto", "helix", "ramp", "plunge"}).value_or("auto");
+    operation.direction_of_cut = table.choice_or_default("direction_of_cut") == "climb"
+                                     ? CutDirection::kClimb
+                                     : CutDirection::kConventional;
+    const auto entry = table.choice_or_default("entry");
     operation.entry = entry == "auto"    ? EntryKind::kAuto
                       : entry == "helix" ? EntryKind::kHelix
                       : entry == "ramp"  ? EntryKind::kRamp
                                          : EntryKind::kPlunge;
     operation.traversal =
-        table.one_of("traversal", {"zigzag", "one_way"}).value_or("zigzag") == "zigzag"
-            ? Traversal::kZigzag
-            : Traversal::kOneWay;
-    operation.allowance = length(table, "allowance", kNotNegative, 0.0);
+        table.choice_or_default("traversal") == "zigzag" ? Traversal::kZigzag : Traversal::kOneWay;
+    operation.allowance = table.length_or_default("allowance", unit_);
 }
 
 void JobReader::read_rest(JobTable& table, Operation& operation)
 {
-    constexpr Range kRestTolerance{0.001, 1};
     operation.after = read_programs(table, "after", folder_);
-    operation.may_open = table.flag("may_open").value_or(false);
-    operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
+    operation.may_open = table.flag_or_default("may_open");
+    operation.rest_tolerance = table.length("rest_tolerance", unit_);
     if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
         !job_.setup) {
         table.refuse("rest_tolerance", "needs after, or program in [stock], or a set-up");
@@ -190,14 +192,14 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
 
 void JobReader::read_depths(JobTable& table, Operation& operation)
 {
-    operation.max_depth = length(table, "max_depth", kPositive);
-    operation.min_depth = length(table, "min_depth", kNotNegative);
+    operation.max_depth = table.length("max_depth", unit_);
+    operation.min_depth = table.length("min_depth", unit_);
     if (operation.max_depth && operation.min_depth && *operation.min_depth > *operation.max_depth) {
         table.refuse("min_depth", fmt::format("is {:g} mm, above the max_depth of {:g} mm",
                                               *operation.min_depth, *operation.max_depth));
     }
     double above = 0;
-    for (const double depth : table.numbers("layers", kPositive).value_or(std::vector<double>{})) {
+    for (const double depth : table.numbers("layers").value_or(std::vector<double>{})) {
         if (depth * unit_ <= above) {
             table.refuse("layers", "depths below stock.top must grow from layer to layer");
         }
@@ -208,7 +210,7 @@ void JobReader::read_depths(JobTable& table, Operation& operation)
 
 void JobReader::read_grid(JobTable& table, Operation& operation)
 {
-    const auto grid = table.numbers("grid", kPositive).value_or(std::vector<double>{});
+    const auto grid = table.numbers("grid").value_or(std::vector<double>{});
     if (!grid.empty()) {
         operation.grid_x = grid[0] * unit_;
         operation.grid_y = grid.back() * unit_;
@@ -222,33 +224,30 @@ void JobReader::read_grid(JobTable& table, Operation& operation)
         }
         operation.zigzag.push_back(axis[0]);
     }
-    operation.arc_tolerance = length(table, "arc_tolerance", kTolerance, operation.floor_tolerance);
-    operation.max_arc_radius = length(table, "max_arc_radius", kPositive, kDefaultLargestArcRadius);
-    operation.max_roughness = length(table, "max_roughness", kPositive);
+    operation.arc_tolerance =
+        table.length("arc_tolerance", unit_).value_or(operation.floor_tolerance);
+    operation.max_arc_radius = table.length_or_default("max_arc_radius", unit_);
+    operation.max_roughness = table.length("max_roughness", unit_);
 }
 
-void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
+void JobReader::read_strategy_keys(JobTable& table, const Strategy& strategy, Operation& operation)
 {
-    constexpr Range kSubdivisions{0, 8};
-    operation.iso_distance = length(table, "iso_distance", kPositive);
-    operation.even_steps =
-        table.one_of("iso_spacing", {"halving", "even"}).value_or("halving") == "even";
-    operation.direction = table.one_of("direction", {"u", "v"}).value_or("u")[0];
-    operation.roughing = table.flag("roughing").value_or(false);
+    operation.iso_distance = table.length("iso_distance", unit_);
+    operation.even_steps = table.choice_or_default("iso_spacing") == "even";
+    operation.direction = table.choice_or_default("direction")[0];
+    operation.roughing = table.flag_or_default("roughing");
     read_grid(table, operation);
-    operation.overlap = length(table, "overlap", kNotNegative, 0.0);
-    operation.extra_subdivision =
-        table.whole_number("extra_subdivision", kSubdivisions).value_or(0);
-    operation.step_over = length(table, "step_over", kPositive);
-    read_clearing(table, operation);
+    operation.overlap = table.length_or_default("overlap", unit_);
+    operation.extra_subdivision = table.whole_number_or_default("extra_subdivision");
+    operation.step_over = table.length("step_over", unit_);
+    read_clearing(table, strategy, operation);
     read_chip_load(table, unit_, operation);
 }
 
 // True if the strategy plans on the triangles themselves, without a height field.
-bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
+bool JobReader::takes_mesh(const Strategy& strategy, const std::vector<std::string>& floor)
 {
-    return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
-           std::all_of(floor.begin(), floor.end(), is_mesh_file);
+    return strategy.traits.takes_mesh && std::all_of(floor.begin(), floor.end(), is_mesh_file);
 }
 
 const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
@@ -288,13 +287,13 @@ void JobReader::intersect(JobTable& table,
     operation.floor = floor;
 }
 
-void JobReader::read_parts(JobTable& table, Operation& operation)
+void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation& operation)
 {
     const std::vector<std::string> floor =
         table.texts("floor").value_or(std::vector<std::string>{});
     const std::vector<std::string> bodies =
         table.texts("intersect").value_or(std::vector<std::string>{});
-    const bool mesh = bodies.empty() && takes_mesh(operation, floor);
+    const bool mesh = bodies.empty() && takes_mesh(strategy, floor);
     for (const std::string& name : floor) {
         operation.floor_files.push_back(path_of(name));
         if (mesh) {
@@ -367,59 +366,57 @@ void JobReader::place_files(JobTable& top,
 // Tools of other set-ups' operations: their programs may name them by their numbers alone.
 void JobReader::use_tools(const toml::table& table, std::size_t index)
 {
-    JobTable keys{table, file_, fmt::format("operation {}", index), operation_keys()};
+    JobTable keys{table, file_, fmt::format("operation {}", index), all_keys_};
     tools_->tool(keys);
     tools_->tools(keys);
 }
 
 void JobReader::read_operation(const toml::table& entry, std::size_t index)
 {
-    JobTable table{entry, file_, fmt::format("operation {}", index), operation_keys()};
+    const std::string place = fmt::format("operation {}", index);
+    JobTable any{entry, file_, place, all_keys_};
     Operation operation;
-    const auto strategy = table.one_of("strategy", strategy_names());
-    if (!strategy) {
-        table.refuse("strategy", "is missing");
-    }
     operation.number = static_cast<int>(index);
-    operation.strategy = *strategy;
+    const Strategy& strategy = strategy_of(any, strategies_);
+    operation.strategy = strategy.name;
+    JobTable table{entry, file_, place, keys_of(strategy), all_keys_};
+    table.leave({"strategy", "setup"});
     read_rest(table, operation);
     read_tool_choice(table, operation);
     read_common(table, operation);
     read_depths(table, operation);
-    read_strategy_keys(table, operation);
-    refuse_keys_of_others(entry, table, operation.strategy);
-    read_prismatic_keys(table, unit_, operation);
+    read_strategy_keys(table, strategy, operation);
+    read_prismatic_keys(table, unit_, strategy, operation);
     if (operation.prismatic) {
         if (table.has("floor")) {  // of an engraving
-            read_parts(table, operation);
+            read_parts(table, strategy, operation);
         }
         table.leave({"floor", "intersect", "islands"});
     } else {
-        read_parts(table, operation);
+        read_parts(table, strategy, operation);
     }
-    if (operation.prismatic && operation.strategy != "pocket") {
+    if (operation.prismatic && !strategy.traits.pocket) {
         const auto name = table.text("boundary");
         read_drawing(table, unit_, name ? path_of(*name) : "", parts_, operation);
         job_.operations.push_back(std::move(operation));
     } else {
         for (Operation& pocket : read_pockets(table, std::move(operation))) {
-            check_operation(table, pocket);
+            check_operation(strategy, pocket, refuse_in(table));
             job_.operations.push_back(std::move(pocket));
         }
     }
-    table.leave({"setup"});
     table.check_all_read();
 }
 
 Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& setups)
 {
     const toml::table document = parsed_toml(text, file_);
-    JobTable top{document, file_, "", job_keys()};
+    JobTable top{document, file_, "", job_table().keys};
     read_units(top);
     tools_.emplace(top, file_, folder_, unit_);
     read_cutting(top);
     const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
-    const SetupTables tables{top, file_};
+    const SetupTables tables{top, file_, all_keys_};
     setups = tables.all().size();
     job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
     const std::string post = top.text("post").value_or("cusp");
@@ -428,7 +425,7 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
     } catch (const InputError& error) {
         top.refuse("post", error.what());
     }
-    job_.group_by_tool = top.flag("group_by_tool").value_or(true);
+    job_.group_by_tool = top.flag_or_default("group_by_tool");
     const auto operations = top.tables("operation");
     place_files(top, operations, stock.outline());
     top.check_all_read();
@@ -465,36 +462,36 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
 
 }  // namespace
 
-std::vector<Job> read_setups(const std::string& file)
+std::vector<Job> read_setups(const std::string& file, const Strategies& strategies)
 {
     const std::filesystem::path path{file};
-    return read_setups({files::text_of_file(file), file, path.parent_path()});
+    return read_setups({files::text_of_file(file), file, path.parent_path()}, strategies);
 }
 
-std::vector<Job> read_setups(const JobText& job)
+std::vector<Job> read_setups(const JobText& job, const Strategies& strategies)
 {
     std::vector<Job> jobs;
     std::size_t setups = 1;
     for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
         PartFiles parts;
-        jobs.push_back(JobReader{job.name, job.folder, parts}.read(job.text, place, setups));
+        jobs.push_back(JobReader{job.name, job.folder, strategies, parts}.read(job.text, place, setups));
     }
     return jobs;
 }
 
-Job read_job(const std::string& file)
+Job read_job(const std::string& file, const Strategies& strategies)
 {
-    std::vector<Job> jobs = read_setups(file);
+    std::vector<Job> jobs = read_setups(file, strategies);
     if (const std::size_t count = jobs.size(); count > 1) {
         throw InputError(fmt::format("{}: has {} set-ups, only one can be read here", file, count));
     }
     return std::move(jobs.front());  // meshes are large
 }
 
-Job read_job(const JobText& job, PartFiles& parts)
+Job read_job(const JobText& job, const Strategies& strategies, PartFiles& parts)
 {
     std::size_t setups = 1;
-    return JobReader{job.name, job.folder, parts}.read(job.text, 0, setups);
+    return JobReader{job.name, job.folder, strategies, parts}.read(job.text, 0, setups);
 }
 
 }  // namespace cusp::import

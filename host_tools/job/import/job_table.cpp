@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,7 +17,7 @@
 namespace cusp::import {
 namespace {
 
-std::string range_in_words(Range range)
+std::string range_in_words(job::Range range)
 {
     const char* low = range.above_low ? "above" : "at least";
     return fmt::format("{} {:g} and at most {:g}", low, range.low, range.high);
@@ -47,8 +48,13 @@ toml::table parsed_toml(const std::string& text, const std::string& file)
 JobTable::JobTable(const toml::table& table,
                    std::string file,
                    std::string place,
-                   std::vector<std::string> known)
-    : table_{table}, file_{std::move(file)}, place_{std::move(place)}, known_{std::move(known)}
+                   std::vector<job::Key> known,
+                   std::vector<job::Key> elsewhere)
+    : table_{table},
+      file_{std::move(file)},
+      place_{std::move(place)},
+      known_{std::move(known)},
+      elsewhere_{std::move(elsewhere)}
 {
     refuse_unknown_keys();
 }
@@ -63,14 +69,26 @@ void JobTable::refuse(const char* key, const std::string& reason, const std::str
                      {file_, line, key, node == nullptr ? "" : text_of(*node), limit});
 }
 
+const job::Key& JobTable::key_of(const char* key) const
+{
+    const job::Key* found = job::find_key(known_, key);
+    found = found == nullptr ? job::find_key(elsewhere_, key) : found;
+    if (found == nullptr) {
+        throw std::logic_error(fmt::format("the key {} is read but not known", key));
+    }
+    return *found;
+}
+
 const toml::node* JobTable::find(const char* key)
 {
+    key_of(key);
     read_.insert(key);
     return table_.get(key);
 }
 
-double JobTable::checked(const toml::node& node, const char* key, Range range) const
+double JobTable::checked(const toml::node& node, const char* key) const
 {
+    const job::Range range = key_of(key).range;
     const auto value = node.value<double>();
     if (!value || !node.is_number()) {
         refuse(key, "a number is needed");
@@ -84,21 +102,21 @@ double JobTable::checked(const toml::node& node, const char* key, Range range) c
     return *value;
 }
 
-std::optional<double> JobTable::number(const char* key, Range range)
+std::optional<double> JobTable::number(const char* key)
 {
     const toml::node* node = find(key);
-    return node == nullptr ? std::nullopt : std::optional{checked(*node, key, range)};
+    return node == nullptr ? std::nullopt : std::optional{checked(*node, key)};
 }
 
-std::optional<double> JobTable::length(const char* key, Range range, double millimetres)
+std::optional<double> JobTable::length(const char* key, double millimetres)
 {
-    const auto value = number(key, range);
+    const auto value = number(key);
     return value ? std::optional{*value * millimetres} : std::nullopt;
 }
 
-std::optional<int> JobTable::whole_number(const char* key, Range range)
+std::optional<int> JobTable::whole_number(const char* key)
 {
-    const std::optional<double> value = number(key, range);
+    const std::optional<double> value = number(key);
     if (!value) {
         return std::nullopt;
     }
@@ -140,10 +158,10 @@ std::optional<std::string> JobTable::text(const char* key)
     return node->value<std::string>();
 }
 
-std::optional<std::string> JobTable::one_of(const char* key,
-                                            const std::vector<std::string>& allowed)
+std::optional<std::string> JobTable::choice(const char* key)
 {
     const std::optional<std::string> value = text(key);
+    const std::vector<std::string>& allowed = key_of(key).choices;
     if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
         refuse(key,
                fmt::format("is \"{}\", known are \"{}\"", *value, fmt::join(allowed, "\", \"")));
@@ -151,16 +169,16 @@ std::optional<std::string> JobTable::one_of(const char* key,
     return value;
 }
 
-std::optional<std::vector<double>> JobTable::one_or_more(const char* key, Range range)
+std::optional<std::vector<double>> JobTable::one_or_more(const char* key)
 {
     const toml::node* node = find(key);
     if (node != nullptr && node->is_number()) {
-        return std::vector<double>{checked(*node, key, range)};
+        return std::vector<double>{checked(*node, key)};
     }
-    return numbers(key, range);
+    return numbers(key);
 }
 
-std::optional<std::vector<double>> JobTable::numbers(const char* key, Range range)
+std::optional<std::vector<double>> JobTable::numbers(const char* key)
 {
     const toml::node* node = find(key);
     if (node == nullptr) {
@@ -171,13 +189,12 @@ std::optional<std::vector<double>> JobTable::numbers(const char* key, Range rang
     }
     std::vector<double> out;
     for (const toml::node& entry : *node->as_array()) {
-        out.push_back(checked(entry, key, range));
+        out.push_back(checked(entry, key));
     }
     return out;
 }
 
 std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* key,
-                                                                  Range range,
                                                                   const char* words)
 {
     const toml::node* node = find(key);
@@ -196,22 +213,22 @@ std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* ke
         if (pair == nullptr || pair->size() != 2) {
             refuse_form();
         }
-        out.push_back({checked((*pair)[0], key, range), checked((*pair)[1], key, range)});
+        out.push_back({checked((*pair)[0], key), checked((*pair)[1], key)});
     }
     return out;
 }
 
-std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range range)
+std::optional<std::array<double, 2>> JobTable::interval(const char* key)
 {
     const toml::node* node = find(key);
     if (node == nullptr) {
         return std::nullopt;
     }
     if (!node->is_array()) {
-        const double value = checked(*node, key, range);
+        const double value = checked(*node, key);
         return std::array{value, value};
     }
-    const std::vector<double> ends = *numbers(key, range);
+    const std::vector<double> ends = *numbers(key);
     if (ends.size() != 2 || ends[0] > ends[1]) {
         refuse(key, "a number is needed, or two: [least, greatest]");
     }
@@ -220,7 +237,7 @@ std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range r
 
 std::optional<std::array<double, 2>> JobTable::extent(const char* key, double millimetres)
 {
-    const auto ends = numbers(key, kAnyNumber);
+    const auto ends = numbers(key);
     if (!ends) {
         return std::nullopt;
     }
@@ -273,7 +290,7 @@ const toml::table* JobTable::inline_table(const char* key)
 
 JobTable JobTable::inner(const toml::table& table,
                          const char* key,
-                         std::vector<std::string> known) const
+                         std::vector<job::Key> known) const
 {
     return {table, file_, fmt::format("{}: {}", place_, key), std::move(known)};
 }
@@ -324,9 +341,37 @@ bool JobTable::required_flag(const char* key)
     return *value;
 }
 
-double JobTable::required_number(const char* key, Range range)
+double JobTable::length_or_default(const char* key, double millimetres)
 {
-    const std::optional<double> value = number(key, range);
+    const auto value = length(key, millimetres);
+    return value ? *value : key_of(key).number_otherwise();
+}
+
+double JobTable::number_or_default(const char* key)
+{
+    const auto value = number(key);
+    return value ? *value : key_of(key).number_otherwise();
+}
+
+int JobTable::whole_number_or_default(const char* key)
+{
+    const auto value = whole_number(key);
+    return value ? *value : static_cast<int>(key_of(key).number_otherwise());
+}
+
+bool JobTable::flag_or_default(const char* key)
+{
+    return flag(key).value_or(key_of(key).otherwise == "true");
+}
+
+std::string JobTable::choice_or_default(const char* key)
+{
+    return choice(key).value_or(key_of(key).otherwise);
+}
+
+double JobTable::required_number(const char* key)
+{
+    const std::optional<double> value = number(key);
     if (!value) {
         refuse(key, "is missing");
     }
@@ -337,19 +382,22 @@ void JobTable::refuse_unknown_keys() const
 {
     for (const auto& entry : table_) {
         const std::string key{entry.first.str()};
-        if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
+        if (job::find_key(known_, key) != nullptr || job::find_key(elsewhere_, key) != nullptr) {
             continue;
         }
+        std::vector<std::string> names;
+        std::transform(known_.begin(), known_.end(), std::back_inserter(names),
+                       [](const job::Key& each) { return each.name; });
         refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}",
-                                        nearest_names(key, known_, 1).front()));
+                                        nearest_names(key, names, 1).front()));
     }
 }
 
 void JobTable::check_all_read() const
 {
-    for (const std::string& key : known_) {
-        if (read_.count(key) == 0) {
-            throw std::logic_error("the key " + key + " is known but never read");
+    for (const job::Key& key : known_) {
+        if (read_.count(key.name) == 0) {
+            throw std::logic_error("the key " + key.name + " is known but never read");
         }
     }
 }

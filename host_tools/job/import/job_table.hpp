@@ -1,5 +1,5 @@
-// One table of a job file: unknown keys are refused first; each known key is read once, with its
-// range.
+// One table of a job file: unknown keys are refused first; each key is read once, by the kind, range and
+// default that its table of keys (job/keys.hpp) gives it.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/job/import/number_ranges.hpp"
+#include "host_tools/job/job/keys.hpp"
 
 // In debug builds toml++ asserts on some broken files that release builds refuse properly.
 #define TOML_ASSERT(condition) static_cast<void>(0)
@@ -24,35 +24,35 @@ toml::table parsed_toml(const std::string& text, const std::string& file);
 class JobTable {
 public:
     // place  name of the table in messages, such as "operation 2"; "" for the file itself
-    // known  every key that the table may have
+    // known      every key that the table may have
+    // elsewhere  keys of other strategies: refuse_keys_of_others() has refused them here; they read as absent
     //
     // Throws InputError where the table has another key, with the nearest known one. Thus a typo is
     // reported before the key that is missing because of it.
     JobTable(const toml::table& table,
              std::string file,
              std::string place,
-             std::vector<std::string> known);
+             std::vector<job::Key> known,
+             std::vector<job::Key> elsewhere = {});
 
     // Each returns no value where the key is absent and throws InputError where its value has the
-    // wrong type or is out of range.
-    std::optional<double> number(const char* key, Range range);
+    // wrong type or is out of its range.
+    std::optional<double> number(const char* key);
     // In mm, of a number in units of `millimetres`.
-    std::optional<double> length(const char* key, Range range, double millimetres);
-    std::optional<int> whole_number(const char* key, Range range);
+    std::optional<double> length(const char* key, double millimetres);
+    std::optional<int> whole_number(const char* key);
     std::optional<bool> flag(const char* key);
     std::optional<std::string> text(const char* key);
-    std::optional<std::string> one_of(const char* key, const std::vector<std::string>& allowed);
-    std::optional<std::vector<double>> numbers(const char* key, Range range);
+    std::optional<std::string> choice(const char* key);
+    std::optional<std::vector<double>> numbers(const char* key);
     // A single number counts as a list of one.
-    std::optional<std::vector<double>> one_or_more(const char* key, Range range);
+    std::optional<std::vector<double>> one_or_more(const char* key);
     // Pairs of numbers, [[a, b], ...].
     //
     // words  of a pair, such as "[diameter, length]"
-    std::optional<std::vector<std::array<double, 2>>> pairs(const char* key,
-                                                            Range range,
-                                                            const char* words);
+    std::optional<std::vector<std::array<double, 2>>> pairs(const char* key, const char* words);
     // One number, which is both ends, or [least, greatest].
-    std::optional<std::array<double, 2>> interval(const char* key, Range range);
+    std::optional<std::array<double, 2>> interval(const char* key);
     // Two numbers [min, max], min below max, in mm, of numbers in units of `millimetres`.
     std::optional<std::array<double, 2>> extent(const char* key, double millimetres);
     // A single text counts as a list of one.
@@ -61,12 +61,18 @@ public:
     // A table within the table, such as tabs = { count = 4 }.
     const toml::table* inline_table(const char* key);
     // Members of such a table.
-    JobTable inner(const toml::table& table, const char* key, std::vector<std::string> known) const;
+    JobTable inner(const toml::table& table, const char* key, std::vector<job::Key> known) const;
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);
 
+    // As the above, with the default of the table of keys where the key is absent; lengths in mm.
+    double length_or_default(const char* key, double millimetres);
+    double number_or_default(const char* key);
+    int whole_number_or_default(const char* key);
+    bool flag_or_default(const char* key);
+    std::string choice_or_default(const char* key);
     // As the above, refusing where the key is absent.
-    double required_number(const char* key, Range range);
+    double required_number(const char* key);
     bool required_flag(const char* key);
     std::string required_text(const char* key);
     std::vector<std::string> required_texts(const char* key);
@@ -78,6 +84,7 @@ public:
     void leave(const std::vector<std::string>& keys) { read_.insert(keys.begin(), keys.end()); }
 
     bool has(const char* key) const { return table_.contains(key); }
+    job::Range range_of(const char* key) const { return key_of(key).range; }
 
     // limit  in words, where the reason names one
     [[noreturn]] void refuse(const char* key,
@@ -89,13 +96,15 @@ public:
 
 private:
     void refuse_unknown_keys() const;
+    const job::Key& key_of(const char* key) const;
     const toml::node* find(const char* key);
-    double checked(const toml::node& node, const char* key, Range range) const;
+    double checked(const toml::node& node, const char* key) const;
 
     const toml::table& table_;
     std::string file_;
     std::string place_;
-    std::vector<std::string> known_;
+    std::vector<job::Key> known_;
+    std::vector<job::Key> elsewhere_;
     std::set<std::string> read_;
 };
 

@@ -8,7 +8,7 @@
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/files/program_data.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/nearest_name.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 
@@ -76,8 +76,8 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
 {
     library_file_ = library_path(name, folder);
     const toml::table document = parsed_toml(files::text_of_file(library_file_), library_file_);
-    JobTable top{document, library_file_, "", library_keys()};
-    const auto units = top.one_of("units", {"mm", "inch"});
+    JobTable top{document, library_file_, "", library_table().keys};
+    const auto units = top.choice("units");
     if (!units) {
         top.refuse("units", "is missing: \"mm\" or \"inch\", of the library's lengths and feeds");
     }
@@ -88,7 +88,7 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
     for (std::size_t i = 0; i < tables.size(); ++i) {
         const ReadTool read = read_tool(*tables[i], library_file_, i + 1,
                                         *units == "inch" ? kMillimetresPerInch : 1.0);
-        JobTable place{*tables[i], library_file_, fmt::format("tool {}", i + 1), tool_keys()};
+        JobTable place{*tables[i], library_file_, fmt::format("tool {}", i + 1), tool_table().keys};
         if (read.facts.name.empty()) {
             place.refuse("name", "is missing: operations name the tools of a library");
         }
@@ -169,7 +169,7 @@ Tool JobTools::tool(JobTable& table)
     if (table.is_text(kKey)) {
         return use(table, kKey, by_name(table, kKey, *table.text(kKey)));
     }
-    if (const auto number = table.whole_number(kKey, kToolNumber)) {
+    if (const auto number = table.whole_number(kKey)) {
         return use(table, kKey, by_number(table, kKey, *number));
     }
     if (own_.empty()) {
@@ -198,7 +198,7 @@ std::vector<Tool> JobTools::tools(JobTable& table)
         }
         return tools;
     }
-    const auto numbers = table.numbers(kKey, kToolNumber);
+    const auto numbers = table.numbers(kKey);
     for (const double number : numbers.value_or(std::vector<double>{})) {
         if (number != std::floor(number)) {
             table.refuse(kKey, fmt::format("holds {:g}, whole numbers are needed", number));

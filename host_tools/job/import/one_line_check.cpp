@@ -7,8 +7,8 @@
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
-#include "host_tools/job/import/number_ranges.hpp"
 #include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/job/keys.hpp"
 
 #include "fmt/format.h"
 
@@ -17,10 +17,10 @@ namespace {
 
 void check_range(const char* option, std::optional<double> value, double low, bool above_low)
 {
-    if (value && !(std::isfinite(*value) && *value <= kLargest &&
+    if (value && !(std::isfinite(*value) && *value <= job::kLargest &&
                    (above_low ? *value > low : *value >= low))) {
         throw InputError(fmt::format("{}: is {:g}, it must be {} {:g} and at most {:g}", option,
-                                     *value, above_low ? "above" : "at least", low, kLargest));
+                                     *value, above_low ? "above" : "at least", low, job::kLargest));
     }
 }
 
@@ -45,14 +45,14 @@ void check_parts(const OneLineRequest& request)
 
 void check_numbers(const OneLineRequest& request)
 {
-    check_range("--scallop", request.scallop, kTolerance.low, true);
-    check_range("--tolerance", request.tolerance, kTolerance.low, false);
+    check_range("--scallop", request.scallop, job::kTolerance.low, true);
+    check_range("--tolerance", request.tolerance, job::kTolerance.low, false);
     check_range("--max-depth", request.max_depth, 0, true);
     check_range("--allowance", request.allowance, 0, false);
-    check_range("--feed", request.feed, kFeed.low, false);
-    check_range("--plunge-feed", request.plunge_feed, kFeed.low, false);
+    check_range("--feed", request.feed, job::kFeed.low, false);
+    check_range("--plunge-feed", request.plunge_feed, job::kFeed.low, false);
     check_range("--spindle", request.spindle, 0, false);
-    check_range("--stock-top", request.stock_top, -kLargest, false);
+    check_range("--stock-top", request.stock_top, -job::kLargest, false);
     check_range("--clearance", request.clearance, 0, true);
     if (request.tolerance && *request.tolerance >= *request.scallop) {
         throw InputError(
@@ -69,7 +69,7 @@ void check_numbers(const OneLineRequest& request)
 void check_placing(const OneLineRequest& request)
 {
     constexpr double kTurn = 360;  // degrees
-    check_range("--scale", request.scale, kScale.low, false);
+    check_range("--scale", request.scale, job::kScale.low, false);
     const auto check_count = [](const char* option, const char* needed,
                                 const std::vector<double>& values, bool also_one) {
         if (!values.empty() && values.size() != 3 && !(also_one && values.size() == 1)) {
@@ -89,24 +89,25 @@ void check_placing(const OneLineRequest& request)
         }
     };
     check_size("--rotate", request.rotate, kTurn);
-    check_size("--move", request.move, kLargest);
+    check_size("--move", request.move, job::kLargest);
 }
 
-void check_strategy(const OneLineRequest& request)
+void check_strategy(const OneLineRequest& request, const job::Strategies& strategies)
 {
-    const bool pocket = request.strategy.empty() ? request.boundary.has_value()
-                                                 : request.strategy == "contour_pocket";
+    const job::Strategy& strategy = strategy_of(request, strategies);
+    const bool pocket = strategy.traits.pocket;
     if (pocket && !request.boundary) {
-        throw InputError("--strategy contour_pocket: needs --boundary, the loop round the pocket");
+        throw InputError(fmt::format("--strategy {}: needs --boundary, the loop round the pocket",
+                                     strategy.name));
     }
     if (!pocket && request.boundary) {
         throw InputError(
-            fmt::format("--boundary: is for contour_pocket, not for {}", request.strategy));
+            fmt::format("--boundary: is for contour_pocket, not for {}", strategy.name));
     }
-    if (request.strategy == "parallel_planes" && request.roughing) {
+    if (strategy.traits.only_finishes && request.roughing) {
         throw InputError(
-            "--strategy parallel_planes: only finishes: add --no-roughing, or leave --strategy "
-            "out");
+            fmt::format("--strategy {}: only finishes: add --no-roughing, or leave --strategy out",
+                        strategy.name));
     }
 }
 
@@ -117,7 +118,20 @@ bool is_part_file(const std::string& file)
     return is_cad_file(file) || is_mesh_file(file) || path_ending(file) == ".json";
 }
 
-void check_request(const OneLineRequest& request)
+const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strategies& strategies)
+{
+    const std::string& asked = request.strategy;
+    const std::string name = !asked.empty()     ? asked
+                             : request.boundary ? "contour_pocket"
+                                                : "adaptive_isocurve";
+    const job::Strategy* const strategy = find_strategy(strategies, name);
+    if (strategy == nullptr || strategy->is_prismatic()) {
+        throw InputError(fmt::format("--strategy {}: there is none of that name for parts", name));
+    }
+    return *strategy;
+}
+
+void check_request(const OneLineRequest& request, const job::Strategies& strategies)
 {
     check_parts(request);
     if (request.tools.empty()) {
@@ -132,7 +146,7 @@ void check_request(const OneLineRequest& request)
     }
     check_numbers(request);
     check_placing(request);
-    check_strategy(request);
+    check_strategy(request, strategies);
 }
 
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)

@@ -9,7 +9,11 @@
 namespace cusp::import {
 
 // Errors: InputError that names the option or the file, its value, its limit and what to do.
-void check_request(const OneLineRequest& request);
+void check_request(const OneLineRequest& request, const job::Strategies& strategies);
+
+// The one that is asked for; else that of a pocket where there is a boundary, or of a finish.
+// Throws InputError where there is none of the name.
+const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strategies& strategies);
 
 // Throws InputError where the last tool can't finish the part as requested.
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);

@@ -46,9 +46,12 @@ double least_diameter(const std::vector<NamedTool>& tools)
 
 class OneLineChooser {
 public:
-    OneLineChooser(const OneLineRequest& request, PartFiles& parts)
+    OneLineChooser(const OneLineRequest& request,
+                   const job::Strategies& strategies,
+                   PartFiles& parts)
         : request_{request}, parts_{parts}, defaults_{request.inch ? kInch : kMetric}
     {
+        choice_.strategy = strategy_of(request, strategies).name;
         choice_.unit = defaults_.unit;
         choice_.steps = defaults_.steps;
         for (const std::string& text : request.tools) {
@@ -85,9 +88,6 @@ private:
 
 void OneLineChooser::choose_numbers()
 {
-    choice_.strategy = !request_.strategy.empty() ? request_.strategy
-                       : is_pocket()              ? "contour_pocket"
-                                                  : "adaptive_isocurve";
     choice_.tolerance =
         request_.tolerance.value_or(std::min(defaults_.tolerance, *request_.scallop / 2));
     for (const NamedTool& tool : choice_.tools) {
@@ -194,10 +194,12 @@ std::vector<NamedTool> OneLineChoice::roughing_tools() const
     return {tools.begin(), tools.size() > 1 ? tools.end() - 1 : tools.end()};
 }
 
-OneLineChoice choose(const OneLineRequest& request, PartFiles& parts)
+OneLineChoice choose(const OneLineRequest& request,
+                     const job::Strategies& strategies,
+                     PartFiles& parts)
 {
-    check_request(request);
-    return OneLineChooser{request, parts}.choice();
+    check_request(request, strategies);
+    return OneLineChooser{request, strategies, parts}.choice();
 }
 
 }  // namespace cusp::import

@@ -35,6 +35,8 @@ struct OneLineChoice {
 };
 
 // Errors: InputError that names the option or the file.
-OneLineChoice choose(const OneLineRequest& request, PartFiles& parts);
+OneLineChoice choose(const OneLineRequest& request,
+                     const job::Strategies& strategies,
+                     PartFiles& parts);
 
 }  // namespace cusp::import

@@ -218,9 +218,11 @@ std::vector<std::string> OneLineWriter::said() const
 
 }  // namespace
 
-OneLineJob one_line_job(const OneLineRequest& request, PartFiles& parts)
+OneLineJob one_line_job(const OneLineRequest& request,
+                        const job::Strategies& strategies,
+                        PartFiles& parts)
 {
-    const OneLineChoice choice = choose(request, parts);
+    const OneLineChoice choice = choose(request, strategies, parts);
     const OneLineWriter writer{request, choice};
     return {writer.toml(), writer.said()};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host_tools/job/import/part_files.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::import {
 
@@ -47,9 +48,12 @@ struct OneLineJob {
 // floor is below). If the part is deeper than half the diameter of the roughing tools, or several
 // tools are given, all but the last rough in layers of at most that depth.
 //
-// parts  caches the files read here for `read_job`
+// strategies  that the job may name
+// parts       caches the files read here for `read_job`
 //
 // Errors: InputError that names the option or the file.
-OneLineJob one_line_job(const OneLineRequest& request, PartFiles& parts);
+OneLineJob one_line_job(const OneLineRequest& request,
+                        const job::Strategies& strategies,
+                        PartFiles& parts);
 
 }  // namespace cusp::import

@@ -2,19 +2,17 @@
 // operations are read after their files are placed.
 #include "host_tools/job/import/placing_reader.hpp"
 
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::import {
 namespace {
 
-constexpr Range kTurn{-360, 360};
-
 // One number turns about z, three about x, y and z.
 Vec3d read_turn(JobTable& keys)
 {
-    const auto turn = keys.one_or_more("rotate", kTurn);
+    const auto turn = keys.one_or_more("rotate");
     if (!turn) {
         return {};
     }
@@ -30,7 +28,7 @@ Vec3d read_turn(JobTable& keys)
 
 Vec3d read_move(JobTable& keys, double millimetres)
 {
-    const auto move = keys.numbers("move", kAnyNumber);
+    const auto move = keys.numbers("move");
     if (!move) {
         return {};
     }
@@ -78,15 +76,16 @@ std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables
 {
     std::vector<Placing> placings;
     for (const toml::table* const table : tables) {
-        JobTable keys{*table, file, fmt::format("placing {}", placings.size() + 1), placing_keys()};
+        JobTable keys{*table, file, fmt::format("placing {}", placings.size() + 1),
+                      placing_table().keys};
         Placing placing;
         for (const std::string& name : keys.texts("file").value_or(std::vector<std::string>{})) {
             placing.files.push_back(path_in(folder, name));
         }
-        placing.scale = keys.number("scale", kScale).value_or(placing.scale);
-        placing.up = keys.one_of("up", kUpAxes).value_or(placing.up);
+        placing.scale = keys.number_or_default("scale");
+        placing.up = keys.choice_or_default("up");
         placing.rotate = read_turn(keys);
-        placing.origin = keys.one_of("origin", kOrigins).value_or("");
+        placing.origin = keys.choice("origin").value_or("");
         placing.move = read_move(keys, millimetres);
         keys.check_all_read();
         placings.push_back(placing);

@@ -8,6 +8,7 @@
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/files/program_data.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/job_table.hpp"
 #include "host_tools/job/import/nearest_name.hpp"
 #include "host_tools/job/import/path_ending.hpp"
@@ -28,10 +29,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFolder = "posts";
 constexpr const char* kDefault = "cusp";
 constexpr std::size_t kLongestLine = 200;
-// Fewer would round by more than tolerances are; a controller reads no more than six.
-constexpr Range kMillimetreDecimals{3, 6};
-constexpr Range kInchDecimals{4, 6};
-constexpr Range kLineNumbers{0, 1000};
 
 // A list of lines, and the fields that its lines may have.
 struct LineKey {
@@ -62,16 +59,6 @@ const std::vector<LineKey>& line_keys()
     return kKeys;
 }
 
-std::vector<std::string> known_post_keys()
-{
-    std::vector<std::string> keys{"mm_decimals",  "inch_decimals", "arcs",     "nurbs",
-                                  "drill_cycles", "point",         "comments", "line_numbers"};
-    for (const LineKey& key : line_keys()) {
-        keys.emplace_back(key.key);
-    }
-    return keys;
-}
-
 void check_line(const JobTable& table, const LineKey& key, const std::string& line)
 {
     const auto printable = [](char c) {
@@ -97,16 +84,16 @@ void check_line(const JobTable& table, const LineKey& key, const std::string& li
 
 Post post_of(const toml::table& document, const std::string& file, const std::string& name)
 {
-    JobTable table{document, file, "", known_post_keys()};
+    JobTable table{document, file, "", post_table().keys};
     Post post;
     post.name = name;
-    post.mm_decimals = table.whole_number("mm_decimals", kMillimetreDecimals).value_or(0);
-    post.inch_decimals = table.whole_number("inch_decimals", kInchDecimals).value_or(0);
+    post.mm_decimals = table.whole_number("mm_decimals").value_or(0);
+    post.inch_decimals = table.whole_number("inch_decimals").value_or(0);
     if (post.mm_decimals == 0 || post.inch_decimals == 0) {
         table.refuse(post.mm_decimals == 0 ? "mm_decimals" : "inch_decimals", "is missing");
     }
-    const auto arcs = table.one_of("arcs", {"IJ", "R"});
-    const auto comments = table.one_of("comments", {"()", ";", "none"});
+    const auto arcs = table.choice("arcs");
+    const auto comments = table.choice("comments");
     if (!arcs || !comments) {
         table.refuse(arcs ? "comments" : "arcs", arcs ? "is missing: \"()\", \";\" or \"none\""
                                                       : "is missing: \"IJ\" or \"R\"");
@@ -116,9 +103,9 @@ Post post_of(const toml::table& document, const std::string& file, const std::st
                     : *comments == ";" ? CommentForm::kSemicolon
                                        : CommentForm::kNone;
     post.nurbs = table.required_flag("nurbs");
-    post.drill_cycles = table.flag("drill_cycles").value_or(false);
+    post.drill_cycles = table.flag_or_default("drill_cycles");
     post.point = table.required_flag("point");
-    post.line_numbers = table.whole_number("line_numbers", kLineNumbers).value_or(0);
+    post.line_numbers = table.whole_number_or_default("line_numbers");
     for (const LineKey& key : line_keys()) {
         post.*key.lines = table.required_texts(key.key);
         for (const std::string& line : post.*key.lines) {

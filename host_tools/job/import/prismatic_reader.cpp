@@ -10,9 +10,10 @@
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/part_extent.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
+#include "host_tools/job/job/operation_keys.hpp"
 
 #include "fmt/format.h"
 
@@ -29,18 +30,14 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr std::array kPrismaticStrategies{"pocket",  "profile", "drill",  "face",
-                                          "engrave", "v_carve", "chamfer"};
 // mm: circles and tools whose diameters differ by no more are of one size.
 constexpr double kSameDiameter = 0.01;
-constexpr double kCarvedRidges = 0.05;  // mm: on the floor of a v_carve
 
 Tabs read_tabs(JobTable& keys, double unit)
 {
-    constexpr Range kCount{1, 1000};
     Tabs tabs;
-    tabs.count = keys.whole_number("count", kCount).value_or(0);
-    const auto places = keys.numbers("places", kAnyNumber);
+    tabs.count = keys.whole_number("count").value_or(0);
+    const auto places = keys.numbers("places");
     if (places && places->size() % 2 != 0) {
         keys.refuse("places", "an even count of numbers is needed: [x, y, x, y]");
     }
@@ -50,27 +47,25 @@ Tabs read_tabs(JobTable& keys, double unit)
     if ((tabs.count > 0) == places.has_value()) {
         keys.refuse("count", "either count or places is needed, such as count = 4");
     }
-    tabs.width = keys.required_number("width", kPositive) * unit;
-    tabs.height = keys.required_number("height", kPositive) * unit;
-    tabs.ramped = keys.one_of("shape", {"ramp", "square"}).value_or("ramp") == "ramp";
+    tabs.width = keys.required_number("width") * unit;
+    tabs.height = keys.required_number("height") * unit;
+    tabs.ramped = keys.choice_or_default("shape") == "ramp";
     keys.check_all_read();
     return tabs;
 }
 
 // A level floor costs nothing more where it is followed closely. The height of ridges says how far
 // apart the loops of a round end are; with a flat end there are none.
-void choose_pocket_tolerances(const JobTable& table, Operation& operation)
+void choose_pocket_tolerances(JobTable& table, Operation& operation)
 {
-    constexpr double kFloorTolerance = 0.002;  // mm
-    constexpr double kRidges = 0.04;           // mm
     if (!table.has("floor_tolerance")) {
-        operation.floor_tolerance = kFloorTolerance;
         operation.default_floor_tolerance = true;
     }
     if (!operation.scallop) {
         operation.default_scallop = true;
-        operation.scallop =
-            operation.tool.corner_radius > 0 ? kRidges : 2 * operation.floor_tolerance;
+        operation.scallop = operation.tool.corner_radius > 0
+                                ? table.length_or_default("scallop", 1.0)
+                                : 2 * operation.floor_tolerance;
     }
 }
 
@@ -198,34 +193,32 @@ nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
 
 }  // namespace
 
-bool is_prismatic(const std::string& strategy)
-{
-    return std::find(kPrismaticStrategies.begin(), kPrismaticStrategies.end(), strategy) !=
-           kPrismaticStrategies.end();
-}
-
-void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
+// Over 60 lines: one key after the other.
+void read_prismatic_keys(JobTable& table,
+                         double unit,
+                         const job::Strategy& strategy,
+                         Operation& operation)
 {
     Prismatic cut;
-    const auto depth = table.length("depth", kPositive, unit);
-    cut.given_top = table.length("top", kAnyNumber, unit);
-    const std::string side = table.one_of("side", {"outside", "inside", "on"}).value_or("outside");
+    const auto depth = table.length("depth", unit);
+    cut.given_top = table.length("top", unit);
+    const std::string side = table.choice_or_default("side");
     cut.side = side == "outside"  ? ProfileSide::kOutside
                : side == "inside" ? ProfileSide::kInside
                                   : ProfileSide::kOn;
     if (const toml::table* tabs = table.inline_table("tabs")) {
-        JobTable keys = table.inner(*tabs, "tabs", tabs_keys());
+        JobTable keys = table.inner(*tabs, "tabs", job::tabs_table().keys);
         cut.tabs = read_tabs(keys, unit);
     }
-    cut.lead_in = table.length("lead_in", kNotNegative, unit);
-    cut.lead_out = table.length("lead_out", kNotNegative, unit);
-    cut.peck = table.length("peck", kPositive, unit);
-    cut.overhang = table.length("overhang", kNotNegative, unit);
-    const auto width = table.length("width", kPositive, unit);
-    if (const auto wanted = table.interval("diameter", kPositive)) {
+    cut.lead_in = table.length("lead_in", unit);
+    cut.lead_out = table.length("lead_out", unit);
+    cut.peck = table.length("peck", unit);
+    cut.overhang = table.length("overhang", unit);
+    const auto width = table.length("width", unit);
+    if (const auto wanted = table.interval("diameter")) {
         cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
     }
-    if (!is_prismatic(operation.strategy)) {
+    if (!strategy.is_prismatic()) {
         return;
     }
     const bool chamfers = operation.strategy == "chamfer";
@@ -254,7 +247,7 @@ void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
                                               *depth, operation.tool.number, flank));
         }
         cut.depth = depth.value_or(flank);
-        operation.scallop = operation.scallop.value_or(kCarvedRidges);
+        operation.scallop = table.length_or_default("scallop", unit);
     } else {
         cut.depth = chamfers ? cut.width * slope : depth.value_or(0);
     }
@@ -279,7 +272,7 @@ void read_drawing(const JobTable& table,
     }
     cut.file = file;
     if (operation.strategy == "drill") {
-        const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, kLargest});
+        const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, job::kLargest});
         cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
                                 cut.diameters.has_value());
         check_holes(table, operation, parts);

@@ -6,17 +6,19 @@
 #include "host_tools/job/import/job_table.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::import {
-
-bool is_prismatic(const std::string& strategy);
 
 // Reads the keys; the operation has `prismatic` afterwards where its strategy is one of them.
 //
 // millimetres  of one unit of the job
 //
 // Errors: InputError with the line: values out of range, keys that the strategy needs and lacks.
-void read_prismatic_keys(JobTable& table, double millimetres, job::Operation& operation);
+void read_prismatic_keys(JobTable& table,
+                         double millimetres,
+                         const job::Strategy& strategy,
+                         job::Operation& operation);
 
 // Reads the drawing that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
 //

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -30,10 +30,6 @@ bool is_plain(const std::string& name)
 
 Setup read_setup(JobTable& keys, std::size_t index)
 {
-    std::vector<std::string> offsets;
-    for (int offset = kFirstOffset; offset <= kLastOffset; ++offset) {
-        offsets.push_back(fmt::format("G{}", offset));
-    }
     Setup setup;
     setup.name = keys.required_text("name");
     if (!is_plain(setup.name)) {
@@ -43,20 +39,23 @@ Setup read_setup(JobTable& keys, std::size_t index)
                                 setup.name));
     }
     const int by_place = std::min(kFirstOffset + static_cast<int>(index), kLastOffset);
-    const std::string offset =
-        keys.one_of("offset", offsets).value_or(fmt::format("G{}", by_place));
+    const std::string offset = keys.choice("offset").value_or(fmt::format("G{}", by_place));
     setup.offset = std::stoi(offset.substr(1));
-    const auto flip = keys.one_of("flip", {"x", "y"});
+    const auto flip = keys.choice("flip");
     setup.flip = !flip ? Flip::kNone : *flip == "x" ? Flip::kX : Flip::kY;
     return setup;
 }
 
 }  // namespace
 
-SetupTables::SetupTables(JobTable& top, const std::string& file) : file_{file}
+SetupTables::SetupTables(JobTable& top,
+                         const std::string& file,
+                         const std::vector<job::Key>& operation_keys)
+    : file_{file}, operation_keys_{operation_keys}
 {
     for (const toml::table* table : top.tables("setup")) {
-        JobTable keys{*table, file, fmt::format("setup {}", setups_.size() + 1), setup_keys()};
+        JobTable keys{*table, file, fmt::format("setup {}", setups_.size() + 1),
+                      setup_table().keys};
         const Setup setup = read_setup(keys, setups_.size());
         for (const Setup& other : setups_) {
             if (other.name == setup.name) {
@@ -101,7 +100,7 @@ std::size_t SetupTables::place_of(JobTable& table) const
 
 std::size_t SetupTables::place_of(const toml::table& operation, std::size_t index) const
 {
-    JobTable table{operation, file_, fmt::format("operation {}", index), operation_keys()};
+    JobTable table{operation, file_, fmt::format("operation {}", index), operation_keys_};
     return place_of(table);
 }
 

@@ -14,11 +14,14 @@ class SetupTables {
 public:
     // Reads the key `setup` of the job.
     //
-    // file  of the job, for messages
+    // file            of the job, for messages
+    // operation_keys  of all strategies
     //
     // Errors, here and below: InputError with line and key. Here: a name that is missing, taken or no word,
     // an offset that is taken.
-    SetupTables(JobTable& top, const std::string& file);
+    SetupTables(JobTable& top,
+                const std::string& file,
+                const std::vector<job::Key>& operation_keys);
 
     // In order; none where the job has no such table.
     const std::vector<job::Setup>& all() const { return setups_; }
@@ -48,6 +51,7 @@ private:
     std::string names() const;
 
     std::string file_;
+    std::vector<job::Key> operation_keys_;
     std::vector<job::Setup> setups_;
 };
 

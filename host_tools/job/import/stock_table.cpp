@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/placing_reader.hpp"
 #include "host_tools/job/import/stock_top.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
@@ -19,8 +19,7 @@ using job::loop_polyline;
 
 namespace {
 
-constexpr double kDefaultClearance = 5.0;  // mm
-constexpr double kOutlineGap = 0.02;       // mm: between ends of curves, that is closed
+constexpr double kOutlineGap = 0.02;  // mm: between ends of curves, that is closed
 const toml::table kNoStock;
 
 std::string path_of_text(JobTable& keys, const char* key, const std::filesystem::path& folder)
@@ -93,19 +92,20 @@ StockTable::StockTable(const toml::table* table,
                        const std::filesystem::path& folder,
                        double millimetres,
                        Job& job)
-    : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_keys()}, unit_{millimetres}
+    : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_table().keys},
+      unit_{millimetres}
 {
-    top_ = keys_.length("top", kAnyNumber, unit_);
+    top_ = keys_.length("top", unit_);
     job.stock_top = top_.value_or(0.0);
-    job.clearance = keys_.length("clearance", kPositive, unit_).value_or(kDefaultClearance);
-    job.stock_bottom = keys_.length("bottom", kAnyNumber, unit_);
-    job.least_floor = keys_.length("least_floor", kNotNegative, unit_).value_or(job::kLeastFloor);
+    job.clearance = keys_.length_or_default("clearance", unit_);
+    job.stock_bottom = keys_.length("bottom", unit_);
+    job.least_floor = keys_.length_or_default("least_floor", unit_);
     job.stock_x = keys_.extent("x", unit_);
     job.stock_y = keys_.extent("y", unit_);
     outline_ = path_of_text(keys_, "outline", folder);
     read_margin();
-    margin_top_ = keys_.length("margin_top", kNotNegative, unit_);
-    margin_bottom_ = keys_.length("margin_bottom", kNotNegative, unit_);
+    margin_top_ = keys_.length("margin_top", unit_);
+    margin_bottom_ = keys_.length("margin_bottom", unit_);
     job.stock_programs = read_programs(keys_, "program", folder);
     const auto refuse_both = [&](bool both, const char* margin, const char* place) {
         if (both) {
@@ -124,7 +124,7 @@ StockTable::StockTable(const toml::table* table,
 
 void StockTable::read_margin()
 {
-    const auto values = keys_.one_or_more("margin", kNotNegative);
+    const auto values = keys_.one_or_more("margin");
     if (!values) {
         return;
     }

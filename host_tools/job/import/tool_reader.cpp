@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/job/import/known_keys.hpp"
+#include "host_tools/job/import/job_key_tables.hpp"
 
 #include "fmt/format.h"
 
@@ -19,11 +19,11 @@ namespace {
 // The tool above the flutes.
 void read_body(JobTable& keys, double millimetres, job::ToolFacts& facts)
 {
-    facts.shank_diameter = keys.length("shank_diameter", kPositive, millimetres);
+    facts.shank_diameter = keys.length("shank_diameter", millimetres);
     if (facts.shank_diameter && !facts.flute_length) {
         keys.refuse("shank_diameter", "needs flute_length: the shank begins above the flutes");
     }
-    if (const auto cylinders = keys.pairs("holder", kPositive, "[diameter, length]")) {
+    if (const auto cylinders = keys.pairs("holder", "[diameter, length]")) {
         if (cylinders->empty()) {
             keys.refuse("holder", "is empty: a holder is at least one [diameter, length]");
         }
@@ -34,22 +34,21 @@ void read_body(JobTable& keys, double millimetres, job::ToolFacts& facts)
             facts.holder.push_back({diameter * millimetres, length * millimetres});
         }
     }
-    const auto clearance = keys.length("holder_clearance", kNotNegative, millimetres);
+    const auto clearance = keys.length("holder_clearance", millimetres);
     if (clearance && !facts.shank_diameter && facts.holder.empty()) {
         keys.refuse("holder_clearance", "needs shank_diameter or holder");
     }
-    facts.holder_clearance = clearance.value_or(job::kHolderClearance);
+    facts.holder_clearance = keys.length_or_default("holder_clearance", millimetres);
 }
 
 // A depth of cut is judged by them when the job is planned.
 job::ToolFacts read_facts(JobTable& keys, double millimetres)
 {
-    constexpr Range kFlutes{1, 20};
     job::ToolFacts facts;
     facts.name = keys.text("name").value_or("");
-    facts.flutes = keys.whole_number("flutes", kFlutes).value_or(0);
-    facts.flute_length = keys.length("flute_length", kPositive, millimetres);
-    facts.length = keys.length("length", kPositive, millimetres);
+    facts.flutes = keys.whole_number("flutes").value_or(0);
+    facts.flute_length = keys.length("flute_length", millimetres);
+    facts.length = keys.length("length", millimetres);
     if (facts.length && facts.flute_length && *facts.flute_length > *facts.length) {
         keys.refuse("flute_length", fmt::format("is {:g} mm, the tool is {:g} mm long",
                                                 *facts.flute_length, *facts.length));
@@ -61,13 +60,11 @@ job::ToolFacts read_facts(JobTable& keys, double millimetres)
 // The cone of a vee, a drill or a taper.
 void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool& tool)
 {
-    constexpr Range kTipAngle{1, 179};     // degrees
-    constexpr Range kTaperAngle{0.1, 60};  // degrees
     constexpr double kTwistDrill = 118;
-    const auto angle = keys.number("tip_angle", kTipAngle);
-    const auto flat = keys.number("tip_diameter", kNotNegative);
+    const auto angle = keys.number("tip_angle");
+    const auto flat = keys.number("tip_diameter");
     const bool tapers = tool.shape == ToolShape::kTaper;
-    const auto taper = keys.number("taper_angle", kTaperAngle);
+    const auto taper = keys.number("taper_angle");
     if (tapers != taper.has_value()) {
         keys.refuse("taper_angle",
                     tapers ? "is missing: a taper needs the angle of its flank from the axis"
@@ -107,8 +104,8 @@ void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool
 
 void read_rates(JobTable& keys, double millimetres, Tool& tool)
 {
-    const auto feed = keys.number("feed", kFeed);
-    const auto plunge_feed = keys.number("plunge_feed", kFeed);
+    const auto feed = keys.number("feed");
+    const auto plunge_feed = keys.number("plunge_feed");
     if (feed) {
         tool.rates.feed = *feed * millimetres;
         tool.rates.plunge_feed = tool.rates.feed / 4;
@@ -116,10 +113,10 @@ void read_rates(JobTable& keys, double millimetres, Tool& tool)
     if (plunge_feed) {
         tool.rates.plunge_feed = *plunge_feed * millimetres;
     }
-    if (const auto spindle = keys.number("spindle", kNotNegative)) {
+    if (const auto spindle = keys.number("spindle")) {
         tool.rates.spindle = spindle;
     }
-    if (const auto coolant = keys.one_of("coolant", {"off", "mist", "flood"})) {
+    if (const auto coolant = keys.choice("coolant")) {
         tool.coolant = *coolant == "off"    ? Coolant::kOff
                        : *coolant == "mist" ? Coolant::kMist
                                             : Coolant::kFlood;
@@ -131,11 +128,10 @@ ReadTool read_tool(const toml::table& table,
                    std::size_t index,
                    double millimetres)
 {
-    JobTable keys{table, file, fmt::format("tool {}", index), tool_keys()};
+    JobTable keys{table, file, fmt::format("tool {}", index), tool_table().keys};
     Tool tool;
-    tool.number = keys.whole_number("number", kToolNumber).value_or(static_cast<int>(index));
-    const std::string shape =
-        keys.one_of("shape", {"ball", "flat", "bull", "vee", "drill", "taper"}).value_or("");
+    tool.number = keys.whole_number("number").value_or(static_cast<int>(index));
+    const std::string shape = keys.choice("shape").value_or("");
     if (shape.empty()) {
         keys.refuse("shape",
                     "is missing: \"ball\", \"flat\", \"bull\", \"vee\", \"drill\" or \"taper\"");
@@ -146,8 +142,8 @@ ReadTool read_tool(const toml::table& table,
                  : shape == "vee"   ? ToolShape::kVee
                  : shape == "drill" ? ToolShape::kDrill
                                     : ToolShape::kTaper;
-    tool.radius = keys.required_number("diameter", kPositive) * millimetres / 2;
-    const auto corner = keys.length("corner_radius", kPositive, millimetres);
+    tool.radius = keys.required_number("diameter") * millimetres / 2;
+    const auto corner = keys.length("corner_radius", millimetres);
     if (tool.shape == ToolShape::kBull && !corner) {
         keys.refuse("corner_radius", "is missing: a bull tool needs it");
     }

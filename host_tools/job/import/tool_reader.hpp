@@ -4,13 +4,9 @@
 #include <string>
 
 #include "host_tools/job/import/job_table.hpp"
-#include "host_tools/job/import/number_ranges.hpp"
 #include "host_tools/job/job/job.hpp"
 
 namespace cusp::import {
-
-// Tool numbers that controllers accept.
-inline constexpr Range kToolNumber{1, 255};
 
 struct ReadTool {
     toolpath::Tool tool;

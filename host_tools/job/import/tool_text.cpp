@@ -8,7 +8,7 @@
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/job/import/number_ranges.hpp"
+#include "host_tools/job/job/keys.hpp"
 
 #include "fmt/format.h"
 
@@ -46,9 +46,9 @@ double length_of(const std::string& text, const char* what, const std::string& f
     if (!unit.empty() && unit != "mm" && unit != "in") {
         refuse(text, fmt::format("\"{}\" is no unit of length: mm or in", unit));
     }
-    if (!(value > 0 && value <= kLargest)) {
+    if (!(value > 0 && value <= job::kLargest)) {
         refuse(text, fmt::format("the {} is {:g}, it must be above 0 and at most {:g}", what, value,
-                                 kLargest));
+                                 job::kLargest));
     }
     if (unit == "in" && !inch) {
         return value * kMillimetresPerInch;

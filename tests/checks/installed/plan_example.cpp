@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host_tools/cam/plan/plan.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 
 namespace {
@@ -22,7 +23,7 @@ try {
     if (argc != 2) {
         return 2;
     }
-    cusp::job::Job job = cusp::import::read_job(argv[1]);
+    cusp::job::Job job = cusp::import::read_job(argv[1], cusp::strategies::all());
     Shares watcher;
     cusp::plan::PlanOptions options;
     options.title = argv[1];

@@ -7,6 +7,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/cam/grid_pocket/grid_pocket.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
@@ -23,7 +24,8 @@ constexpr double kOneInch = 25.4;
 
 Job job_of(const std::string& name)
 {
-    Job job = read_job(CUSP_SOURCE_DIR "/examples/grid_pocket/" + name + ".toml");
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/grid_pocket/" + name + ".toml",
+                       cusp::strategies::all());
     // The main path by itself, as the paper counts it.
     Operation& operation = job.operations.front();
     operation.max_depth.reset();

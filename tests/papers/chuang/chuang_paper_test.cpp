@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/cam/hull_rough/hull_rough.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 PlannedOperation tap(int extra_subdivision)
 {
-    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml");
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml", cusp::strategies::all());
     job.operations.front().extra_subdivision = extra_subdivision;
     return plan_hull_rough(job, job.operations.front()).front();
 }
@@ -44,7 +45,7 @@ TEST(ChuangPaper, TapIsCutInFifteenLayers)
 TEST(ChuangPaper, BoxesToTheirOwnTopsRemoveThreeQuartersOfWhatCanBeRemoved)
 {
     // The 33 slices before thin ones are merged, which raises tops to the layer above.
-    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml");
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml", cusp::strategies::all());
     job.operations.front().extra_subdivision = 0;
     job.operations.front().min_depth = 0;
     const PlannedOperation plan = plan_hull_rough(job, job.operations.front()).front();

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <random>
 
+#include "host_tools/cam/strategies/strategies.hpp"
+
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
 #include "opencascade/BRepPrimAPI_MakeCone.hxx"
@@ -193,7 +195,7 @@ TEST(CadHoles, AJobDrillsThemToTheirDepths)
         "[tool]\nshape = \"drill\"\ndiameter = 5\n[cutting]\nfeed = 100\n[[operation]]\n"
         "strategy = \"drill\"\nboundary = \"part.step\"\n";
     const auto job_of = [&](const std::string& keys) {
-        return read_job(folder.with("job.toml", head + keys));
+        return read_job(folder.with("job.toml", head + keys), cusp::strategies::all());
     };
     const Operation operation = job_of("").operations.front();
     const Prismatic& cut = *operation.prismatic;

@@ -5,6 +5,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "tests/support/example_parts.hpp"
@@ -47,7 +48,10 @@ TEST_GROUP(JobReader)
 {
     cusp::test::TemporaryFolder folder;
 
-    Job read(const std::string& text) { return read_job(folder.with("job.toml", text)); }
+    Job read(const std::string& text)
+    {
+        return read_job(folder.with("job.toml", text), cusp::strategies::all());
+    }
     std::string refused(const std::string& text)
     {
         return cusp::test::refusal([&] { read(text); });
@@ -315,8 +319,9 @@ TEST(JobReader, RefusesBrokenTomlWithItsLine)
 
 TEST(JobReader, RefusesAMissingJob)
 {
-    STRCMP_CONTAINS("No such file",
-                    cusp::test::refusal([&] { read_job(folder.file("none.toml")); }).c_str());
+    STRCMP_CONTAINS("No such file", cusp::test::refusal([&] {
+                                        read_job(folder.file("none.toml"), cusp::strategies::all());
+                                    }).c_str());
 }
 
 TEST(JobReader, RefusesNumbersOutOfRange)

@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "tests/support/example_parts.hpp"
 #include "tests/support/refusal.hpp"
@@ -49,13 +50,14 @@ TEST_GROUP(OneLineJob)
     Job job_of(const OneLineRequest& asked)
     {
         PartFiles parts;
-        const OneLineJob job = one_line_job(asked, parts);
-        return read_job({job.toml, "the call", ""}, parts);
+        const OneLineJob job = one_line_job(asked, cusp::strategies::all(), parts);
+        return read_job({job.toml, "the call", ""}, cusp::strategies::all(), parts);
     }
     bool says(const OneLineRequest& asked, const std::string& words)
     {
         PartFiles parts;
-        const std::vector<std::string> said = one_line_job(asked, parts).said;
+        const std::vector<std::string> said =
+            one_line_job(asked, cusp::strategies::all(), parts).said;
         return std::any_of(said.begin(), said.end(), [&](const std::string& line) {
             return line.find(words) != std::string::npos;
         });
@@ -211,9 +213,11 @@ TEST(OneLineJob, ReadsAPartOnce)
 {
     const OneLineRequest asked = request(0, 2);
     PartFiles parts;
-    const OneLineJob job = one_line_job(asked, parts);
+    const OneLineJob job = one_line_job(asked, cusp::strategies::all(), parts);
     folder.with("ramp.json", "gone");
-    CHECK_EQUAL(1U, read_job({job.toml, "the call", ""}, parts).operations.front().floor.size());
+    CHECK_EQUAL(1U, read_job({job.toml, "the call", ""}, cusp::strategies::all(), parts)
+                        .operations.front()
+                        .floor.size());
 }
 
 TEST(OneLineJob, RefusesPartsThatAreNone)

@@ -6,6 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -39,7 +40,7 @@ TEST_GROUP(Placing)
     job::Job read(const std::string& keys)
     {
         folder.with("w.obj", kWedge);
-        return read_job(folder.with("job.toml", kJob + keys));
+        return read_job(folder.with("job.toml", kJob + keys), cusp::strategies::all());
     }
     PartExtent box(const std::string& keys)
     {
@@ -122,7 +123,9 @@ TEST(Placing, KeepsTheFilesOfOnePlacingTogether)
         "[[operation]]\nstrategy = \"adaptive_isocurve\"\nfloor = [\"a.obj\", \"b.obj\"]\n"
         "scallop = 0.1\n";
     const auto mesh = [&](const std::string& keys) {
-        return read_job(folder.with("job.toml", job + keys)).operations[0].mesh;
+        return read_job(folder.with("job.toml", job + keys), cusp::strategies::all())
+            .operations[0]
+            .mesh;
     };
     const auto together = mesh("[placing]\norigin = \"centre\"\n");
     check_at({-15, -5, -4}, together[0][0]);
@@ -149,7 +152,8 @@ TEST(Placing, TakesDrawingsAlong)
                     "[placing]\nrotate = 90\norigin = \"corner\"\nmove = [100, 0, 0]\n"
                     "[stock]\nmargin = [1, 2]\nmargin_bottom = 4\n"
                     "[[operation]]\nstrategy = \"contour_pocket\"\nfloor = [\"floor.json\"]\n"
-                    "boundary = \"edge.dxf#cut\"\nscallop = 0.1\n"));
+                    "boundary = \"edge.dxf#cut\"\nscallop = 0.1\n"),
+        cusp::strategies::all());
     // the floor's corner (60, 0) was turned to (0, 60): its box was x -40 to 0, y 0 to 60
     check_at({140, 0, 0}, job.operations[0].floor[0].points[0]);
     DOUBLES_EQUAL(105 - 1, (*job.stock_x)[0], 1e-3);
@@ -180,10 +184,13 @@ TEST(Placing, MakesTheSidesOfAPlateByMarginsOfItsDrawing)
                 "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n30\n20\n20\n40\n2\n0\nCIRCLE\n8\n"
                 "0\n10\n70\n20\n-10\n40\n2\n0\nENDSEC\n0\nEOF\n");
     const auto plate = [&](const std::string& stock) {
-        return read_job(folder.with(
-            "plate.toml",
-            "[tool]\nshape = \"drill\"\ndiameter = 4\n[cutting]\nfeed = 500\n[stock]\n" + stock +
-                "[[operation]]\nstrategy = \"drill\"\nboundary = \"holes.dxf\"\ndepth = 3\n"));
+        return read_job(
+            folder.with(
+                "plate.toml",
+                "[tool]\nshape = \"drill\"\ndiameter = 4\n[cutting]\nfeed = 500\n[stock]\n" +
+                    stock +
+                    "[[operation]]\nstrategy = \"drill\"\nboundary = \"holes.dxf\"\ndepth = 3\n"),
+            cusp::strategies::all());
     };
     const job::Job job = plate("margin = [6, 8]\ntop = 1\nbottom = -5\n");
     DOUBLES_EQUAL(24, (*job.stock_x)[0], 1e-9);

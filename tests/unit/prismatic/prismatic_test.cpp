@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/geometry/toolpath/gcode_writer.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/judge/verify/verify.hpp"
@@ -107,7 +108,7 @@ TEST_GROUP(Prismatic)
 
     Job job_of(const std::string& operations) const
     {
-        return read_job(folder.with("job.toml", kHead + operations));
+        return read_job(folder.with("job.toml", kHead + operations), cusp::strategies::all());
     }
 
     // The message with which the operation is refused, on reading or planning.
@@ -247,8 +248,9 @@ TEST(Prismatic, ToolsThatDoNotSuitAreRefused)
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 4\ntool = 3",
             "is more than the flank of tool 3 cuts");
     const std::string vee = "[tool]\nshape = \"vee\"\ndiameter = 6\n[cutting]\nfeed = 1\n";
-    STRCMP_CONTAINS("tip_angle: is missing: a vee tool needs the angle",
-                    refusal([&] { read_job(folder.with("vee.toml", vee)); }).c_str());
+    STRCMP_CONTAINS(
+        "tip_angle: is missing: a vee tool needs the angle",
+        refusal([&] { read_job(folder.with("vee.toml", vee), cusp::strategies::all()); }).c_str());
 }
 
 TEST(Prismatic, KeysOfOtherOperationsAreRefused)
@@ -367,7 +369,9 @@ TEST(Prismatic, CarvingsThatCanNotBeAreRefused)
     STRCMP_CONTAINS(
         "the tip of tool 1, 5 mm wide, fits nowhere between the outlines: the widest "
         "place, at x 20 y 15 mm, has 4 mm",
-        refusal([&] { plan(read_job(folder.with("wide.toml", wide_tip))); }).c_str());
+        refusal([&] {
+            plan(read_job(folder.with("wide.toml", wide_tip), cusp::strategies::all()));
+        }).c_str());
 }
 
 TEST(Prismatic, TheVerifierJudgesCarvings)
@@ -388,17 +392,22 @@ TEST(Prismatic, ATaperIsConicalAboveItsFlatEnd)
     const std::string cut =
         "[cutting]\nfeed = 100\n[[operation]]\nstrategy = \"engrave\"\n"
         "boundary = \"plate.dxf#ring\"\ndepth = 1\n";
-    const Job job = read_job(folder.with("taper.toml", taper + "tip_diameter = 1\n" + cut));
+    const Job job = read_job(folder.with("taper.toml", taper + "tip_diameter = 1\n" + cut),
+                             cusp::strategies::all());
     const Tool& tool = job.operations[0].tool;
     DOUBLES_EQUAL(0, profile_height(tool, 0.5), 1e-12);
     DOUBLES_EQUAL(4, profile_height(tool, 0.5 + 4 * std::tan(10 * 3.14159265358979 / 180)), 1e-9);
     CHECK(std::isinf(profile_height(tool, 3.1)));
     CHECK(verify::verify(job, program_of(job), {}, [](double) {}).broken.empty());
     STRCMP_CONTAINS("tip_diameter: is missing: a taper needs the diameter of its flat end",
-                    refusal([&] { read_job(folder.with("taper.toml", taper + cut)); }).c_str());
+                    refusal([&] {
+                        read_job(folder.with("taper.toml", taper + cut), cusp::strategies::all());
+                    }).c_str());
     const std::string flat = "[tool]\nshape = \"flat\"\ndiameter = 6\ntaper_angle = 10\n" + cut;
     STRCMP_CONTAINS("taper_angle: belongs to a taper, this one is flat",
-                    refusal([&] { read_job(folder.with("taper.toml", flat)); }).c_str());
+                    refusal([&] {
+                        read_job(folder.with("taper.toml", flat), cusp::strategies::all());
+                    }).c_str());
 }
 
 TEST(Prismatic, HolesOfADrawingNeedADepth)
@@ -412,11 +421,13 @@ TEST(Prismatic, HolesOfADrawingNeedADepth)
 TEST(Prismatic, HolesAreCyclesOfThePostsThatHaveThem)
 {
     const auto written = [&](const std::string& keys, const std::string& post) {
-        Job job = read_job(folder.with(
-            "job.toml", "post = \"" + post + "\"\n" + kHead +
+        Job job = read_job(
+            folder.with("job.toml",
+                        "post = \"" + post + "\"\n" + kHead +
                             "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\n"
                             "tool = 2\ndiameter = 3\n" +
-                            keys));
+                            keys),
+            cusp::strategies::all());
         std::ofstream out{folder.file("holes.ngc")};
         write_program(out, {"test", false, job.stock_top + job.clearance, {}, job.post}, plan(job));
         out.close();

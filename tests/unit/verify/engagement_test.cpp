@@ -9,6 +9,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/judge/verify/verify.hpp"
 #include "tests/support/leaks_on_threads.hpp"
@@ -70,7 +71,7 @@ TEST_GROUP(Engagement)
     const EngagementFigures& figures(const std::string& program)
     {
         folder.with("sheet.json", kSheet);
-        const job::Job job = read_job(folder.with("job.toml", kFlatJob));
+        const job::Job job = read_job(folder.with("job.toml", kFlatJob), cusp::strategies::all());
         result = verify::verify(job, folder.with("p.ngc", kHead + program + "G0 Z5\nM30\n"),
                                 settings, [](double) {});
         return *result.figures.engagement;

@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/refusal.hpp"
@@ -92,7 +93,7 @@ TEST_GROUP(Verify)
     {
         folder.with("plane.json", kPlane);
         folder.with("wall.json", kWall);
-        const Job job = read_job(folder.with("job.toml", kJob + more));
+        const Job job = read_job(folder.with("job.toml", kJob + more), cusp::strategies::all());
         return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {});
     }
 };
@@ -115,7 +116,8 @@ TEST(Verify, TellsWhatEachToolCut)
 {
     folder.with("plane.json", kPlane);
     const std::string second = "[[tool]]\nshape = \"flat\"\ndiameter = 8\nnumber = 7\n";
-    const Job job = read_job(folder.with("job.toml", "[[tool]]" + kJob.substr(7) + second));
+    const Job job = read_job(folder.with("job.toml", "[[tool]]" + kJob.substr(7) + second),
+                             cusp::strategies::all());
     // a groove of the flat end 2 mm deep, and one of the ball 4.5 mm deep
     // the job's first tool is used for the moves before the first T word, which cut nothing
     const std::string program =
@@ -175,7 +177,8 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
             folder.with("job.toml",
                         "[tool]\nshape = \"flat\"\ndiameter = 2\n[cutting]\nfeed = 1000\n"
                         "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
-                        "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"));
+                        "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"),
+            cusp::strategies::all());
         const std::string program = "G21 G90\nG0 Z5\nG0 X1 Y1\n" + moves + "M30\n";
         return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
     };
@@ -234,7 +237,8 @@ TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
         folder.with("slot.toml",
                     "[tool]\nshape = \"ball\"\ndiameter = 3\n[cutting]\nfeed = 1000\n"
                     "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"slot.json\"\n"
-                    "step_over = 1\nscallop = 0.02\nfloor_tolerance = 0.001\n"));
+                    "step_over = 1\nscallop = 0.02\nfloor_tolerance = 0.001\n"),
+        cusp::strategies::all());
     const auto verdict_of = [&](double left_out) {
         std::string text = "G21 G90\nG0 Z5\nG0 X0 Y0\n";
         char line[96];
@@ -270,7 +274,7 @@ TEST(Verify, AsksForNoCutWhereOnlyTheScallopStandsAtFirst)
 TEST(Verify, RefusesOnePlaceThatWasLeftOut)
 {
     folder.with("plane.json", kPlane);
-    const Job job = read_job(folder.with("job.toml", kJob));
+    const Job job = read_job(folder.with("job.toml", kJob), cusp::strategies::all());
     std::string program = passes(-5, 2);
     const std::string row = "G1 Y8.0000 Z-5.0000 F1000\nG1 X30\n";
     const std::size_t at = program.find(row);
@@ -307,7 +311,7 @@ TEST(Verify, RefusesNoSliverThinnerThanTheTolerance)
                                   level(0, 15, 0, 20, -1) + "," + level(15, 30, 4, 16, -5) + "]}}");
     std::string text = kJob;
     text.replace(text.find("scallop = 0.2"), 13, "scallop = 0.1");
-    const Job job = read_job(folder.with("job.toml", text));
+    const Job job = read_job(folder.with("job.toml", text), cusp::strategies::all());
     std::string program = "G21 G90\nG0 Z5\n";
     const auto pass = [&](double x, double z) {
         char line[96];

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Writes the tables of docs/job_file.md from the keys that cusp knows, or compares them.
+
+usage: job_tables.py CUSP PAGE [--write]
+A table stands between <!-- keys: NAME --> and <!-- end of keys -->. NAME is a table of the job, `operation` (keys of all
+operations), `strategies` (keys of some) or `tabs`.
+Exit status: 0 page and keys agree, or the page is written; 1 they differ; 2 cusp has no schema, the page no tables.
+"""
+import difflib
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+PLACE = re.compile(r"(?<=<!-- keys: )(\w+)( -->\n).*?(?=<!-- end of keys -->)", re.DOTALL)
+HEAD = "| key | default | means |\n|---|---|---|\n"
+
+
+def variants(form):
+    return form.get("anyOf", [form])
+
+
+def properties_of(form):
+    return next(variant["properties"] for variant in variants(form) if "properties" in variant)
+
+
+def choices_of(form):
+    return form.get("enum", [])
+
+
+def default_of(form):
+    default = form["x-default"]
+    return f'`"{default}"`' if default in choices_of(form) else "" if default == "none" else default
+
+
+def meaning_of(form):
+    help_text = form["description"]
+    left = [f'`"{choice}"`' for choice in choices_of(form)
+            if f'"{choice}"' not in help_text and choice != form["x-default"]]
+    return f"{help_text}; {', '.join(left)}" if left else help_text
+
+
+def row(name, form, of=""):
+    return f"| `{name}` | {default_of(form)} | {of}{meaning_of(form)} |\n"
+
+
+def table(properties):
+    return HEAD + "".join(row(name, form) for name, form in properties.items())
+
+
+def strategies_of(schema):
+    """name -> properties, in order."""
+    operation = variants(schema["properties"]["operation"])[0]
+    return {branch["if"]["properties"]["strategy"]["const"]: branch["then"]["properties"] for branch in operation["allOf"]}
+
+
+def told_apart(schema):
+    """Keys of all operations; of the others a row for each meaning, with the strategies that have it."""
+    strategies = strategies_of(schema)
+    common, rows = {}, {}
+    for strategy, properties in strategies.items():
+        for name, form in properties.items():
+            rows.setdefault((name, json.dumps(form)), []).append(strategy)
+    names = {}
+    for (name, form), of in rows.items():
+        names.setdefault(name, []).append((json.loads(form), of))
+    text = HEAD
+    for name, forms in names.items():
+        most = max(forms, key=lambda each: len(each[1]))
+        if sum(len(of) for _, of in forms) == len(strategies):
+            common[name] = most[0]
+            forms = [each for each in forms if each is not most]
+        for form, of in forms:
+            text += row(name, form, ", ".join(f"`{each}`" for each in of) + ": ")
+    return table(common), text
+
+
+def tables_of(schema):
+    out = {name: table(properties_of(form)) for name, form in schema["properties"].items()
+           if name != "operation" and any("properties" in variant for variant in variants(form))}
+    out["job"] = table({name: form for name, form in schema["properties"].items()
+                        if name not in out and name != "operation"})
+    out["tabs"] = table(strategies_of(schema)["profile"]["tabs"]["properties"])
+    out["operation"], out["strategies"] = told_apart(schema)
+    return out
+
+
+def main(arguments):
+    cusp, page = arguments[1], pathlib.Path(arguments[2])
+    text = page.read_text()
+    run = subprocess.run([cusp, "plan", "--schema"], capture_output=True, text=True)
+    if run.returncode != 0 or not PLACE.search(text):
+        print(f"job_tables: no schema, or no tables in {page}: {run.stderr}", file=sys.stderr)
+        return 2
+    tables = tables_of(json.loads(run.stdout))
+    missing = set(tables) - {place[1] for place in PLACE.finditer(text)}
+    made = PLACE.sub(lambda place: place[1] + place[2] + tables[place[1]], text)
+    if "--write" in arguments:
+        page.write_text(made)
+    elif made != text:
+        sys.stdout.writelines(difflib.unified_diff(text.splitlines(True), made.splitlines(True), str(page), "cusp plan --schema"))
+    for name in sorted(missing):
+        print(f"{page}: has no table of {name}")
+    return 1 if missing or ("--write" not in arguments and made != text) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))

@@ -1,0 +1,326 @@
+// One row a key.
+#include "host_tools/job/import/job_key_tables.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "host_tools/job/job/operation_keys.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using job::kAnyNumber;
+using job::Key;
+using job::KeyTable;
+using job::kFeed;
+using job::kNotNegative;
+using job::kPositive;
+using Kind = job::KeyKind;
+
+namespace {
+
+std::vector<std::string> names_of(const job::Strategies& strategies)
+{
+    std::vector<std::string> names;
+    std::transform(strategies.begin(), strategies.end(), std::back_inserter(names),
+                   [](const job::Strategy* strategy) { return strategy->name; });
+    return names;
+}
+
+void refuse_keys_of_others(const JobTable& table,
+                           const job::Strategies& strategies,
+                           const job::Strategy& strategy)
+{
+    constexpr std::size_t kFew = 6;  // more names don't help
+    const std::vector<Key> known = job::keys_of(strategy);
+    for (const Key& key : job::all_keys(strategies)) {
+        if (!table.has(key.name.c_str()) || job::find_key(known, key.name) != nullptr) {
+            continue;
+        }
+        const auto names = names_of(job::strategies_with(strategies, key.name));
+        table.refuse(key.name.c_str(), names.size() > kFew
+                                           ? fmt::format("is no key of {}", strategy.name)
+                                           : fmt::format("is a key of {}, not of {}",
+                                                         fmt::join(names, ", "), strategy.name));
+    }
+}
+
+}  // namespace
+
+const KeyTable& job_table()
+{
+    static const KeyTable kTable{
+        "",
+        "The file itself.",
+        {{"units",
+          Kind::kChoice,
+          "mm",
+          "of this file, of JSON, STL, OBJ and DXF parts without a unit of their own, and of the "
+          "G-code (G20, G21)",
+          {},
+          {"mm", "inch"}},
+         {"tool", Kind::kTables, "needed without `library`", "the tools", {}, {}, tool_table},
+         {"library", Kind::kText, "none",
+          "file of tools, `.toml`; or one that comes with the program: `\"wood\"`, `\"plastics\"`, "
+          "`\"aluminium\"`"},
+         {"cutting",
+          Kind::kTable,
+          "needed, unless all tools have a feed",
+          "rates of tools without their own",
+          {},
+          {},
+          cutting_table},
+         {"stock", Kind::kTable, "none", "what is cut from", {}, {}, stock_table},
+         {"placing",
+          Kind::kTables,
+          "none",
+          "how files of parts and drawings lie",
+          {},
+          {},
+          placing_table},
+         {"fixture", Kind::kTables, "none", "what holds the stock", {}, {}, fixture_table},
+         {"post", Kind::kText, "cusp",
+          "the controller to write for: `\"grbl\"`, `\"grblhal\"`, `\"linuxcnc\"`, `\"mach3\"`, "
+          "`\"fanuc\"`, or a file `.toml` (`docs/posts.md`)"},
+         {"operation", Kind::kTables, "needed", "what is cut, in order"},
+         {"group_by_tool", Kind::kFlag, "true",
+          "operations whose cuts lie beside each other change places where that saves a change of "
+          "tool; false: the order of the job"},
+         {"setup",
+          Kind::kTables,
+          "none",
+          "how the stock is clamped, time after time",
+          {},
+          {},
+          setup_table}}};
+    return kTable;
+}
+
+const KeyTable& library_table()
+{
+    static const KeyTable kTable{
+        "library",
+        "A file of tools.",
+        {{"units",
+          Kind::kChoice,
+          "needed",
+          "of the library's lengths and feeds",
+          {},
+          {"mm", "inch"}},
+         {"tool", Kind::kTables, "needed", "the tools; each has a `name`", {}, {}, tool_table}}};
+    return kTable;
+}
+
+const KeyTable& tool_table()
+{
+    static const KeyTable kTable{
+        "tool",
+        "A tool; several are `[[tool]]`.",
+        {{"number", Kind::kCount, "its place", "the T word", job::kToolNumber},
+         {"shape",
+          Kind::kChoice,
+          "needed",
+          "`\"taper\"`: a flat end or a ball under slanted flanks",
+          {},
+          {"ball", "flat", "bull", "vee", "drill", "taper"}},
+         {"diameter", Kind::kLength, "needed", "of a taper at its upper end", kPositive},
+         {"corner_radius", Kind::kLength, "bull: needed",
+          "of a bull-nose end; of a taper that of a ball at its tip, in place of `tip_diameter`",
+          kPositive},
+         {"tip_angle",
+          Kind::kAngle,
+          "vee: needed; drill: 118",
+          "degrees between the flanks",
+          {1, 179}},
+         {"taper_angle",
+          Kind::kAngle,
+          "taper: needed",
+          "degrees of the flank from the axis; `diameter` is that at its upper end",
+          {0.1, 60}},
+         {"tip_diameter", Kind::kLength, "vee: 0; taper: this or `corner_radius`",
+          "of the flat at the tip", kNotNegative},
+         {"name", Kind::kText, "none",
+          "what operations may name it by, and the program's comments do"},
+         {"flutes", Kind::kCount, "none", "number of teeth, for people", {1, 20}},
+         {"flute_length", Kind::kLength, "none", "of the teeth, from the tip", kPositive},
+         {"length", Kind::kLength, "none", "out of the holder, from the tip", kPositive},
+         {"shank_diameter", Kind::kLength, "none",
+          "of the shank above the flutes; needs `flute_length`", kPositive},
+         {"holder", Kind::kPairs, "none",
+          "`[[diameter, length], ...]`: cylinders from the holder's lower face up; needs `length`",
+          kPositive},
+         {"holder_clearance", Kind::kLength, "0.5 mm",
+          "that the shank and the holder keep to stock, to the sides and downward", kNotNegative},
+         {"feed", Kind::kRate, "of `[cutting]`", "of this tool", kFeed},
+         {"plunge_feed", Kind::kRate, "of `[cutting]`",
+          "of this tool; a `feed` without it makes it a quarter of itself", kFeed},
+         {"spindle", Kind::kNumber, "of `[cutting]`", "rpm, of this tool", kNotNegative},
+         {"coolant",
+          Kind::kChoice,
+          "off",
+          "`\"mist\"` (M7), `\"flood\"` (M8)",
+          {},
+          {"off", "mist", "flood"}}}};
+    return kTable;
+}
+
+const KeyTable& cutting_table()
+{
+    static const KeyTable kTable{
+        "cutting",
+        "Rates of tools without their own.",
+        {{"feed", Kind::kRate, "needed, unless all tools have one", "of cuts and links", kFeed},
+         {"plunge_feed", Kind::kRate, "a quarter of `feed`",
+          "down into stock; on a slope this over its sine", kFeed},
+         {"spindle", Kind::kNumber, "0", "rpm", kNotNegative}}};
+    return kTable;
+}
+
+const KeyTable& stock_table()
+{
+    static const KeyTable kTable{
+        "stock",
+        "What is cut from; all optional.",
+        {{"top", Kind::kLength, "the parts', at least 0",
+          "z of the stock's top: by default the highest place of the floors, or 0 where all lies "
+          "below"},
+         {"clearance", Kind::kLength, "5 mm", "rapid moves are made this far above the top",
+          kPositive},
+         {"bottom", Kind::kLength, "the parts' box", "z of the stock's bottom"},
+         {"x", Kind::kExtent, "the parts' box", "of the stock, seen from above"},
+         {"y", Kind::kExtent, "the parts' box", "of the stock, seen from above"},
+         {"margin", Kind::kMargin, "none",
+          "in place of `x` and `y`: how far the stock reaches beyond the parts; one number, or "
+          "`[in x, in y]`",
+          kNotNegative},
+         {"margin_top", Kind::kLength, "none", "in place of `top`: above the parts' highest place",
+          kNotNegative},
+         {"margin_bottom", Kind::kLength, "none",
+          "in place of `bottom`: below the parts' lowest place", kNotNegative},
+         {"program", Kind::kFiles, "none",
+          "program, or list of programs, that were cut before: the stock of all operations is what "
+          "they leave (Rest machining, below)"},
+         {"least_floor", Kind::kLength, "0.5 mm", "between the cuts of two sides (Set-ups, below)",
+          kNotNegative},
+         {"outline", Kind::kText, "none",
+          "in place of `x` and `y`: the stock's outline, a drawing as `boundary` names it: "
+          "`\"bar.dxf#stock\"` (Stock of any outline, below)"}}};
+    return kTable;
+}
+
+const KeyTable& placing_table()
+{
+    static const KeyTable kTable{
+        "placing",
+        "How files lie; all optional, in the order in which they act.",
+        {{"file", Kind::kFiles, "all others", "the file or files that the table is for"},
+         {"scale", Kind::kNumber, "1", "factor", job::kScale},
+         {"up",
+          Kind::kChoice,
+          "+z",
+          "the file's axis that points up",
+          {},
+          {"+x", "-x", "+y", "-y", "+z", "-z"}},
+         {"rotate",
+          Kind::kNumbers,
+          "0",
+          "degrees: about z, or `[x, y, z]`, about x first",
+          {-360, 360}},
+         {"origin",
+          Kind::kChoice,
+          "the file's",
+          "`\"top\"`: the part's top at z = 0; `\"corner\"`: also its least x and y at 0; "
+          "`\"centre\"`: also its middle in x and y at 0",
+          {},
+          {"corner", "centre", "top"}},
+         {"move", Kind::kLengths, "`[0, 0, 0]`", "`[x, y, z]`, after all else"}}};
+    return kTable;
+}
+
+const KeyTable& fixture_table()
+{
+    static const KeyTable kTable{
+        "fixture",
+        "What holds the stock; any number of `[[fixture]]`.",
+        {{"name", Kind::kText, "its place", "for messages"},
+         {"x", Kind::kExtent, "of a box: needed", "of the box, seen from above"},
+         {"y", Kind::kExtent, "of a box: needed", "of the box, seen from above"},
+         {"centre", Kind::kLengths, "of a vertical cylinder: needed", "`[x, y]`"},
+         {"diameter", Kind::kLength, "of a vertical cylinder: needed", "of the cylinder",
+          kPositive},
+         {"top", Kind::kLength, "needed", "z; below it there is the fixture, down to the table"},
+         {"margin", Kind::kLength, "1 mm", "that tools keep from it", kNotNegative},
+         {"setup", Kind::kText, "all", "name of the set-up that it holds in"}}};
+    return kTable;
+}
+
+const KeyTable& setup_table()
+{
+    static const KeyTable kTable{"setup",
+                                 "How the stock is clamped; `[[setup]]` for each time.",
+                                 {{"name", Kind::kText, "needed",
+                                   "letters, digits, `_`, `-`: part of the program's file name"},
+                                  {"offset",
+                                   Kind::kChoice,
+                                   "by its place",
+                                   "the work offset of its program; each set-up has its own",
+                                   {},
+                                   {"G54", "G55", "G56", "G57", "G58", "G59"}},
+                                  {"flip",
+                                   Kind::kChoice,
+                                   "none",
+                                   "the stock is turned over about a line along that axis",
+                                   {},
+                                   {"x", "y"}}}};
+    return kTable;
+}
+
+const KeyTable& post_table()
+{
+    // Fewer decimals would round by more than tolerances are; a controller reads no more than six.
+    static const KeyTable kTable{
+        "post",
+        "A controller to write for, a file of its own.",
+        {{"mm_decimals", Kind::kCount, "needed", "of coordinates in mm", {3, 6}},
+         {"inch_decimals", Kind::kCount, "needed", "of coordinates in inches", {4, 6}},
+         {"arcs", Kind::kChoice, "needed", "centre or radius of an arc", {}, {"IJ", "R"}},
+         {"nurbs", Kind::kFlag, "needed", "it knows G6.2"},
+         {"drill_cycles", Kind::kFlag, "false", "it knows G81 and G83"},
+         {"point", Kind::kFlag, "needed", "whole numbers have a point"},
+         {"comments", Kind::kChoice, "needed", "how a comment is written", {}, {"()", ";", "none"}},
+         {"line_numbers", Kind::kCount, "0", "step between N words; 0: none", {0, 1000}},
+         {"begin", Kind::kTexts, "needed", "first lines"},
+         {"modes", Kind::kTexts, "needed", "lines that set the modes"},
+         {"exact_path", Kind::kTexts, "needed", "lines for the exact path"},
+         {"blend", Kind::kTexts, "needed", "lines for `--blend`"},
+         {"header", Kind::kTexts, "needed", "lines after the modes"},
+         {"first_tool", Kind::kTexts, "needed", "lines for the first tool"},
+         {"next_tool", Kind::kTexts, "needed", "lines for a change of tool"},
+         {"spindle_on", Kind::kTexts, "needed", "lines that start the spindle"},
+         {"mist", Kind::kTexts, "needed", "lines for mist"},
+         {"flood", Kind::kTexts, "needed", "lines for flood"},
+         {"coolant_off", Kind::kTexts, "needed", "lines that stop the coolant"},
+         {"after_tool", Kind::kTexts, "needed", "lines after a tool's cuts"},
+         {"footer", Kind::kTexts, "needed", "lines before the end"},
+         {"end", Kind::kTexts, "needed", "last lines"}}};
+    return kTable;
+}
+
+const job::Strategy& strategy_of(JobTable& operation, const job::Strategies& strategies)
+{
+    const auto name = operation.text("strategy");
+    if (!name) {
+        operation.refuse("strategy", "is missing");
+    }
+    const job::Strategy* const strategy = find_strategy(strategies, *name);
+    if (strategy == nullptr) {
+        operation.refuse("strategy", fmt::format("is \"{}\", known are \"{}\"", *name,
+                                                 fmt::join(names_of(strategies), "\", \"")));
+    }
+    refuse_keys_of_others(operation, strategies, *strategy);
+    return *strategy;
+}
+
+}  // namespace cusp::import

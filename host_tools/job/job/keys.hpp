@@ -1,0 +1,84 @@
+// A key of a job file: its kind, range, default and help. One table of them is what the reader checks
+// by, and what `cusp plan --help-job`, `--schema` and the tables of docs/job_file.md are made of.
+//
+//     const Key depth{"depth", KeyKind::kLength, "needed", "below `top`", kPositive};
+//     const Key side{"side", KeyKind::kChoice, "outside", "of the loops", {}, {"outside", "inside"}};
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cusp::job {
+
+// Of a number as the file has it, in the file's unit.
+struct Range {
+    double low;
+    double high;
+    bool above_low{false};  // `low` itself is not allowed
+};
+
+// mm, mm/min, rpm
+inline constexpr double kLargest = 1e6;
+inline constexpr Range kPositive{0, kLargest, true};
+inline constexpr Range kNotNegative{0, kLargest};
+inline constexpr Range kAnyNumber{-kLargest, kLargest};
+// G-code has coordinates to 1e-4 mm and feeds to 1e-3 mm/min.
+inline constexpr Range kTolerance{1e-5, kLargest};  // mm
+inline constexpr Range kScale{1e-6, kLargest};      // of a part
+inline constexpr Range kFeed{0.01, kLargest};       // mm/min
+inline constexpr Range kToolNumber{1, 255};         // T word
+
+enum class KeyKind : std::uint8_t {
+    kLength,    // in the file's unit; converted to mm
+    kRate,      // lengths a minute; converted to mm/min
+    kNumber,    // without a unit, or rpm
+    kAngle,     // degrees
+    kCount,     // a whole number
+    kFlag,      // true or false
+    kText,      // in quotes
+    kChoice,    // one of the choices
+    kFiles,     // a text, or a list of texts
+    kTexts,     // a list of texts
+    kLengths,   // a list of lengths
+    kNumbers,   // a number, or a list of numbers
+    kMargin,    // a length, or two
+    kExtent,    // [least, greatest], lengths
+    kInterval,  // a length, or [least, greatest]
+    kPairs,     // a list of pairs of lengths
+    kTool,      // number or name of a tool
+    kTools,     // a list of these
+    kTable,     // a table, or values in braces
+    kTables     // one table or several
+};
+
+// The kind in words, such as "length" or "number or name of a tool".
+const char* words_of(KeyKind kind);
+
+struct KeyTable;
+
+struct Key {
+    std::string name;
+    KeyKind kind;
+    // The value without the key: a number (in mm, degrees, rpm), a choice, "true" or "false"; other
+    // words, such as "needed", are for people.
+    std::string otherwise;
+    std::string help;  // one line
+    Range range{kAnyNumber};
+    std::vector<std::string> choices{};
+    const KeyTable& (*members)(){nullptr};  // of a table
+
+    // The number that `otherwise` begins with. Throws std::logic_error where it has none.
+    double number_otherwise() const;
+};
+
+struct KeyTable {
+    std::string name;  // as in [name]
+    std::string help;
+    std::vector<Key> keys;
+};
+
+// The one of that name; null where there is none.
+const Key* find_key(const std::vector<Key>& keys, const std::string& name);
+
+}  // namespace cusp::job

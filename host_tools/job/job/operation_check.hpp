@@ -1,0 +1,29 @@
+// Checks of an operation by its keys, for the `check` of strategies' records.
+#pragma once
+
+#include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/strategy.hpp"
+
+namespace cusp::job {
+
+// What the strategy's record checks, then that no island lies outside the boundary. Throws InputError.
+void check_operation(const Strategy& strategy, const Operation& operation, const Refuse& refuse);
+
+// Refuses the key as missing where it is not there.
+//
+// what  that the strategy needs it for
+void need(bool there,
+          const char* key,
+          const char* what,
+          const Operation& operation,
+          const Refuse& refuse);
+// Cones cut no surfaces.
+void check_end(const Operation& operation, const Refuse& refuse);
+// Of strategies that always finish: min_depth has no effect without layers.
+void check_least_depth(const Operation& operation, const Refuse& refuse);
+// Of a pocket with walls: its boundary, scallop, layers and roughing.
+void check_pocket(const Operation& operation, const Refuse& refuse);
+// Of passes over surfaces that may rough first: adaptive clearing needs roughing.
+void check_adaptive_roughing(const Operation& operation, const Refuse& refuse);
+
+}  // namespace cusp::job

@@ -1,0 +1,233 @@
+// One row a key.
+#include "host_tools/job/job/operation_keys.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+namespace cusp::job {
+namespace {
+
+using Kind = KeyKind;
+
+// Of parts, tolerances and levels.
+const std::vector<Key>& part_keys()
+{
+    static const std::vector<Key> kKeys{
+        {"floor", Kind::kFiles, "needed",
+         "files of surfaces, together the part: nothing is cut below any of them"},
+        {"intersect", Kind::kFiles, "none",
+         "files of more bodies: the part is what lies below the floor and below each of them"},
+        {"islands", Kind::kFiles, "none", "files of closed loops that stay"},
+        {"output",
+         Kind::kChoice,
+         "lines",
+         "`\"lines\"` (G1), `\"arcs\"` (G2, G3 too), `\"nurbs\"` (G6.2 too)",
+         {},
+         {"lines", "arcs", "nurbs"}},
+        {"scallop", Kind::kLength, "see strategies",
+         "most that may be left where the tool reaches, square to the surface, tolerance included",
+         kTolerance},
+        {"join_gaps", Kind::kLength, "see below",
+         "largest gap between ends of curves of a drawing that is closed (Loops of a drawing, "
+         "below); 0.001 mm at least",
+         kNotNegative},
+        {"tolerance_side",
+         Kind::kChoice,
+         "outside",
+         "never below the surface nor through a wall; `\"both\"`: half the tolerance to either "
+         "side",
+         {},
+         {"outside", "both"}},
+        {"direction_of_cut",
+         Kind::kChoice,
+         "climb",
+         "side of the tool that is in the material",
+         {},
+         {"climb", "conventional"}},
+        {"entry",
+         Kind::kChoice,
+         "auto",
+         "into pockets; auto takes the first of helix, ramp and plunge that has room",
+         {},
+         {"auto", "helix", "ramp", "plunge"}},
+        {"traversal", Kind::kChoice, "zigzag", "of neighbouring passes", {}, {"zigzag", "one_way"}},
+        {"allowance", Kind::kLength, "0", "what roughing leaves on the floor and the walls",
+         kNotNegative},
+        {"max_depth", Kind::kLength, "none",
+         "deepest cut of a layer; with it pockets are cut in layers", kPositive},
+        {"min_depth", Kind::kLength, "none", "thinnest layer", kNotNegative},
+        {"layers", Kind::kLengths, "none",
+         "depths of layers below the stock's top, in place of equal ones", kPositive},
+    };
+    return kKeys;
+}
+
+// Of tools, passes and rates.
+const std::vector<Key>& pass_keys()
+{
+    static const std::vector<Key> kKeys{
+        {"tools", Kind::kTools, "the tool",
+         "numbers or names of roughing tools; the largest first cuts what it can", kToolNumber},
+        {"step_over", Kind::kLength, "the tool's", "the most between passes", kPositive},
+        {"clearing",
+         Kind::kChoice,
+         "contour",
+         "or `\"adaptive\"`: passes of bounded engagement (`docs/strategies.md`)",
+         {},
+         {"contour", "adaptive"}},
+        {"max_engagement",
+         Kind::kAngle,
+         "60",
+         "with `\"adaptive\"`: degrees of the tool's circumference in stock; in pockets a "
+         "`step_over` is the width of a straight cut, and the stricter counts",
+         {20, 150}},
+        {
+            "chip_load",
+            Kind::kFlag,
+            "false",
+            "the feed follows the engagement (`docs/strategies.md`); of flat ends",
+        },
+        {"feed_min", Kind::kRate, "the feed", "with `chip_load`: least F word", kFeed},
+        {"feed_max", Kind::kRate, "twice the feed", "with `chip_load`: largest F word", kFeed},
+        {"iso_distance", Kind::kLength, "this or `scallop`",
+         "neighbours are at most this far apart (the paper's delta)", kPositive},
+        {"direction",
+         Kind::kChoice,
+         "u",
+         "passes run along u or v; of planes along x or y",
+         {},
+         {"u", "v"}},
+        {"roughing", Kind::kFlag, "false", "rough in levels of `max_depth` before the finish"},
+        {"depth", Kind::kLength, "needed", "below `top`: of the floor, or of the tool's tip",
+         kPositive},
+        {"top", Kind::kLength, "where the last `face` ended, else the stock's top",
+         "z at which the operation begins"},
+        {"may_open", Kind::kFlag, "false",
+         "its cut may open into that of the other side (Set-ups, below)"},
+    };
+    return kKeys;
+}
+
+}  // namespace
+
+const std::vector<Key>& common_keys()
+{
+    static const std::vector<Key> kKeys{
+        {"strategy", Kind::kText, "needed", "one of the strategies"},
+        {"boundary", Kind::kText, "pockets and 2.5-D: needed",
+         "file of closed loops or curves, such as `\"plate.dxf#outline\"`"},
+        {"tool", Kind::kTool, "the first", "number or name of the tool", kToolNumber},
+        {"setup", Kind::kText, "the first", "name of the set-up in which it is cut"},
+        {"feed", Kind::kRate, "the tool's", "of this operation, for all its tools", kFeed},
+        {"plunge_feed", Kind::kRate, "the tool's",
+         "of this operation; a `feed` without it makes it a quarter of itself", kFeed},
+        {"spindle", Kind::kNumber, "the tool's", "rpm, of this operation", kNotNegative},
+        {"coolant",
+         Kind::kChoice,
+         "the tool's",
+         "`\"mist\"` (M7), `\"flood\"` (M8)",
+         {},
+         {"off", "mist", "flood"}},
+        {"floor_tolerance", Kind::kLength, "0.02 mm", "of the path against the floor", kTolerance},
+        {"plan_tolerance", Kind::kLength, "0.02 mm", "across walls, seen from above", kTolerance},
+        {"after", Kind::kFiles, "none",
+         "program, or list of programs, that were cut before this operation (Rest machining, "
+         "below)"},
+        {"rest_tolerance",
+         Kind::kLength,
+         "see below",
+         "with `after` or the stock's `program`: stock that is thinner stays",
+         {0.001, 1}},
+    };
+    return kKeys;
+}
+
+std::vector<Key> shared_keys(const std::vector<std::string>& names)
+{
+    std::vector<Key> keys;
+    for (const std::string& name : names) {
+        const Key* key = find_key(part_keys(), name);
+        key = key == nullptr ? find_key(pass_keys(), name) : key;
+        if (key == nullptr) {
+            throw std::logic_error("no shared key " + name);
+        }
+        keys.push_back(*key);
+    }
+    return keys;
+}
+
+std::vector<Key> surface_keys(const std::vector<std::string>& names)
+{
+    std::vector<std::string> all{"floor",     "intersect", "islands",        "output",
+                                 "scallop",   "join_gaps", "tolerance_side", "direction_of_cut",
+                                 "entry",     "traversal", "allowance",      "max_depth",
+                                 "min_depth", "layers",    "clearing",       "max_engagement",
+                                 "chip_load", "feed_min",  "feed_max"};
+    all.insert(all.end(), names.begin(), names.end());
+    return shared_keys(all);
+}
+
+const KeyTable& tabs_table()
+{
+    static const KeyTable kTable{
+        "tabs",
+        "Bridges that hold a part while it is cut free.",
+        {{"count", Kind::kCount, "this or `places`", "on each loop, evenly spaced", {1, 1000}},
+         {"places", Kind::kLengths, "this or `count`", "`[x, y, x, y]`: each on the nearest loop"},
+         {"width", Kind::kLength, "needed", "of the part at full height, along the loop",
+          kPositive},
+         {"height", Kind::kLength, "needed", "over the bottom of the cut; below its depth",
+          kPositive},
+         {"shape",
+          Kind::kChoice,
+          "ramp",
+          "slopes of 1 : 2 at both sides, or `\"square\"`: vertical ends",
+          {},
+          {"ramp", "square"}}}};
+    return kTable;
+}
+
+std::vector<Key> keys_of(const Strategy& strategy)
+{
+    std::vector<Key> keys;
+    const auto add = [&](const std::vector<Key>& more) {
+        std::copy_if(more.begin(), more.end(), std::back_inserter(keys),
+                     [&](const Key& key) { return find_key(keys, key.name) == nullptr; });
+    };
+    add(strategy.own);  // first: its defaults count
+    add(common_keys());
+    add(strategy.keys);
+    return keys;
+}
+
+std::vector<Key> all_keys(const Strategies& strategies)
+{
+    std::vector<Key> keys = common_keys();
+    for (const Strategy* const strategy : strategies) {
+        for (const Key& key : keys_of(*strategy)) {
+            if (find_key(keys, key.name) == nullptr) {
+                keys.push_back(key);
+            }
+        }
+    }
+    return keys;
+}
+
+Strategies strategies_with(const Strategies& strategies, const std::string& key)
+{
+    Strategies with;
+    std::copy_if(
+        strategies.begin(), strategies.end(), std::back_inserter(with),
+        [&](const Strategy* strategy) { return find_key(keys_of(*strategy), key) != nullptr; });
+    return with;
+}
+
+const Strategy* find_strategy(const Strategies& strategies, const std::string& name)
+{
+    const auto found = std::find_if(strategies.begin(), strategies.end(),
+                                    [&](const Strategy* s) { return s->name == name; });
+    return found == strategies.end() ? nullptr : *found;
+}
+
+}  // namespace cusp::job

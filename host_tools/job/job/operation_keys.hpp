@@ -1,0 +1,25 @@
+// The keys that several strategies share; a strategy's record names those that it takes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/job/job/strategy.hpp"
+
+namespace cusp::job {
+
+// Keys that every operation has.
+const std::vector<Key>& common_keys();
+// Of the shared keys those of these names. Throws std::logic_error where there is none of a name.
+std::vector<Key> shared_keys(const std::vector<std::string>& names);
+// What all strategies on surfaces take, then the keys of these names.
+std::vector<Key> surface_keys(const std::vector<std::string>& names = {});
+// `tabs` of a profile.
+const KeyTable& tabs_table();
+
+// Every key that some strategy takes, once each.
+std::vector<Key> all_keys(const Strategies& strategies);
+// The strategies that take the key, in their order.
+Strategies strategies_with(const Strategies& strategies, const std::string& key);
+
+}  // namespace cusp::job
