@@ -60,7 +60,7 @@ struct PlanArguments {
 };
 
 // Whether the call asks for words on jobs alone; prints them.
-bool explain_jobs(const PlanOptions& options)
+bool explain_jobs(const PlanArguments& options)
 {
     if (options.schema) {
         fmt::print("{}", job_schema(strategies::all()));
@@ -178,7 +178,7 @@ int run_plan(PlanArguments& options)
     return kDone;
 }
 
-int run_call(const CLI::App& command, PlanOptions& options)
+int run_call(const CLI::App& command, PlanArguments& options)
 {
     options.help_job = command.count("--help-job") > 0;
     if (explain_jobs(options)) {
@@ -188,7 +188,7 @@ int run_call(const CLI::App& command, PlanOptions& options)
     return run_plan(options);
 }
 
-void add_explaining_options(CLI::App& command, PlanOptions& options)
+void add_explaining_options(CLI::App& command, PlanArguments& options)
 {
     command
         .add_option("--help-job", options.help_strategy,

@@ -170,7 +170,7 @@ void Fitter::read(std::string_view text)
     while (interpreter_.next(action)) {
         const auto* move = std::get_if<path::Move>(&action);
         ended_ = ended_ || std::holds_alternative<gcode::ProgramEnd>(action);
-        report_.moves_in += move != nullptr && move->kind == path::MoveKind::kRate ? 1 : 0;
+        report_.moves_in += move != nullptr && move->kind == path::MoveKind::kFeed ? 1 : 0;
         if (actions_.size() < 2) {
             actions_.push_back(action);
         }

@@ -104,7 +104,7 @@ private:
         }
         highest_z_nm_ = std::max({highest_z_nm_, move->start.z, move->end.z});
         const Position by = move->end - move->start;
-        if (move->kind == path::MoveKind::kRate && by.x == 0 && by.y == 0 && by.z < 0) {
+        if (move->kind == path::MoveKind::kFeed && by.x == 0 && by.y == 0 && by.z < 0) {
             constexpr float kSecondsPerMinute = 60.0F;
             plunge_feed_ = move->feed * kSecondsPerMinute;
         }

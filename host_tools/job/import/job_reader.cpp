@@ -474,7 +474,8 @@ std::vector<Job> read_setups(const JobText& job, const Strategies& strategies)
     std::size_t setups = 1;
     for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
         PartFiles parts;
-        jobs.push_back(JobReader{job.name, job.folder, strategies, parts}.read(job.text, place, setups));
+        jobs.push_back(
+            JobReader{job.name, job.folder, strategies, parts}.read(job.text, place, setups));
     }
     return jobs;
 }

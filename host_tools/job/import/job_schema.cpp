@@ -11,48 +11,48 @@ namespace cusp::import {
 
 using job::Key;
 using job::KeyTable;
-using Json = nlohmann::ordered_json;
+using Schema = nlohmann::ordered_json;
 using Kind = job::KeyKind;
 
 namespace {
 
-Json members_of(const std::vector<Key>& keys);
+Schema members_of(const std::vector<Key>& keys);
 
-Json table_form(const KeyTable& table)
+Schema table_form(const KeyTable& table)
 {
-    Json form = members_of(table.keys);
+    Schema form = members_of(table.keys);
     form["description"] = table.help;
     return form;
 }
 
-Json number_form(const Key& key)
+Schema number_form(const Key& key)
 {
-    Json form{{"type", "number"}};
+    Schema form{{"type", "number"}};
     form[key.range.above_low ? "exclusiveMinimum" : "minimum"] = key.range.low;
     form["maximum"] = key.range.high;
     return form;
 }
 
-Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
+Schema list_of(const Schema& items) { return {{"type", "array"}, {"items", items}}; }
 
-Json pair_of(const Json& items)
+Schema pair_of(const Schema& items)
 {
     return {{"type", "array"}, {"items", items}, {"minItems", 2}, {"maxItems", 2}};
 }
 
-Json any_of(const std::vector<Json>& forms) { return {{"anyOf", forms}}; }
+Schema any_of(const std::vector<Schema>& forms) { return {{"anyOf", forms}}; }
 
-Json tool_form(const Key& key)
+Schema tool_form(const Key& key)
 {
-    Json number = number_form(key);
+    Schema number = number_form(key);
     number["type"] = "integer";
     return any_of({number, {{"type", "string"}}});
 }
 
-Json form_of(const Key& key)
+Schema form_of(const Key& key)
 {
-    const Json text{{"type", "string"}};
-    const Json number = number_form(key);
+    const Schema text{{"type", "string"}};
+    const Schema number = number_form(key);
     switch (key.kind) {
         case Kind::kLength:
         case Kind::kRate:
@@ -60,7 +60,7 @@ Json form_of(const Key& key)
         case Kind::kAngle:
             return number;
         case Kind::kCount: {
-            Json whole = number;
+            Schema whole = number;
             whole["type"] = "integer";
             return whole;
         }
@@ -91,48 +91,48 @@ Json form_of(const Key& key)
         case Kind::kTable:
             return table_form(key.members());
         case Kind::kTables: {
-            const Json each = table_form(key.members());
+            const Schema each = table_form(key.members());
             return any_of({each, list_of(each)});
         }
     }
     return {};
 }
 
-Json described(const Key& key)
+Schema described(const Key& key)
 {
-    Json form = form_of(key);
+    Schema form = form_of(key);
     form["description"] = key.help;
     form["x-kind"] = words_of(key.kind);
     form["x-default"] = key.otherwise;
     return form;
 }
 
-Json members_of(const std::vector<Key>& keys)
+Schema members_of(const std::vector<Key>& keys)
 {
-    Json properties = Json::object();
-    Json required = Json::array();
+    Schema properties = Schema::object();
+    Schema required = Schema::array();
     for (const Key& key : keys) {
         properties[key.name] = described(key);
         if (key.otherwise == "needed") {
             required.push_back(key.name);
         }
     }
-    Json out{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+    Schema out{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
     if (!required.empty()) {
         out["required"] = required;
     }
     return out;
 }
 
-Json operation_form(const job::Strategies& strategies)
+Schema operation_form(const job::Strategies& strategies)
 {
-    Json names = Json::array();
-    Json conditions = Json::array();
+    Schema names = Schema::array();
+    Schema conditions = Schema::array();
     for (const job::Strategy* const strategy : strategies) {
         names.push_back(strategy->name);
-        Json keys = members_of(keys_of(*strategy));
+        Schema keys = members_of(keys_of(*strategy));
         keys["description"] = strategy->help;
-        const Json name{{"const", strategy->name}};
+        const Schema name{{"const", strategy->name}};
         conditions.push_back({{"if", {{"properties", {{"strategy", name}}}}}, {"then", keys}});
     }
     return {{"type", "object"},
@@ -151,8 +151,8 @@ std::string job_schema(const job::Strategies& strategies)
             keys.push_back(key);
         }
     }
-    Json schema = members_of(keys);
-    const Json operation = operation_form(strategies);
+    Schema schema = members_of(keys);
+    const Schema operation = operation_form(strategies);
     schema["properties"]["operation"] = any_of({operation, list_of(operation)});
     schema["required"] = {"operation"};
     schema["$schema"] = "http://json-schema.org/draft-07/schema#";

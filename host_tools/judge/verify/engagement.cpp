@@ -85,7 +85,7 @@ double programmed_seconds(const Program& program)
     double seconds = 0;
     for (std::size_t k = 1; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;
-        if (move.kind == path::MoveKind::kRate) {
+        if (move.kind == path::MoveKind::kFeed) {
             seconds += path::length(move) / static_cast<double>(move.feed);
         } else {
             const Vec3d way = to_millimetres(move.end) - to_millimetres(move.start);
