@@ -7,6 +7,7 @@ operations), `strategies` (keys of some) or `tabs`.
 Exit status: 0 page and keys agree, or the page is written; 1 they differ; 2 cusp has no schema, the page no tables.
 """
 import difflib
+import itertools
 import json
 import pathlib
 import re
@@ -41,18 +42,32 @@ def meaning_of(form):
     return f"{help_text}; {', '.join(left)}" if left else help_text
 
 
-def row(name, form, of=""):
-    return f"| `{name}` | {default_of(form)} | {of}{meaning_of(form)} |\n"
+def row(names, form, of=""):
+    return f"| `{'`, `'.join(names)}` | {default_of(form)} | {of}{meaning_of(form)} |\n"
+
+
+def rows(properties):
+    """Neighbours that differ by their names alone share a row."""
+    for form, pairs in itertools.groupby(properties.items(), key=lambda pair: json.dumps(pair[1])):
+        yield row([name for name, _ in pairs], json.loads(form))
 
 
 def table(properties):
-    return HEAD + "".join(row(name, form) for name, form in properties.items())
+    return HEAD + "".join(rows(properties))
 
 
 def strategies_of(schema):
     """name -> properties, in order."""
     operation = variants(schema["properties"]["operation"])[0]
     return {branch["if"]["properties"]["strategy"]["const"]: branch["then"]["properties"] for branch in operation["allOf"]}
+
+
+def words_for(strategies, surfaces):
+    """A list of strategies, shorter where all those on surfaces are among it."""
+    others = [each for each in strategies if each not in surfaces]
+    lists = ["surfaces"] if set(surfaces) <= set(strategies) else []
+    lists += [f"`{each}`" for each in (others if lists else strategies)]
+    return ", ".join(lists)
 
 
 def told_apart(schema):
@@ -65,6 +80,7 @@ def told_apart(schema):
     names = {}
     for (name, form), of in rows.items():
         names.setdefault(name, []).append((json.loads(form), of))
+    surfaces = [strategy for strategy, properties in strategies.items() if "intersect" in properties]
     text = HEAD
     for name, forms in names.items():
         most = max(forms, key=lambda each: len(each[1]))
@@ -72,7 +88,7 @@ def told_apart(schema):
             common[name] = most[0]
             forms = [each for each in forms if each is not most]
         for form, of in forms:
-            text += row(name, form, ", ".join(f"`{each}`" for each in of) + ": ")
+            text += row([name], form, words_for(of, surfaces) + ": ")
     return table(common), text
 
 

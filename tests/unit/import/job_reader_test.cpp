@@ -344,7 +344,13 @@ TEST(JobReader, RefusesValuesOfAnotherKind)
     STRCMP_CONTAINS("known are \"ball\", \"flat\", \"bull\"",
                     refused_head("\"ball\"", "\"cone\"").c_str());
     STRCMP_CONTAINS("list of numbers", refused(kHead + pocket("layers = 3\n")).c_str());
-    STRCMP_CONTAINS("true or false", refused(kHead + pocket("roughing = 1\n")).c_str());
+    STRCMP_CONTAINS("true or false", refused(kHead + pocket("chip_load = 1\n")).c_str());
+}
+
+TEST(JobReader, RefusesAKeyOfAnotherStrategyBeforeItsValue)
+{
+    STRCMP_CONTAINS("roughing: is a key of adaptive_isocurve",
+                    refused(kHead + pocket("roughing = 1\n")).c_str());
 }
 
 TEST(JobReader, RefusesABullToolWithoutOrWithTooLargeACorner)
