@@ -69,9 +69,8 @@ Region2d stock_region(const Job& job, const Box2d& beyond, double inset)
 Region2d strip_between(const Region2d& outer, const Region2d& inner)
 {
     Region2d strip = outer;
-    for (const Contour& contour : inner.contours) {
-        strip.contours.push_back(reversed(contour));
-    }
+    const Region2d hole = reversed(inner);
+    strip.contours.insert(strip.contours.end(), hole.contours.begin(), hole.contours.end());
     return strip;
 }
 
@@ -97,23 +96,12 @@ Box2d grown_box(const Box2d& box, double by)
     return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }
 
-Region2d known(std::optional<Region2d> region, const Operation& operation)
-{
-    if (!region) {
-        throw InputError(operation.boundary_file +
-                         ": the pocket's outline runs along the stock's edge and crosses it at no "
-                         "clear place: draw it on the edge, or beyond");
-    }
-    return std::move(*region);
-}
-
 }  // namespace
 
 bool lies_beside_stock(const Job& job, const Region2d& pocket)
 {
     if (!job.stock_outline.empty()) {
-        const auto in_stock = common(pocket, stock_region(job, {}, kOnEdge));
-        return in_stock && in_stock->contours.empty();
+        return common(pocket, stock_region(job, {}, kOnEdge)).contours.empty();
     }
     const StockSides sides = job::stock_sides(job);
     const Box2d box = box_of(pocket);
@@ -134,27 +122,25 @@ std::optional<OpenSides> open_sides(const Job& job,
     const Box2d beyond = grown_box(box_of(pocket), 4.0 * reach);
     const Region2d stock = stock_region(job, beyond, kOnEdge);
     const Region2d core = stock_region(job, beyond, kOnEdge + kStrip);
-    const Region2d stretches = known(common(pocket, strip_between(stock, core)), operation);
+    const Region2d stretches = common(pocket, strip_between(stock, core));
     if (stretches.contours.empty()) {
         return std::nullopt;
     }
     const Region2d reached = grown(stretches, reach);
     // Across a thin wall the tool comes to other ground, which is none of this pocket's.
-    const Region2d outside =
-        known(without(reached, stock_region(job, beyond, kOnEdge + 1.5 * kStrip)), operation);
-    const Region2d beside_them = parts_of(outside, [&](const Region2d& part) {
-        return !known(common(part, stretches), operation).contours.empty();
-    });
+    const Region2d outside = without(reached, stock_region(job, beyond, kOnEdge + 1.5 * kStrip));
+    const Region2d beside_them = parts_of(
+        outside, [&](const Region2d& part) { return !common(part, stretches).contours.empty(); });
     const bool is_whole = beside_them.contours.size() == outside.contours.size();
     const Region2d& around = is_whole ? reached : beside_them;
     const Region2d centres = grown(stretches, reach - wall_clearance);
-    const Region2d stays = known(without(stock, pocket), operation);
+    const Region2d stays = without(stock, pocket);
     const double beside = std::max(wall_clearance, operation.tool.radius + 2.0 * kOnEdge);
     OpenSides open;
-    open.region = known(without(known(united(around, core), operation), stays), operation);
-    open.in_stock = known(common(pocket, stock), operation);
-    open.air = known(without(around, stock), operation);
-    open.starts = known(without(centres, grown(stock, beside)), operation);
+    open.region = without(united(around, core), stays);
+    open.in_stock = common(pocket, stock);
+    open.air = without(around, stock);
+    open.starts = without(centres, grown(stock, beside));
     if (!is_whole) {
         open.starts = parts_of(open.starts, [&](const Region2d& part) {
             return contains(beside_them, part.contours.front().front().start);

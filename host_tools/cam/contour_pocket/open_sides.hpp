@@ -25,9 +25,6 @@ struct OpenSides {
 // None where the pocket is closed, or lies beside the stock as a whole. The air reaches 3.7 wall
 // clearances around each stretch of the stock's edge that the pocket has; elsewhere beside the
 // stock the tool does not go.
-//
-// Errors: InputError where the outline runs along the stock's edge at so flat an angle that it is
-// not known where it crosses.
 std::optional<OpenSides> open_sides(const job::Job& job,
                                     const job::Operation& operation,
                                     const offset::Region2d& pocket,

@@ -142,19 +142,10 @@ private:
         return planes;
     }
 
-    // The overlay may fail where contours run along each other: other fits are tried then.
     Region2d region_at(double z, std::size_t layer) const
     {
-        for (const double fit : {kFit, 3.0 * kFit, kFit / 3.0}) {
-            const double more = fit + kChord + kTaper * static_cast<double>(layer);
-            auto region = common(fitted_region(slices_.at(z, more), fit), room_);
-            if (region) {
-                return std::move(*region);
-            }
-        }
-        refuse_grid_pocket(
-            pocket_.job, "clearing \"adaptive\": the layer at z = " + length_text(pocket_.job, z) +
-                             " can't be cleared; try another max_depth");
+        const double more = kFit + kChord + kTaper * static_cast<double>(layer);
+        return common(fitted_region(slices_.at(z, more), kFit), room_);
     }
 
     AdaptiveSettings settings(double radius) const

@@ -10,9 +10,11 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/geometry/offset/edge_crossings.hpp"
+#include "host_tools/geometry/offset/edge_reach.hpp"
 #include "host_tools/geometry/offset/edge_runs.hpp"
 #include "host_tools/geometry/offset/piece_trim.hpp"
 #include "host_tools/geometry/offset/raw_offset.hpp"
+#include "host_tools/geometry/offset/region_overlay.hpp"
 
 namespace cusp::offset {
 
@@ -239,7 +241,7 @@ bool encloses_nothing(const Contour& contour)
 
 // Source contours that touch or share edges give coincident runs, and runs on the wrong side to
 // which no other edge is nearer. This removes both; for other contours it has no effect.
-void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
+void remove_wrong_and_double(const EdgeTree& source, bool unbounded, std::vector<Run>& runs)
 {
     std::vector<Vec2d> middles;  // by x
     const auto left_of = [](Vec2d a, double x) {
@@ -253,7 +255,7 @@ void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
             seen = seen || distance(*at, middle) < kSameVertex;
         }
         middles.insert(std::lower_bound(middles.begin(), middles.end(), middle.x, left_of), middle);
-        return seen || !source.surrounds(middle);
+        return seen || source.surrounds(middle) == unbounded;
     };
     runs.erase(std::remove_if(runs.begin(), runs.end(), wrong_or_double), runs.end());
 }
@@ -336,15 +338,15 @@ std::optional<Region2d> offset_once(const Region2d& source,
                                     const EdgeTree& tree,
                                     double distance,
                                     bool touching,
-                                    bool complete,
+                                    bool unbounded,
                                     std::vector<double>& gone)
 {
     KeptRuns kept = kept_runs(source, tree, gone, distance);
-    if (complete && !kept.complete) {
+    if (!kept.complete) {
         return std::nullopt;
     }
     if (touching) {
-        remove_wrong_and_double(tree, kept.runs);
+        remove_wrong_and_double(tree, unbounded, kept.runs);
     }
     std::optional<Region2d> region = joined(kept.runs);
     if (region) {
@@ -364,6 +366,7 @@ RegionOffset::RegionOffset(Region2d source)
     : source_{std::move(source)},
       tree_{edges_of(source_)},
       touching_{contours_touch(source_, tree_)},
+      unbounded_{area(source_) < 0.0},
       gone_(kOrigins * tree_.size(), kUnbounded)
 {
 }
@@ -373,16 +376,14 @@ Region2d RegionOffset::at(double distance) const
     // If rounding at a common point of several pieces defeats the joining, a distance nearby is
     // used. The steps are below the promised accuracy of 1e-6 mm.
     constexpr double kSteps[] = {0.0, 1e-8, -1e-8, 3e-8, 1e-7, -1e-7, 3e-7, -3e-7, 8e-7, -8e-7};
-    // If none of them gives the whole offset, the contours that can be joined have to do.
-    for (const bool complete : {true, false}) {
-        for (const double step : kSteps) {
-            if (auto region =
-                    offset_once(source_, tree_, distance + step, touching_, complete, gone_)) {
-                return *region;
-            }
+    for (const double step : kSteps) {
+        if (auto region =
+                offset_once(source_, tree_, distance + step, touching_, unbounded_, gone_)) {
+            return *region;
         }
     }
-    return {};
+    const Region2d too_near = edge_reach(source_, distance);
+    return unbounded_ ? reversed(united(reversed(source_), too_near)) : without(source_, too_near);
 }
 
 double RegionOffset::clearance(Vec2d point) const
@@ -391,17 +392,18 @@ double RegionOffset::clearance(Vec2d point) const
     return contains(point) ? apart : -apart;
 }
 
-Region2d grown(const Region2d& region, double distance)
+Region2d reversed(const Region2d& region)
 {
-    Region2d outside;
+    Region2d result;
     for (const Contour& contour : region.contours) {
-        outside.contours.push_back(reversed(contour));
-    }
-    Region2d result = RegionOffset{std::move(outside)}.at(distance);
-    for (Contour& contour : result.contours) {
-        contour = reversed(contour);
+        result.contours.push_back(reversed(contour));
     }
     return result;
+}
+
+Region2d grown(const Region2d& region, double distance)
+{
+    return reversed(RegionOffset{reversed(region)}.at(distance));
 }
 
 }  // namespace cusp::offset

@@ -1,92 +1,111 @@
-// The edges of each region are cut at those of the other; a piece is kept by the side of its middle.
+// Edges become chords on a grid, chords a planar subdivision, and its border edges again.
 #include "host_tools/geometry/offset/region_overlay.hpp"
 
 #include <algorithm>
-#include <vector>
 
-#include "host_tools/geometry/offset/edge_crossings.hpp"
+#include "host_tools/geometry/offset/chord_chains.hpp"
 #include "host_tools/geometry/offset/edge_runs.hpp"
-#include "host_tools/geometry/offset/edge_tree.hpp"
+#include "host_tools/geometry/offset/winding_border.hpp"
 
 namespace cusp::offset {
 
 namespace {
 
-constexpr double kOverrun = 1e-9;  // mm: a crossing may lie this far beyond an edge's end
+// True if both are parts of one edge, with nothing else at the vertex between.
+bool goes_on(const BorderPart& part, const BorderPart& next)
+{
+    return !next.pinched && part.segment.source == next.segment.source &&
+           part.backwards == next.backwards;
+}
 
-class Overlay {
-public:
-    // Adds the pieces of `from` that are inside `other`, or those outside.
-    void add(const Region2d& from, const Region2d& other, bool inside, bool backwards)
-    {
-        const std::vector<Edge> others = edges_of(other);
-        const EdgeTree tree{others};
-        for (const Contour& contour : from.contours) {
-            for (const Edge& edge : contour) {
-                for (const Edge& piece : pieces_of(edge, others, tree)) {
-                    if (tree.surrounds(point_on(piece, 0.5)) == inside) {
-                        runs_.push_back({{backwards ? reversed(piece) : piece}, {}, false, false});
-                    }
-                }
-            }
+// The part of an edge between two points that lie on it nearly. An arc goes through both: short ones
+// would else turn aside, or end elsewhere.
+Edge part_through(const Edge& edge, Vec2d from, Vec2d to)
+{
+    const Edge part = between(edge, from, to);
+    const double size = distance(from, to);
+    const double off = std::max(std::abs(distance(from, edge.centre) - edge.radius),
+                                std::abs(distance(to, edge.centre) - edge.radius));
+    if (edge.turn == 0 || off <= 1e-9 * size || size == distance(edge.start, edge.end)) {
+        return part;
+    }
+    const double square = edge.radius * edge.radius - 0.25 * size * size;
+    if (square <= 0.0) {
+        return line_edge(from, to);
+    }
+    const Vec2d aside = left_normal(unit(to - from)) * (edge.turn * std::sqrt(square));
+    return {from, to, (from + to) * 0.5 + aside, edge.radius, edge.turn};
+}
+
+Contour contour_of(std::vector<BorderPart> loop,
+                   const std::vector<Edge>& edges,
+                   const GridPoints& points)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        if (!goes_on(i == 0 ? loop.back() : loop[i - 1], loop[i])) {
+            std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
+            break;
         }
     }
-
-    std::optional<Region2d> result() { return joined(runs_); }
-
-private:
-    static std::vector<Edge> pieces_of(const Edge& edge,
-                                       const std::vector<Edge>& others,
-                                       const EdgeTree& tree)
-    {
-        std::vector<Vec2d> cuts{edge.start, edge.end};
-        Box2d box = box_of(edge);
-        box = {box.x0 - kOverrun, box.y0 - kOverrun, box.x1 + kOverrun, box.y1 + kOverrun};
-        tree.visit_meeting(box, [&](std::uint32_t i) {
-            for (const Vec2d p : crossings(edge, others[i], kOverrun)) {
-                cuts.push_back(p);
-            }
-        });
-        std::sort(cuts.begin() + 2, cuts.end(), [&](Vec2d a, Vec2d b) {
-            return share_of_chord(edge, a) < share_of_chord(edge, b);
-        });
-        std::rotate(cuts.begin() + 1, cuts.begin() + 2, cuts.end());
-        std::vector<Edge> pieces;
-        for (std::size_t i = 1; i < cuts.size(); ++i) {
-            if (distance(cuts[i - 1], cuts[i]) > kShortestPiece) {
-                pieces.push_back(between(edge, cuts[i - 1], cuts[i]));
-            }
+    Contour contour;
+    for (std::size_t i = 0; i < loop.size();) {
+        const BorderPart& first = loop[i];
+        const std::size_t begin = i;
+        for (++i; i < loop.size() && goes_on(loop[begin], loop[i]); ++i) {
         }
-        return pieces;
+        Edge edge = edges[first.segment.source];
+        edge = first.backwards ? reversed(edge) : edge;
+        const Vec2d from = points.place(first.segment.from);
+        const Vec2d to = points.place(loop[i - 1].segment.to);
+        contour.push_back(part_through(edge, from, to));
     }
+    const auto least =
+        std::min_element(contour.begin(), contour.end(),
+                         [](const Edge& a, const Edge& b) { return a.start.x < b.start.x; });
+    std::rotate(contour.begin(), least, contour.end());
+    return contour;
+}
 
-    std::vector<Run> runs_;
-};
+Region2d overlay(const Region2d& a, const Region2d& b, bool (*is_in)(Windings))
+{
+    std::vector<Edge> edges = edges_of(a);
+    const std::size_t first_of_b = edges.size();
+    const std::vector<Edge> more = edges_of(b);
+    edges.insert(edges.end(), more.begin(), more.end());
+    Box2d box;
+    for (const Edge& edge : edges) {
+        const Box2d by = box_of(edge);
+        box = {std::min(box.x0, by.x0), std::min(box.y0, by.y0), std::max(box.x1, by.x1),
+               std::max(box.y1, by.y1)};
+    }
+    GridPoints points{box};
+    std::vector<Segment> segments = chord_chains(edges, points);
+    make_planar(segments, points);
+    Region2d region;
+    for (auto& loop : winding_border(segments, points, first_of_b, is_in)) {
+        Contour contour = contour_of(std::move(loop), edges, points);
+        if (std::abs(area(contour)) > kSameVertex * length(contour)) {
+            region.contours.push_back(std::move(contour));
+        }
+    }
+    return region;
+}
 
 }  // namespace
 
-std::optional<Region2d> common(const Region2d& a, const Region2d& b)
+Region2d common(const Region2d& a, const Region2d& b)
 {
-    Overlay overlay;
-    overlay.add(a, b, true, false);
-    overlay.add(b, a, true, false);
-    return overlay.result();
+    return overlay(a, b, [](Windings w) { return w[0] > 0 && w[1] > 0; });
 }
 
-std::optional<Region2d> united(const Region2d& a, const Region2d& b)
+Region2d united(const Region2d& a, const Region2d& b)
 {
-    Overlay overlay;
-    overlay.add(a, b, false, false);
-    overlay.add(b, a, false, false);
-    return overlay.result();
+    return overlay(a, b, [](Windings w) { return w[0] > 0 || w[1] > 0; });
 }
 
-std::optional<Region2d> without(const Region2d& a, const Region2d& b)
+Region2d without(const Region2d& a, const Region2d& b)
 {
-    Overlay overlay;
-    overlay.add(a, b, false, false);
-    overlay.add(b, a, true, true);
-    return overlay.result();
+    return overlay(a, b, [](Windings w) { return w[0] > 0 && w[1] <= 0; });
 }
 
 }  // namespace cusp::offset

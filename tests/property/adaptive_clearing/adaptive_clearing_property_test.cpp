@@ -393,6 +393,7 @@ TEST(RandomAdaptiveClearing, SeedsThatOnceFailed)
     for (const unsigned number : {43U, 107U, 50016U, 50069U, 82019U, 110476U}) {
         CHECK(open_pocket_holds(number).value());
     }
+    CHECK(pocket_in_any_stock_holds(130078).value());
     CHECK(slot_holds(50128));
     CHECK(slot_holds(80020));
     CHECK(slot_holds(90001));

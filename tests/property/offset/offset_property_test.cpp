@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "host_tools/geometry/offset/edge_reach.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/geometry/offset/region_overlay.hpp"
 #include "tests/property/offset/offset_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
@@ -124,6 +126,66 @@ TEST(RandomOffset, TakenInStepsEqualsOneOffset)
         LONGS_EQUAL(0, wrong_points(random, source, chained, distance));
         CHECK(worst_distance(source, direct, distance) <= 1e-6);
         CHECK(worst_distance(source, chained, distance) <= 4e-6);
+    }
+}
+
+// The overlay that at() falls back on.
+TEST(RandomOffset, EqualsTheRegionWithoutWhatIsTooNear)
+{
+    constexpr unsigned kSeed = 5;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(kRegions) / 20; ++i) {
+        const Region2d source = random_region(random);
+        const double distance = uniform(random, 0.2, 14.0);
+        const Region2d result = without(source, edge_reach(source, distance));
+        const double worst = worst_distance(source, result, distance);
+        const int wrong = wrong_points(random, source, result, distance);
+        if (worst > 4e-6 || wrong > 0) {
+            std::printf("seed %u case %d distance %.9g: worst %.3g mm, %d wrong points\n", kSeed, i,
+                        distance, worst, wrong);
+        }
+        CHECK(worst <= 4e-6);
+        LONGS_EQUAL(0, wrong);
+    }
+}
+
+// Two or three boxes on a grid, side by side, corner to corner or apart; none overlap.
+Region2d boxes_that_touch(Random& random)
+{
+    Region2d boxes;
+    double x = 0.0;
+    double y = 0.0;
+    for (int k = static_cast<int>(uniform(random, 2.0, 4.0)); k > 0; --k) {
+        const double right = x + std::ceil(uniform(random, 0.0, 4.0)) * 5.0;
+        const double top = y + std::ceil(uniform(random, 0.0, 4.0)) * 5.0;
+        boxes.contours.push_back({line_edge({x, y}, {right, y}),
+                                  line_edge({right, y}, {right, top}),
+                                  line_edge({right, top}, {x, top}), line_edge({x, top}, {x, y})});
+        x = right;
+        y = top - std::floor(uniform(random, 0.0, 3.0)) * 5.0;
+    }
+    return boxes;
+}
+
+TEST(RandomOffset, OfOutsidesThatTouchKeepsItsDistanceAndMissesNothing)
+{
+    constexpr unsigned kSeed = 77;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(kRegions) / 10; ++i) {
+        const Region2d source = reversed(boxes_that_touch(random));
+        const RegionOffset kernel{source};
+        const bool grid = uniform(random, 0.0, 1.0) < 0.5;
+        const double distance =
+            grid ? std::ceil(uniform(random, 0.0, 8.0)) * 1.25 : uniform(random, 0.2, 12.0);
+        const Region2d result = kernel.at(distance);
+        const double worst = worst_distance(source, result, distance, true);
+        const int wrong = wrong_points(random, source, result, distance, 15.0, true);
+        if (worst > 4e-6 || wrong > 0) {
+            std::printf("seed %u case %d distance %.9g: worst %.3g mm, %d wrong points\n", kSeed, i,
+                        distance, worst, wrong);
+        }
+        CHECK(worst <= 4e-6);
+        LONGS_EQUAL(0, wrong);
     }
 }
 
