@@ -144,23 +144,129 @@ bool side_separates(const Hull& a, const Hull& b, double gap)
     return false;
 }
 
-// Halves arcs until their chords may stand for them.
+// Halves arcs until their chords may stand for them, pair by pair: the triangles of an arc's halves
+// lie within its own, so what was apart from it stays apart from them.
 class ArcHalver {
 public:
-    ArcHalver(const std::vector<Edge>& edges, std::vector<Segment> segments, GridPoints& points)
-        : edges_{edges}, points_{points}, segments_{std::move(segments)}
+    ArcHalver(const std::vector<Edge>& edges,
+              const std::vector<Segment>& segments,
+              GridPoints& points)
+        : edges_{edges}, points_{points}, roots_{segments.size()}
     {
+        for (const Segment& segment : segments) {
+            add(segment);
+        }
     }
 
     std::vector<Segment> run()
     {
-        std::vector<bool> fresh(segments_.size(), true);
-        while (halve(fresh)) {
+        const std::vector<std::uint32_t> narrow = narrow_pieces();
+        std::vector<Edge> diagonals;
+        diagonals.reserve(narrow.size());
+        for (const std::uint32_t i : narrow) {
+            diagonals.push_back(line_edge({pieces_[i].box.x0, pieces_[i].box.y0},
+                                          {pieces_[i].box.x1, pieces_[i].box.y1}));
         }
-        return std::move(segments_);
+        const EdgeTree tree{std::move(diagonals)};
+        for (std::uint32_t k = 0; k < narrow.size(); ++k) {
+            if (pieces_[narrow[k]].bent) {
+                tree.visit_meeting(grown_box(pieces_[narrow[k]].box, kApart), [&](std::uint32_t m) {
+                    if (m > k || (m < k && !pieces_[narrow[m]].bent)) {
+                        separate(narrow[k], narrow[m]);
+                    }
+                });
+            }
+        }
+        std::vector<Segment> out;
+        visit_leaves([&](std::uint32_t i) { out.push_back(pieces_[i].segment); });
+        return out;
     }
 
 private:
+    struct Piece {
+        Segment segment;
+        Hull hull;
+        Box2d box;           // of its hull
+        bool bent;           // its chord is not as good as its arc
+        std::uint32_t half;  // the first of its two halves, or 0
+    };
+
+    void add(const Segment& segment)
+    {
+        const bool bent = edges_[segment.source].turn != 0 && sagitta(segment) > kFlat;
+        const Hull hull = hull_of(segment);
+        pieces_.push_back({segment, hull, box_of(hull), bent, 0});
+    }
+
+    // False where it cannot be halved.
+    bool halve(std::uint32_t i)
+    {
+        if (pieces_[i].half != 0 || !pieces_[i].bent) {
+            return pieces_[i].half != 0;
+        }
+        const Segment s = pieces_[i].segment;
+        const std::uint32_t middle = points_.near(middle_of(s));
+        pieces_[i].bent = middle != s.from && middle != s.to;
+        if (pieces_[i].bent) {
+            pieces_[i].half = static_cast<std::uint32_t>(pieces_.size());
+            add({s.from, middle, s.source});
+            add({middle, s.to, s.source});
+        }
+        return pieces_[i].bent;
+    }
+
+    template <class Visit>
+    void visit_leaves(Visit visit) const
+    {
+        std::vector<std::uint32_t> todo;
+        for (std::uint32_t root = 0; root < roots_; ++root) {
+            todo.push_back(root);
+            while (!todo.empty()) {
+                const std::uint32_t i = todo.back();
+                todo.pop_back();
+                if (pieces_[i].half == 0) {
+                    visit(i);
+                } else {
+                    todo.push_back(pieces_[i].half + 1);
+                    todo.push_back(pieces_[i].half);
+                }
+            }
+        }
+    }
+
+    // Leaves, after those of more than a quarter turn are halved.
+    std::vector<std::uint32_t> narrow_pieces()
+    {
+        for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+            if (is_wide(pieces_[i].segment)) {
+                halve(i);
+            }
+        }
+        std::vector<std::uint32_t> leaves;
+        visit_leaves([&](std::uint32_t i) { leaves.push_back(i); });
+        return leaves;
+    }
+
+    // Halves both while their triangles have more than a vertex in common.
+    void separate(std::uint32_t i, std::uint32_t j)
+    {
+        if (!meet(grown_box(pieces_[i].box, kApart), pieces_[j].box) || apart(i, j)) {
+            return;
+        }
+        const bool halved = halve(i);
+        const std::uint32_t first = halved ? pieces_[i].half : i;
+        const bool other_halved = halve(j);
+        const std::uint32_t other_first = other_halved ? pieces_[j].half : j;
+        if (halved || other_halved) {
+            for (std::uint32_t k = first; k <= first + (halved ? 1 : 0); ++k) {
+                for (std::uint32_t m = other_first; m <= other_first + (other_halved ? 1 : 0);
+                     ++m) {
+                    separate(k, m);
+                }
+            }
+        }
+    }
+
     Vec2d middle_of(const Segment& s) const
     {
         const Edge& edge = edges_[s.source];
@@ -205,10 +311,10 @@ private:
     // True if the triangles of two segments have nothing in common but a vertex.
     bool apart(std::uint32_t i, std::uint32_t j) const
     {
-        const Segment& a = segments_[i];
-        const Segment& b = segments_[j];
-        const Hull hull = hulls_[i];
-        Hull other = hulls_[j];
+        const Segment& a = pieces_[i].segment;
+        const Segment& b = pieces_[j].segment;
+        const Hull& hull = pieces_[i].hull;
+        const Hull& other = pieces_[j].hull;
         if (a.from != b.from && a.from != b.to && a.to != b.from && a.to != b.to) {
             return side_separates(hull, other, kApart) || side_separates(other, hull, kApart);
         }
@@ -251,62 +357,10 @@ private:
         return false;
     }
 
-    // One round. False where nothing was halved.
-    //
-    // fresh  segments not looked at yet
-    bool halve(std::vector<bool>& fresh)
-    {
-        std::vector<bool> halved(segments_.size(), false);
-        std::vector<bool> bent;
-        std::vector<Edge> diagonals;
-        hulls_.clear();
-        for (const Segment& segment : segments_) {
-            hulls_.push_back(hull_of(segment));
-            const Box2d box = box_of(hulls_.back());
-            diagonals.push_back(line_edge({box.x0, box.y0}, {box.x1, box.y1}));
-            bent.push_back(edges_[segment.source].turn != 0 && sagitta(segment) > kFlat);
-        }
-        const EdgeTree tree{std::move(diagonals)};
-        for (std::uint32_t i = 0; i < segments_.size(); ++i) {
-            if (!fresh[i] || !bent[i]) {
-                continue;
-            }
-            halved[i] = is_wide(segments_[i]);
-            tree.visit_meeting(grown_box(box_of(hulls_[i]), kApart), [&](std::uint32_t j) {
-                if (i != j && (!halved[i] || (bent[j] && !halved[j])) && !apart(i, j)) {
-                    halved[i] = true;
-                    halved[j] = bent[j];
-                }
-            });
-        }
-        return split(halved, fresh);
-    }
-
-    bool split(const std::vector<bool>& halved, std::vector<bool>& fresh)
-    {
-        std::vector<Segment> out;
-        fresh.clear();
-        for (std::size_t i = 0; i < segments_.size(); ++i) {
-            const Segment s = segments_[i];
-            const std::uint32_t middle = halved[i] ? points_.near(middle_of(s)) : s.from;
-            if (middle == s.from || middle == s.to) {
-                out.push_back(s);
-                fresh.push_back(false);
-                continue;
-            }
-            out.push_back({s.from, middle, s.source});
-            out.push_back({middle, s.to, s.source});
-            fresh.resize(out.size(), true);
-        }
-        const bool any = out.size() > segments_.size();
-        segments_ = std::move(out);
-        return any;
-    }
-
     const std::vector<Edge>& edges_;
     GridPoints& points_;
-    std::vector<Segment> segments_;
-    std::vector<Hull> hulls_;
+    std::size_t roots_;
+    std::vector<Piece> pieces_;  // roots first, then halves
 };
 
 }  // namespace

@@ -57,8 +57,11 @@ std::uint32_t GridPoints::near(Vec2d place)
     const GridPoint point{std::llround(place.x / step_), std::llround(place.y / step_)};
     std::uint32_t best = kNoVertex;
     double least = std::max(kSameVertex, step_);
-    for (std::int64_t x = (point.x >> kCellBits) - 1; x <= (point.x >> kCellBits) + 1; ++x) {
-        for (std::int64_t y = (point.y >> kCellBits) - 1; y <= (point.y >> kCellBits) + 1; ++y) {
+    const auto reach = static_cast<std::int64_t>(least / step_) + 1;
+    for (std::int64_t x = (point.x - reach) >> kCellBits; x <= (point.x + reach) >> kCellBits;
+         ++x) {
+        for (std::int64_t y = (point.y - reach) >> kCellBits; y <= (point.y + reach) >> kCellBits;
+             ++y) {
             visit_cell(x, y, [&](std::uint32_t v) {
                 const double apart = distance(places_[v], place);
                 if (apart < least || (apart == least && v < best)) {
