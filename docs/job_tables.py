@@ -18,12 +18,11 @@ PLACE = re.compile(r"(?<=<!-- keys: )(\w+)( -->\n).*?(?=<!-- end of keys -->)", 
 HEAD = "| key | default | means |\n|---|---|---|\n"
 
 
-def variants(form):
-    return form.get("anyOf", [form])
-
-
-def properties_of(form):
-    return next(variant["properties"] for variant in variants(form) if "properties" in variant)
+def properties_of(form, definitions):
+    """Of a table, or of one of several; None where the key is no table."""
+    each = form.get("then", form)
+    table = definitions[each["$ref"].split("/")[-1]] if "$ref" in each else each
+    return table.get("properties")
 
 
 def choices_of(form):
@@ -58,7 +57,7 @@ def table(properties):
 
 def strategies_of(schema):
     """name -> properties, in order."""
-    operation = variants(schema["properties"]["operation"])[0]
+    operation = schema["definitions"]["operation"]
     return {branch["if"]["properties"]["strategy"]["const"]: branch["then"]["properties"] for branch in operation["allOf"]}
 
 
@@ -93,10 +92,9 @@ def told_apart(schema):
 
 
 def tables_of(schema):
-    out = {name: table(properties_of(form)) for name, form in schema["properties"].items()
-           if name != "operation" and any("properties" in variant for variant in variants(form))}
-    out["job"] = table({name: form for name, form in schema["properties"].items()
-                        if name not in out and name != "operation"})
+    forms = {name: (form, properties_of(form, schema["definitions"])) for name, form in schema["properties"].items()}
+    out = {name: table(properties) for name, (_, properties) in forms.items() if properties and name != "operation"}
+    out["job"] = table({name: form for name, (form, properties) in forms.items() if not properties})
     out["tabs"] = table(strategies_of(schema)["profile"]["tabs"]["properties"])
     out["operation"], out["strategies"] = told_apart(schema)
     return out

@@ -5,11 +5,14 @@
 #include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/one_line_check.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/import/placing.hpp"
 
 #include "CLI/CLI.hpp"
+#include "fmt/format.h"
+#include "fmt/ranges.h"
 
 namespace cusp::cli {
 
@@ -49,6 +52,17 @@ const CLI::Option* option_for_parts(const CLI::App& command)
     return nullptr;
 }
 
+std::vector<std::string> one_line_strategies()
+{
+    std::vector<std::string> names;
+    for (const job::Strategy* const strategy : strategies::all()) {
+        if (strategy->traits.one_line) {
+            names.push_back(strategy->name);
+        }
+    }
+    return names;
+}
+
 }  // namespace
 
 std::string PlanCall::job_name() const
@@ -59,7 +73,7 @@ std::string PlanCall::job_name() const
 void add_one_line_options(CLI::App& command, PlanCall& call)
 {
     OneLineRequest& request = call.request;
-    const auto add = [&](const char* name, auto& value, const char* text) {
+    const auto add = [&](const char* name, auto& value, const std::string& text) {
         return command.add_option(name, value, text)->group(kGroup);
     };
     add("--tool", request.tools,
@@ -103,8 +117,8 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         ->allow_extra_args(false)
         ->type_name("X,Y,Z");
     add("--strategy", request.strategy,
-        "adaptive_isocurve, parallel_planes, or contour_pocket (with --boundary)")
-        ->check(CLI::IsMember({"adaptive_isocurve", "parallel_planes", "contour_pocket"}))
+        fmt::format("{}; pockets need --boundary", fmt::join(one_line_strategies(), ", ")))
+        ->check(CLI::IsMember(one_line_strategies()))
         ->type_name("NAME");
     add("--moves", request.output, "lines, arcs or nurbs")
         ->check(CLI::IsMember({"lines", "arcs", "nurbs"}))

@@ -33,7 +33,6 @@ using import::PartFiles;
 using import::read_job;
 using import::read_post;
 using import::read_setups;
-using import::strategy_help;
 using job::Job;
 using plan::plan_setups;
 using plan::PlannedProgram;
@@ -56,24 +55,18 @@ struct PlanArguments {
     Resources resources;
     bool schema{false};
     bool help_job{false};
-    std::string help_strategy;  // "": of the job's tables
+    std::string help_name;  // of a strategy or table; "": all of them
 };
 
-// Whether the call asks for words on jobs alone; prints them.
+// True if the call asks for words on jobs alone, which are printed.
 bool explain_jobs(const PlanArguments& options)
 {
     if (options.schema) {
         fmt::print("{}", job_schema(strategies::all()));
-    } else if (options.help_job && options.help_strategy.empty()) {
+    } else if (options.help_job && options.help_name.empty()) {
         fmt::print("{}", job_help(strategies::all()));
     } else if (options.help_job) {
-        const job::Strategy* const strategy =
-            find_strategy(strategies::all(), options.help_strategy);
-        if (strategy == nullptr) {
-            throw InputError("--help-job " + options.help_strategy +
-                             ": no such strategy; --help-job alone lists them");
-        }
-        fmt::print("{}", strategy_help(*strategy));
+        fmt::print("{}", job_help(strategies::all(), options.help_name));
     }
     return options.schema || options.help_job;
 }
@@ -191,9 +184,9 @@ int run_call(const CLI::App& command, PlanArguments& options)
 void add_explaining_options(CLI::App& command, PlanArguments& options)
 {
     command
-        .add_option("--help-job", options.help_strategy,
-                    "print the keys of a job file, or those of a strategy, and end")
-        ->type_name("[STRATEGY]")
+        .add_option("--help-job", options.help_name,
+                    "list the strategies and tables of a job file, or the keys of one, and end")
+        ->type_name("[NAME]")
         ->expected(0, 1);
     command.add_flag("--schema", options.schema,
                      "print a JSON Schema of job files, for editors, and end");

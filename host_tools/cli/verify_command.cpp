@@ -69,8 +69,9 @@ bool asks_for_engagement(const VerifyOptions& options, const Job& job)
 {
     return options.max_engagement || !options.output.stats.empty() ||
            !options.output.engagement_picture.empty() ||
-           std::any_of(job.operations.begin(), job.operations.end(),
-                       [](const auto& operation) { return operation.max_engagement.has_value(); });
+           std::any_of(job.operations.begin(), job.operations.end(), [](const auto& operation) {
+               return operation.passes.max_engagement.has_value();
+           });
 }
 
 void write_output(const Job& job, const Verification& result, const VerifyOutput& output)

@@ -70,15 +70,15 @@ void plan(benchmark::State& state)
 {
     Job job = plain_job();
     Operation operation;
-    operation.floor = {tap()};
-    operation.boundary = loop_of({{2, -10}, {115, -10}, {115, 10}, {2, 10}});
+    operation.part.floor = {tap()};
+    operation.outline.boundary = loop_of({{2, -10}, {115, -10}, {115, 10}, {2, 10}});
     const bool flat = state.range(1) != 0;
     operation.tool = {1, flat ? ToolShape::kFlat : ToolShape::kBall, 3, flat ? 0.0 : 3.0};
-    operation.floor_tolerance = 0.02;
-    operation.plan_tolerance = 0.02;
+    operation.tolerance.floor = 0.02;
+    operation.tolerance.plan = 0.02;
     const double side = std::sqrt(107.0 * 14 / static_cast<double>(state.range(0)));
-    operation.grid_x = side;
-    operation.grid_y = side;
+    cusp::grid_pocket::grid_keys(operation).grid_x = side;
+    cusp::grid_pocket::grid_keys(operation).grid_y = side;
     job.stock_top = 20;
     for (auto _ : state) {
         benchmark::DoNotOptimize(plan_grid_pocket(job, operation));

@@ -17,12 +17,12 @@ void rough(benchmark::State& state)
 {
     const Job job = plain_job();
     Operation operation;
-    operation.floor = {hills(static_cast<double>(state.range(0)))};
+    operation.part.floor = {hills(static_cast<double>(state.range(0)))};
     operation.tool = {1, ToolShape::kFlat, 4, 0};
-    operation.plan_tolerance = 0.02;
-    operation.max_depth = 2;
-    operation.min_depth = 1;
-    operation.extra_subdivision = static_cast<int>(state.range(1));
+    operation.tolerance.plan = 0.02;
+    operation.levels.max_depth = 2;
+    operation.levels.min_depth = 1;
+    cusp::hull_rough::hull_keys(operation).extra_subdivision = static_cast<int>(state.range(1));
     std::size_t moves = 0;
     for (auto _ : state) {
         moves = plan_hull_rough(job, operation).front().path.moves.size();

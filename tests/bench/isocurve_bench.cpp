@@ -42,11 +42,11 @@ void plan_sine_hills(benchmark::State& state)
     job.tools = {{1, ToolShape::kBall, 3, 3}};
     job.stock_top = 8.5;
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.floor = sine_hills();
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.part.floor = sine_hills();
     operation.tool = job.tools.front();
-    operation.plan_tolerance = operation.floor_tolerance = 0.005;
-    operation.scallop = 0.02;
+    operation.tolerance.plan = operation.tolerance.floor = 0.005;
+    operation.tolerance.scallop = 0.02;
     for (auto _ : state) {
         const auto planned = plan_adaptive_isocurve(job, operation);
         state.counters["points"] = planned.front().stats.cl_points;
@@ -84,11 +84,11 @@ void plan_noisy_scan(benchmark::State& state)
     job.tools = {{1, ToolShape::kBall, 3, 3}};
     job.stock_top = 8.5;
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.mesh = noisy_scan(static_cast<int>(state.range(0)));
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.part.mesh = noisy_scan(static_cast<int>(state.range(0)));
     operation.tool = job.tools.front();
-    operation.plan_tolerance = operation.floor_tolerance = 0.01;
-    operation.scallop = 0.03;
+    operation.tolerance.plan = operation.tolerance.floor = 0.01;
+    operation.tolerance.scallop = 0.03;
     for (auto _ : state) {
         const auto planned = plan_adaptive_isocurve(job, operation);
         state.counters["points"] = planned.front().stats.cl_points;
@@ -140,16 +140,16 @@ void waterline_roughing(benchmark::State& state)
     Job job = plain_job();
     job.stock_top = 9;
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.roughing = true;
-    operation.floor = {hills(static_cast<double>(state.range(0)))};
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.passes.roughing = true;
+    operation.part.floor = {hills(static_cast<double>(state.range(0)))};
     operation.tools = {{1, ToolShape::kFlat, 4, 0}};
     if (state.range(1) > 1) {
         operation.tools.push_back({2, ToolShape::kBall, 2, 2});
     }
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.allowance = 0.3;
-    operation.max_depth = 3;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.passes.allowance = 0.3;
+    operation.levels.max_depth = 3;
     for (auto _ : state) {
         double moves = 0;
         for (const PlannedOperation& planned : plan_waterline_roughing(job, operation)) {

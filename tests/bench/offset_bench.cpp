@@ -153,13 +153,13 @@ Surface wavy_floor(int spans)
 Operation replica_over(std::vector<Surface> floor)
 {
     Operation operation;
-    operation.strategy = "contour_pocket";
-    operation.floor = std::move(floor);
-    operation.boundary = read_loop(part("boundary"));
-    operation.islands = {read_loop(part("island"))};
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
+    operation.part.floor = std::move(floor);
+    operation.outline.boundary = read_loop(part("boundary"));
+    operation.outline.islands = {read_loop(part("island"))};
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
-    operation.scallop = 0.4;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.tolerance.scallop = 0.4;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     return operation;
 }
 
@@ -184,8 +184,8 @@ void plan_in_layers(benchmark::State& state, ToolShape shape)
 {
     Operation operation = replica_over(read_surfaces(part("floor")));
     operation.tool = {1, shape, 6.0, shape == ToolShape::kBall ? 6.0 : 0.0};
-    operation.max_depth = 5.0;
-    operation.allowance = 0.5;
+    operation.levels.max_depth = 5.0;
+    operation.passes.allowance = 0.5;
     plan(state, operation);
 }
 BENCHMARK_CAPTURE(plan_in_layers, ball, ToolShape::kBall)->Unit(benchmark::kMillisecond);
@@ -201,7 +201,7 @@ BENCHMARK(plan_by_spans_of_the_floor)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark
 void plan_by_number_of_curves(benchmark::State& state)
 {
     Operation operation;
-    operation.strategy = "contour_pocket";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
     Surface floor;
     floor.degree_u = floor.degree_v = 1;
     floor.size_u = floor.size_v = 2;
@@ -209,7 +209,7 @@ void plan_by_number_of_curves(benchmark::State& state)
     floor.points = {
         {-120.0, -120.0, -8.0}, {-120.0, 120.0, -8.0}, {120.0, -120.0, -8.0}, {120.0, 120.0, -8.0}};
     floor.weights = {1.0, 1.0, 1.0, 1.0};
-    operation.floor = {floor};
+    operation.part.floor = {floor};
     Loop loop;
     for (const Edge& edge : gear(static_cast<int>(state.range(0)))) {
         loop.push_back({1,
@@ -217,10 +217,10 @@ void plan_by_number_of_curves(benchmark::State& state)
                         {{edge.start.x, edge.start.y, 0.0}, {edge.end.x, edge.end.y, 0.0}},
                         {1.0, 1.0}});
     }
-    operation.boundary = loop;
+    operation.outline.boundary = loop;
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
-    operation.scallop = 0.4;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.tolerance.scallop = 0.4;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     plan(state, operation);
     state.SetComplexityN(state.range(0));
 }

@@ -97,6 +97,17 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "none\n")
         self.assertEqual(self.run_check("includes.py")[0], 2)
 
+    def test_strategy_names_refuses_a_name_outside_the_strategies(self):
+        self.assertEqual(self.run_check("strategy_names.py")[0], 2)
+        self.write("host_tools/cam/trace/trace.cpp", 'const Strategy kTrace{"trace", "..."};\nif (name == "trace") {}\n')
+        self.write("host_tools/cam/plan/plan.cpp", 'if (strategy == nullptr) {}  // as "trace"\n')
+        self.assertEqual(self.run_check("strategy_names.py")[0], 0)
+        for line in ('const char* kName = "trace";', "if (operation.strategy == &trace::kTrace) {}",
+                     "if (operation.strategy->name != word) {}", 'if (operation.name() == word) {}'):
+            self.write("host_tools/cam/plan/plan.cpp", line)
+            status, text = self.run_check("strategy_names.py")
+            self.assertEqual((status, text.startswith("host_tools/cam/plan/plan.cpp:1: ")), (1, True), line)
+
     def test_format_refuses_a_badly_laid_out_file(self):
         shutil.copy(HERE.parent.parent / ".clang-format", self.top)
         self.write("firmware/base/vec.hpp", "#pragma once\nint  x ;\n")

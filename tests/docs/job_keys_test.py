@@ -14,6 +14,9 @@ import unittest
 
 import jsonschema
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "refactor"))
+from random_job import RandomJob
+
 
 def plan(*arguments):
     return subprocess.run([CUSP, "plan", *arguments], capture_output=True, text=True)
@@ -59,6 +62,16 @@ class Schema(unittest.TestCase):
             with self.subTest(path=path):
                 self.assertEqual(self.faults(job), [])
 
+    def test_takes_random_jobs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for seed in range(60):
+                RandomJob(seed).write(pathlib.Path(folder))
+                for path in pathlib.Path(folder).glob("*.toml"):
+                    faults = self.faults(tomllib.loads(path.read_text()))
+                    if faults:  # a few ask for what no strategy takes
+                        run = plan(path, "-o", path.with_suffix(".ngc"))
+                        self.assertEqual((run.returncode, "is a key of" in run.stderr), (2, True), f"seed {seed}: {faults}")
+
     def test_refuses_an_unknown_key_a_wrong_type_and_a_value_out_of_range(self):
         job = tomllib.loads((TOP / "examples/plate/plate.toml").read_text())
         self.assertEqual(self.faults(job), [])
@@ -77,21 +90,78 @@ class Schema(unittest.TestCase):
         self.assertTrue(spoiled(lambda other: other.pop("operation")))
 
 
-class Help(unittest.TestCase):
-    def test_lists_tables_and_strategies(self):
-        text = plan("--help-job").stdout
-        for words in ("[stock]", "least_floor", "[tool]", "[[operation]]", "v_carve"):
-            self.assertIn(words, text)
+class Keys(unittest.TestCase):
+    """Each key of each strategy, spoiled: the schema and the reader refuse both, and the reader names the key."""
+    HEAD = """[tool]
+shape = "flat"
+diameter = 6.0
+[cutting]
+feed = 1000.0
+[[operation]]
+strategy = "{}"
+"""
 
-    def test_lists_the_keys_of_a_strategy_alone(self):
+    @classmethod
+    def setUpClass(cls):
+        schema = json.loads(plan("--schema").stdout)
+        cls.validator = jsonschema.Draft7Validator(schema)
+        cls.strategies = {each["if"]["properties"]["strategy"]["const"]: each["then"]["properties"]
+                          for each in schema["definitions"]["operation"]["allOf"]}
+
+    def refuse(self, strategy, key, value):
+        text = self.HEAD.format(strategy) + f"{key} = {value}\n"
+        faults = list(self.validator.iter_errors(tomllib.loads(text)))
+        self.assertTrue([fault for fault in faults if key in fault.absolute_path or f"'{key}'" in fault.message],
+                        f"the schema takes {key} = {value} of {strategy}")
+        with tempfile.TemporaryDirectory() as folder:
+            job = pathlib.Path(folder) / "job.toml"
+            job.write_text(text)
+            run = plan(job, "-o", job.with_suffix(".ngc"))
+        self.assertEqual(run.returncode, 2)
+        self.assertRegex(run.stderr, rf"job.toml:\d+: operation 1: {key}: ")
+
+    def test_refuse_a_value_of_another_kind(self):
+        for strategy, keys in self.strategies.items():
+            for key, form in keys.items():
+                if key not in ("strategy", "setup"):
+                    self.refuse(strategy, key, "1" if form["x-kind"] == "table" else "{ a = 1 }")
+
+    def test_refuse_a_number_outside_their_range(self):
+        count = 0
+        for strategy, keys in self.strategies.items():
+            for key, form in keys.items():
+                if form.get("type") in ("number", "integer"):
+                    count += 1
+                    self.refuse(strategy, key, form["maximum"] + 1)
+                    self.refuse(strategy, key, form.get("exclusiveMinimum", form.get("minimum", 0) - 1))
+        self.assertGreater(count, 100)
+
+    def test_belong_to_their_strategies(self):
+        for strategy, keys in self.strategies.items():
+            others = {key for other in self.strategies.values() for key in other} - set(keys)
+            self.assertTrue(others)
+            for key in others:
+                self.refuse(strategy, key, 1)
+
+
+class Help(unittest.TestCase):
+    def test_lists_strategies_and_tables_a_line_each(self):
+        lines = plan("--help-job").stdout.splitlines()
+        self.assertLessEqual(max(map(len, lines)), 110)
+        for name in ("v_carve", "hull_rough", "stock", "tool", "operation", "group_by_tool"):
+            self.assertEqual(len([line for line in lines if line.startswith(f"  {name} ")]), 1, name)
+
+    def test_lists_the_keys_of_a_strategy_or_a_table_alone(self):
         text = plan("--help-job", "drill").stdout
         self.assertIn("peck", text)
         self.assertNotIn("scallop", text)
+        self.assertIn("least_floor", plan("--help-job", "stock").stdout)
+        self.assertIn("count", plan("--help-job", "profile").stdout)  # of its tabs
 
-    def test_refuses_a_strategy_that_is_none(self):
+    def test_names_the_nearest_of_a_wrong_name(self):
         run = plan("--help-job", "drilling")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("--help-job drilling: no such strategy", run.stderr)
+        self.assertRegex(run.stderr, "--help-job drilling: no strategy or table of that name; the nearest are drill, ")
 
 
 if __name__ == "__main__":

@@ -63,8 +63,8 @@ constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 std::string place_of_faces(const Operation& operation)
 {
-    return operation.floor_files.size() == 1 ? " of " + operation.floor_files.front()
-                                             : " of the floor";
+    return operation.part.floor_files.size() == 1 ? " of " + operation.part.floor_files.front()
+                                                  : " of the floor";
 }
 
 // Shares of the progress.
@@ -82,9 +82,9 @@ public:
           plain_{work_.surfaces().size() == 1 && is_plain(work_.surfaces().front())},
           selection_{operation, work_, plain_}
     {
-        if (operation.scallop && !operation.iso_distance) {
-            scallop_check_.emplace(work_.surfaces(), work_.path_fitter(), *operation.scallop,
-                                   work_.path_off());
+        if (operation.tolerance.scallop && !isocurve_keys(operation).iso_distance) {
+            scallop_check_.emplace(work_.surfaces(), work_.path_fitter(),
+                                   *operation.tolerance.scallop, work_.path_off());
         }
     }
 
@@ -103,7 +103,7 @@ public:
                 [&](const Points& pass) { add_pass(pass); },
                 [&](double share) { report(kCheckDone + (kMissingDone - kCheckDone) * share); });
             uncovered = scallop_check_->uncovered();
-            scallop_ = std::max(*operation_.scallop, scallop_check_->most_left());
+            scallop_ = std::max(*operation_.tolerance.scallop, scallop_check_->most_left());
             unseen = scallop_check_->overflowed();
             over_nothing_ = scallop_check_->over_nothing();
             scallop_ = unseen ? operation_.tool.radius : scallop_;
@@ -131,7 +131,7 @@ public:
         if (apart > 0) {
             planned.stats.counts.emplace_back("iso_distance_bound_mm", apart);
         }
-        if (apart > operation_.iso_distance.value_or(apart)) {
+        if (apart > isocurve_keys(operation_).iso_distance.value_or(apart)) {
             planned.stats.warnings.push_back(
                 "neighbouring passes are not proved to be within iso_distance everywhere");
         }
@@ -159,7 +159,7 @@ private:
 
     void report(double share) const
     {
-        job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
+        job_.report_progress(share, operation_.passes.roughing ? kRoughingDone : 0);
     }
 
     void add_pass(const Points& dense,
@@ -222,12 +222,12 @@ private:
             curves = selection_.curves_of(surface, complete, true);
             highest = selection_.highest_between(surface, curves);
         }
-        if (operation_.traversal == Traversal::kOneWay) {
+        if (operation_.passes.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
-        spacing_ = operation_.iso_distance
-                       ? *operation_.iso_distance
-                       : stepover(operation_.tool.radius, *operation_.scallop, 0);
+        spacing_ = isocurve_keys(operation_).iso_distance
+                       ? *isocurve_keys(operation_).iso_distance
+                       : stepover(operation_.tool.radius, *operation_.tolerance.scallop, 0);
         add_edges(add_curves(surface, curves));
         scallop_ = std::max(scallop_, highest.scallop_height);
         open_ = highest.open;
@@ -320,7 +320,7 @@ private:
             return std::accumulate(curve.v.begin(), curve.v.end(), 0.0) /
                    static_cast<double>(curve.v.size());
         };
-        const bool climb = operation_.direction_of_cut == CutDirection::kClimb;
+        const bool climb = operation_.passes.direction_of_cut == CutDirection::kClimb;
         const double sign = (up > 0) == climb ? -1 : 1;
         std::stable_sort(curves.begin(), curves.end(),
                          [&](const DomainCurve& a, const DomainCurve& b) {
@@ -398,19 +398,20 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
 {
     check_spacing(job, operation);
     std::vector<PlannedOperation> out;
-    const bool mesh = !complete && !operation.mesh.empty();
+    const bool mesh = !complete && !operation.part.mesh.empty();
     std::optional<IsocurvePlanner> planner;
     if (!mesh) {
-        const cancellation::Part part{"the model of ", static_cast<int>(operation.floor.size()),
+        const cancellation::Part part{"the model of ",
+                                      static_cast<int>(operation.part.floor.size()),
                                       " faces" + place_of_faces(operation)};
         planner.emplace(job, operation);
     }
     PlannedOperation finish;
     const auto rough = [&] {
-        if (operation.roughing) {
+        if (operation.passes.roughing) {
             std::optional<cancellation::Part> part;
             if (!mesh) {
-                part.emplace("the roughing of ", static_cast<int>(operation.floor.size()),
+                part.emplace("the roughing of ", static_cast<int>(operation.part.floor.size()),
                              " faces" + place_of_faces(operation));
             }
             out = plan_waterline_roughing(job, operation);

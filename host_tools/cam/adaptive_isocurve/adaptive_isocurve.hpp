@@ -15,6 +15,7 @@
 // and adds missing passes. plan_waterline_roughing() comes first if the job has roughing.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
@@ -26,6 +27,20 @@ namespace cusp::adaptive_isocurve {
 // The records of the strategies.
 extern const job::Strategy kAdaptiveIsocurve;
 extern const job::Strategy kCompleteIsocurves;
+
+// What a job says of isocurves and planes alone.
+struct IsocurveKeys {
+    std::optional<double> iso_distance;  // mm; none: by the scallop
+    bool even_steps{false};  // iso_spacing = "even": full steps, not the paper's halving
+    char direction{'u'};     // or 'v'; of planes along x or y
+};
+
+// Those of the operation.
+template <class AnyOperation>
+decltype(auto) isocurve_keys(AnyOperation& operation)
+{
+    return job::parameters_of<IsocurveKeys>(operation);
+}
 
 // Finishes the upper side of the operation's surfaces with a ball.
 //

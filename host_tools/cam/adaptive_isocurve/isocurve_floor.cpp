@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 
@@ -71,10 +72,10 @@ double size_of(const Operation& operation)
             high[k] = std::max(high[k], p[k]);
         }
     };
-    for (const Surface& surface : operation.floor) {
+    for (const Surface& surface : operation.part.floor) {
         std::for_each(surface.points.begin(), surface.points.end(), take);
     }
-    for (const auto& triangle : operation.mesh) {
+    for (const auto& triangle : operation.part.mesh) {
         std::for_each(triangle.begin(), triangle.end(), take);
     }
     return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
@@ -84,11 +85,11 @@ double size_of(const Operation& operation)
 
 std::vector<Surface> surfaces_along_u(const Operation& operation)
 {
-    if (operation.direction == 'u') {
-        return operation.floor;
+    if (isocurve_keys(operation).direction == 'u') {
+        return operation.part.floor;
     }
     std::vector<Surface> out;
-    for (const Surface& surface : operation.floor) {
+    for (const Surface& surface : operation.part.floor) {
         out.push_back(transposed(surface));
     }
     return out;
@@ -96,35 +97,39 @@ std::vector<Surface> surfaces_along_u(const Operation& operation)
 
 void check_spacing(const Job& job, const Operation& operation)
 {
-    if (!operation.iso_distance && !operation.scallop) {
+    if (!isocurve_keys(operation).iso_distance && !operation.tolerance.scallop) {
         throw InputError(
-            fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.strategy));
+            fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.name()));
     }
     const double size = size_of(operation);
-    if (operation.iso_distance && size > kMostPasses * *operation.iso_distance) {
+    if (isocurve_keys(operation).iso_distance &&
+        size > kMostPasses * *isocurve_keys(operation).iso_distance) {
         throw InputError(fmt::format(
             "{}: iso_distance is {:g} mm, over a part of {:g} mm it must be at least {:g} mm ({:g} "
             "passes)",
-            job.file, *operation.iso_distance, size, size / kMostPasses, kMostPasses));
+            job.file, *isocurve_keys(operation).iso_distance, size, size / kMostPasses,
+            kMostPasses));
     }
-    if (operation.iso_distance && *operation.iso_distance >= 2 * operation.tool.radius) {
+    if (isocurve_keys(operation).iso_distance &&
+        *isocurve_keys(operation).iso_distance >= 2 * operation.tool.radius) {
         throw InputError(fmt::format(
             "{}: iso_distance is {:g} mm, passes of a ball of radius {:g} mm must be nearer than "
             "{:g} mm",
-            job.file, *operation.iso_distance, operation.tool.radius, 2 * operation.tool.radius));
+            job.file, *isocurve_keys(operation).iso_distance, operation.tool.radius,
+            2 * operation.tool.radius));
     }
-    if (operation.scallop && *operation.scallop >= operation.tool.radius) {
+    if (operation.tolerance.scallop && *operation.tolerance.scallop >= operation.tool.radius) {
         throw InputError(
             fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
-                        *operation.scallop, operation.tool.radius));
+                        *operation.tolerance.scallop, operation.tool.radius));
     }
-    if (operation.scallop && !operation.iso_distance) {
-        const double apart = stepover(operation.tool.radius, *operation.scallop, 0);
+    if (operation.tolerance.scallop && !isocurve_keys(operation).iso_distance) {
+        const double apart = stepover(operation.tool.radius, *operation.tolerance.scallop, 0);
         if (size > kMostPasses * apart) {
             throw InputError(fmt::format(
                 "{}: scallop is {:g} mm, that is passes {:.3g} mm apart on level ground; over a "
                 "part of {:g} mm these would be {:.0f}, at most {:g} are made",
-                job.file, *operation.scallop, apart, size, size / apart, kMostPasses));
+                job.file, *operation.tolerance.scallop, apart, size, size / apart, kMostPasses));
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/cross_section.hpp"
 #include "host_tools/cam/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/cam/adaptive_isocurve/isocurve_spacing_bound.hpp"
@@ -54,7 +55,8 @@ const Surface& IsocurveSelection::surface_at(int surface) const
 // mm: the scallop less what the tolerance may add.
 double IsocurveSelection::planned_scallop() const
 {
-    return (is_smooth_ ? kPlannedShare : kCheckedShare) * (*operation_.scallop - work_.outward());
+    return (is_smooth_ ? kPlannedShare : kCheckedShare) *
+           (*operation_.tolerance.scallop - work_.outward());
 }
 
 // Steps for which the scallop has the planned height. A crest turns by half a turn at most: between
@@ -93,16 +95,17 @@ std::vector<DomainCurve> IsocurveSelection::curves_of(int surface, bool complete
 {
     const Surface& s = surface_at(surface);
     if (complete) {
-        const double step = operation_.iso_distance ? *operation_.iso_distance
-                                                    : kCompleteShare * least_step(surface);
+        const double step = isocurve_keys(operation_).iso_distance
+                                ? *isocurve_keys(operation_).iso_distance
+                                : kCompleteShare * least_step(surface);
         return complete_isocurves(s, surface, step);
     }
-    if (operation_.iso_distance && operation_.even_steps) {
-        return curves_within(*operation_.iso_distance, surface);
+    if (isocurve_keys(operation_).iso_distance && isocurve_keys(operation_).even_steps) {
+        return curves_within(*isocurve_keys(operation_).iso_distance, surface);
     }
-    if (operation_.iso_distance) {
-        spacing_bound_ = std::max(spacing_bound_, *operation_.iso_distance);
-        return adaptive_isocurves(s, surface, *operation_.iso_distance);
+    if (isocurve_keys(operation_).iso_distance) {
+        spacing_bound_ = std::max(spacing_bound_, *isocurve_keys(operation_).iso_distance);
+        return adaptive_isocurves(s, surface, *isocurve_keys(operation_).iso_distance);
     }
     return curves_for_scallop(surface, follow);
 }
@@ -114,7 +117,7 @@ std::vector<DomainCurve> IsocurveSelection::curves_for_scallop(int surface, bool
     };
     IsocurveScallop scallops{work_.model(), surface, tool_};
     const double allowed =
-        (is_smooth_ ? kSmoothShare : 1.0) * (*operation_.scallop - tool_.outward);
+        (is_smooth_ ? kSmoothShare : 1.0) * (*operation_.tolerance.scallop - tool_.outward);
     const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double sufficient) {
         if (!follow) {
             low.curve = high.curve = nullptr;
@@ -166,10 +169,10 @@ IsocurveScallop::Highest IsocurveSelection::highest_between(
     int surface, const std::vector<DomainCurve>& curves) const
 {
     const Surface& s = surface_at(surface);
-    const bool by_scallop = operation_.scallop && !operation_.iso_distance;
+    const bool by_scallop = operation_.tolerance.scallop && !isocurve_keys(operation_).iso_distance;
     return IsocurveScallop{work_.model(), surface, tool_}.highest(
         curves, s.u_begin(), s.u_end(), kScallopSections,
-        by_scallop ? *operation_.scallop : kInfinite);
+        by_scallop ? *operation_.tolerance.scallop : kInfinite);
 }
 
 double share_of_domain(const std::vector<IsocurveScallop::Strip>& strips, const Surface& surface)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/mesh_pencil_curves.hpp"
 #include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
@@ -57,11 +58,11 @@ struct MeshStrip {
 // The scallop of passes iso_distance apart on level ground, the tolerance included.
 double scallop_of(const Operation& operation, double outward)
 {
-    if (!operation.iso_distance) {
-        return *operation.scallop;
+    if (!isocurve_keys(operation).iso_distance) {
+        return *operation.tolerance.scallop;
     }
     const double radius = operation.tool.radius;
-    const double half = std::min(0.5 * *operation.iso_distance, 0.95 * radius);
+    const double half = std::min(0.5 * *isocurve_keys(operation).iso_distance, 0.95 * radius);
     return outward + radius - std::sqrt(radius * radius - half * half);
 }
 
@@ -73,11 +74,11 @@ public:
           work_{job, operation, {}},
           radius_{work_.path_fitter().offset_tool().radius},
           scallop_{scallop_of(operation, work_.outward())},
-          scallop_check_{operation.mesh, work_.path_fitter(), scallop_, work_.path_off()}
+          scallop_check_{operation.part.mesh, work_.path_fitter(), scallop_, work_.path_off()}
     {
         const Vec3d low = work_.model().box_low();
         const Vec3d high = work_.model().box_high();
-        if (operation.direction == 'v') {
+        if (isocurve_keys(operation).direction == 'v') {
             along_ = {0, 1, 0};
             across_ = {1, 0, 0};
         }
@@ -85,8 +86,8 @@ public:
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
         row_ = kRowShare * stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
-        if (operation.iso_distance) {
-            row_ = std::min(row_, 0.999 * *operation.iso_distance);
+        if (isocurve_keys(operation).iso_distance) {
+            row_ = std::min(row_, 0.999 * *isocurve_keys(operation).iso_distance);
         }
         sample_pitch_ = kSampleShare * row_;
     }
@@ -103,7 +104,7 @@ public:
 private:
     void report(double share) const
     {
-        job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
+        job_.report_progress(share, operation_.passes.roughing ? kRoughingDone : 0);
     }
 
     using Dropped = PartModel::DroppedBall;
@@ -225,7 +226,7 @@ private:
         }
         return !check.is_covered(here->point, (here->centre - here->point) / radius_,
                                  kMiddleShare) ||
-               (operation_.iso_distance && too_far_apart(s, strip));
+               (isocurve_keys(operation_).iso_distance && too_far_apart(s, strip));
     }
 
     // If the tip or its contact jumps, no distance is small enough: such places do not count.
@@ -233,7 +234,7 @@ private:
     {
         const std::optional<Dropped> low = drop_at(s, strip.low);
         const std::optional<Dropped> high = drop_at(s, strip.high);
-        const double delta = *operation_.iso_distance;
+        const double delta = *isocurve_keys(operation_).iso_distance;
         const auto far = [&](Vec3d a, Vec3d b) {
             const double way = norm(b - a);
             return way > delta && way < delta + 4 * (strip.high - strip.low);
@@ -330,7 +331,8 @@ private:
                 scallop_check_.blocked_area()));
         }
         planned.stats.counts.emplace_back("isocurves", curves_);
-        planned.stats.counts.emplace_back("triangles", static_cast<double>(operation_.mesh.size()));
+        planned.stats.counts.emplace_back("triangles",
+                                          static_cast<double>(operation_.part.mesh.size()));
         return planned;
     }
 

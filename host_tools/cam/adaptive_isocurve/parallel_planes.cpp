@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/proved_scallop.hpp"
 #include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/cam/finishing/contact_tracker.hpp"
@@ -88,10 +89,10 @@ public:
     PlanePlanner(const Job& job, const Operation& operation)
         : job_{job},
           operation_{operation},
-          work_{job, operation, operation.floor},
+          work_{job, operation, operation.part.floor},
           ball_{work_.path_fitter()}
     {
-        across_ = operation.direction == 'u' ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+        across_ = isocurve_keys(operation).direction == 'u' ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
         along_ = {across_.y, across_.x, 0};
         low_ = work_.model().box_low();
         size_ = work_.model().box_high() - low_;
@@ -100,14 +101,15 @@ public:
 
     PlannedOperation plan()
     {
-        const double step = operation_.step_over ? *operation_.step_over : step_for_scallop();
+        const double step =
+            operation_.passes.step_over ? *operation_.passes.step_over : step_for_scallop();
         const double width = dot(size_, across_);
         if (width + 2 * reach_ > kMostPlanes * step) {
             throw InputError(fmt::format(
                 "{}: parallel_planes: planes {:.3g} mm apart ({}) over a part of {:g} mm and what "
                 "the tool reaches beyond it would be {:.0f}, at most {:g} are made",
-                job_.file, step, operation_.step_over ? "step_over" : "by the scallop", width,
-                std::ceil((width + 2 * reach_) / step), kMostPlanes));
+                job_.file, step, operation_.passes.step_over ? "step_over" : "by the scallop",
+                width, std::ceil((width + 2 * reach_) / step), kMostPlanes));
         }
         const int planes = std::max(1, static_cast<int>(std::ceil(width / step)));
         // A ball on a slope that ends in a rim is beyond the rim.
@@ -126,9 +128,9 @@ public:
 private:
     PlannedOperation finished(double step)
     {
-        if (operation_.step_over) {
+        if (operation_.passes.step_over) {
             prove(step);
-        } else if (operation_.mesh.empty()) {
+        } else if (operation_.part.mesh.empty()) {
             complete_surfaces();
         } else {
             complete_mesh();
@@ -145,7 +147,7 @@ private:
     // The bound that planes `step` apart keep.
     void prove(double step)
     {
-        if (operation_.mesh.empty()) {
+        if (operation_.part.mesh.empty()) {
             const ProvedScallop proved =
                 proved_scallop(work_.surfaces(), work_.path_fitter(), work_.path_off(), cut_,
                                {0, step, operation_.tool.radius, work_.outward()});
@@ -153,15 +155,16 @@ private:
             beside_edges_ = proved.beside_edges;
             over_nothing_ = proved.over_nothing;
         } else {
-            bound_ = proved_mesh_scallop(operation_.mesh, work_.path_fitter(), work_.path_off(),
-                                         cut_, {0, step, operation_.tool.radius, work_.outward()});
+            bound_ =
+                proved_mesh_scallop(operation_.part.mesh, work_.path_fitter(), work_.path_off(),
+                                    cut_, {0, step, operation_.tool.radius, work_.outward()});
         }
     }
 
     // Adds the passes that the planes lack.
     void complete_surfaces()
     {
-        ScallopCheck cells{work_.surfaces(), work_.path_fitter(), *operation_.scallop,
+        ScallopCheck cells{work_.surfaces(), work_.path_fitter(), *operation_.tolerance.scallop,
                            work_.path_off()};
         const auto cut = [&](const Points& pass) {
             cells.add(work_.add_pass(pass));
@@ -181,8 +184,8 @@ private:
 
     void complete_mesh()
     {
-        MeshScallopCheck cells{operation_.mesh, work_.path_fitter(), *operation_.scallop,
-                               work_.path_off()};
+        MeshScallopCheck cells{operation_.part.mesh, work_.path_fitter(),
+                               *operation_.tolerance.scallop, work_.path_off()};
         for (const Points& pass : cut_) {
             cells.add(pass);
         }
@@ -195,7 +198,7 @@ private:
     template <typename Check>
     void take(const Check& cells)
     {
-        bound_ = std::max(*operation_.scallop, cells.most_left());
+        bound_ = std::max(*operation_.tolerance.scallop, cells.most_left());
         uncovered_ = cells.uncovered();
         unseen_ = cells.overflowed();
         over_nothing_ = cells.over_nothing();
@@ -208,13 +211,14 @@ private:
 
     double step_for_scallop()
     {
-        const double scallop_height = kPlaneScallopShare * (*operation_.scallop - work_.outward());
+        const double scallop_height =
+            kPlaneScallopShare * (*operation_.tolerance.scallop - work_.outward());
         const double on_level = stepover(operation_.tool.radius, scallop_height, 0);
         double least = on_level;
         const auto ask = [&](double step) {
             least = step < kLeastPlaneShare * on_level ? least : std::min(least, step);
         };
-        for (const auto& facet : operation_.mesh) {
+        for (const auto& facet : operation_.part.mesh) {
             const Vec3d n = cross(facet[1] - facet[0], facet[2] - facet[0]);
             ask(kMeshShare * on_level * norm(along_slope(across_, n / norm(n))));
         }
@@ -314,20 +318,20 @@ private:
 void check_planes(const Job& job, const Operation& operation)
 {
     const double radius = operation.tool.radius;
-    if (!operation.step_over && !operation.scallop) {
+    if (!operation.passes.step_over && !operation.tolerance.scallop) {
         throw InputError(
-            fmt::format("{}: {}: give step_over or scallop", job.file, operation.strategy));
+            fmt::format("{}: {}: give step_over or scallop", job.file, operation.name()));
     }
-    if (operation.step_over && *operation.step_over >= 2 * radius) {
+    if (operation.passes.step_over && *operation.passes.step_over >= 2 * radius) {
         throw InputError(fmt::format(
             "{}: step_over is {:g} mm, planes of a ball of radius {:g} mm must be nearer than "
             "{:g} mm",
-            job.file, *operation.step_over, radius, 2 * radius));
+            job.file, *operation.passes.step_over, radius, 2 * radius));
     }
-    if (operation.scallop && *operation.scallop >= radius) {
+    if (operation.tolerance.scallop && *operation.tolerance.scallop >= radius) {
         throw InputError(
             fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
-                        *operation.scallop, radius));
+                        *operation.tolerance.scallop, radius));
     }
 }
 

@@ -45,22 +45,22 @@ std::vector<double> given_levels(const Job& job,
 {
     std::vector<double> out;
     double above = top;
-    for (const double depth : operation.layers) {
+    for (const double depth : operation.levels.layers) {
         const double z = job.stock_top - depth;
         if (z < bottom - kSame) {
             refuse(job, fmt::format("layers: depth {:g} mm is below the bottom at z = {:g} mm (the "
                                     "lowest place of the part, or of the stock, and the allowance)",
                                     depth, bottom));
         }
-        if (operation.max_depth && above - z > *operation.max_depth + kSame) {
+        if (operation.levels.max_depth && above - z > *operation.levels.max_depth + kSame) {
             refuse(job, fmt::format("layers: the one at depth {:g} mm is {:g} mm deep, more than "
                                     "max_depth, {:g} mm",
-                                    depth, above - z, *operation.max_depth));
+                                    depth, above - z, *operation.levels.max_depth));
         }
-        if (operation.min_depth && above - z < *operation.min_depth - kSame) {
+        if (operation.levels.min_depth && above - z < *operation.levels.min_depth - kSame) {
             refuse(job, fmt::format("layers: the one at depth {:g} mm is {:g} mm deep, less than "
                                     "min_depth, {:g} mm",
-                                    depth, above - z, *operation.min_depth));
+                                    depth, above - z, *operation.levels.min_depth));
         }
         out.push_back(z);
         above = z;
@@ -85,12 +85,12 @@ RoughDepths rough_depths(const Job& job,
                          double top,
                          double bottom)
 {
-    const double depth = operation.max_depth.value_or(least_radius(tools));
+    const double depth = operation.levels.max_depth.value_or(least_radius(tools));
     if (depth <= kWritten) {
         refuse(job, fmt::format("max_depth is {:g} mm, not above {:g} mm", depth, kWritten));
     }
     const double deep = top - bottom;
-    if (operation.layers.empty() && deep < kWritten / 2) {
+    if (operation.levels.layers.empty() && deep < kWritten / 2) {
         return {};
     }
     const double rests = tools.size() > 1 ? 1.0 + kRestOfScallop : 1.0;
@@ -105,9 +105,10 @@ RoughDepths rough_depths(const Job& job,
             return std::max(1.0, std::ceil(deep / step - kSame));
         };
         double count = levels(wanted);
-        if (deep / count < operation.min_depth.value_or(0)) {
-            count = std::max(levels(least),
-                             std::min(count, std::floor(deep / *operation.min_depth + kSame)));
+        if (deep / count < operation.levels.min_depth.value_or(0)) {
+            count =
+                std::max(levels(least),
+                         std::min(count, std::floor(deep / *operation.levels.min_depth + kSame)));
         }
         if (count > kMaxRings) {
             refuse(job, fmt::format("max_depth makes {:.0f} levels of a stock {:g} mm high, more "
@@ -126,8 +127,9 @@ RoughDepths rough_depths(const Job& job,
         above = z;
     }
     // Depths that the job gives limit the scallops as well.
-    const double left =
-        operation.max_depth || operation.layers.empty() ? depth - kWritten - thickest : wanted;
+    const double left = operation.levels.max_depth || operation.levels.layers.empty()
+                            ? depth - kWritten - thickest
+                            : wanted;
     const double scallops = std::max(least, std::min(wanted, left));
     out.scallop_height = scallops / rests;
     out.rest_height = scallops - out.scallop_height;

@@ -48,7 +48,8 @@ constexpr double kChordShare = 0.2;  // of the band: between arcs or curves and 
 
 std::string file_of(const Operation& operation)
 {
-    return operation.floor_files.empty() ? std::string{"floor"} : operation.floor_files.front();
+    return operation.part.floor_files.empty() ? std::string{"floor"}
+                                              : operation.part.floor_files.front();
 }
 
 }  // namespace
@@ -75,46 +76,46 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     check_tool();
     check_form();
     check_surfaces();
-    model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.mesh)
+    model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.part.mesh)
                                : std::make_unique<PartModel>(surfaces_);
     check_clearance(job, operation, *model_);
     path_fitter_ = std::make_unique<GougeFreePathFitter>(
         *model_, operation.tool,
         make_tolerance_band(
-            operation.floor_tolerance,
-            surfaces_.empty() || operation.tolerance_side == ToleranceSide::kOutside));
+            operation.tolerance.floor,
+            surfaces_.empty() || operation.tolerance.side == ToleranceSide::kOutside));
     path_fitter_->check_edge_gouges(surfaces_);
 }
 
 // Keys without effect are errors, never ignored.
 void SurfaceOperation::check_form() const
 {
-    if (operation_.roughing && operation_.strategy == "parallel_planes") {
+    if (operation_.passes.roughing && operation_.strategy->traits.only_finishes) {
         throw InputError(
-            fmt::format("{}: parallel_planes only finishes: roughing = true is for "
-                        "adaptive_isocurve",
-                        job_.file));
+            fmt::format("{}: {} only finishes: roughing = true is for adaptive_isocurve", job_.file,
+                        operation_.name()));
     }
-    if (!operation_.roughing && operation_.allowance > 0) {
+    if (!operation_.passes.roughing && operation_.passes.allowance > 0) {
         throw InputError(
             fmt::format("{}: {}: allowance is {:g} mm, but nothing is roughed: "
                         "add roughing = true, or remove allowance",
-                        job_.file, operation_.strategy, operation_.allowance));
+                        job_.file, operation_.name(), operation_.passes.allowance));
     }
     const bool other_tools =
         std::any_of(operation_.tools.begin(), operation_.tools.end(),
                     [&](const Tool& tool) { return tool.number != operation_.tool.number; });
-    if (!operation_.roughing && other_tools) {
+    if (!operation_.passes.roughing && other_tools) {
         throw InputError(
             fmt::format("{}: {}: tools names the tools that rough: add roughing = "
                         "true; `tool` is the one that finishes",
-                        job_.file, operation_.strategy));
+                        job_.file, operation_.name()));
     }
-    if (!operation_.roughing &&
-        (operation_.max_depth || operation_.min_depth || !operation_.layers.empty())) {
+    if (!operation_.passes.roughing &&
+        (operation_.levels.max_depth || operation_.levels.min_depth ||
+         !operation_.levels.layers.empty())) {
         throw InputError(
             fmt::format("{}: {}: max_depth, min_depth and layers are for roughing = true",
-                        job_.file, operation_.strategy));
+                        job_.file, operation_.name()));
     }
 }
 
@@ -126,18 +127,18 @@ void SurfaceOperation::check_tool() const
             "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
             "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
             "grid_pocket finish with them)",
-            job_.file, operation_.strategy, tool.number,
+            job_.file, operation_.name(), tool.number,
             tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
     }
-    if (!(operation_.floor_tolerance < tool.radius)) {
+    if (!(operation_.tolerance.floor < tool.radius)) {
         throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
-                                     job_.file, operation_.floor_tolerance, tool.radius));
+                                     job_.file, operation_.tolerance.floor, tool.radius));
     }
-    if (operation_.boundary || !operation_.islands.empty()) {
+    if (operation_.outline.boundary || !operation_.outline.islands.empty()) {
         throw InputError(
             fmt::format("{}: strategy {} takes no boundary or islands: trim the surfaces, or add "
                         "walls to floor",
-                        job_.file, operation_.strategy));
+                        job_.file, operation_.name()));
     }
 }
 
@@ -288,10 +289,10 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     rules.stay_down = std::max(2 * operation_.tool.radius, 4 * spacing);
     rules.clearance_z = job_.stock_top + job_.clearance;
     rules.plunge_from = job_.stock_top + kOverStock;
-    rules.one_way = operation_.traversal == Traversal::kOneWay;
+    rules.one_way = operation_.passes.traversal == Traversal::kOneWay;
     PlannedOperation planned;
     OperationStats& stats = planned.stats;
-    stats.strategy = operation_.strategy;
+    stats.strategy = operation_.name();
     keep_in_stock(rules.stay_down, stats);
     stats.passes = static_cast<int>(passes_.size());
     LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
@@ -310,7 +311,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     set_tool(planned.path, job_, operation_.tool);
     planned.path.moves = std::move(linked.moves);
     planned.path.comments = {
-        operation_.strategy,
+        operation_.name(),
         fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",
                     stats.gouge_bound_mm, stats.scallop_bound_mm)};
     return planned;

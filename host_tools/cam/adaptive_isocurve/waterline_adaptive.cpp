@@ -50,10 +50,10 @@ AdaptivePath adaptive_level(const RoughWork& work,
     AdaptiveSettings adaptive;
     adaptive.tool_radius = clears(tool, settings.scallop_height);
     adaptive.wall_clearance = settings.wall_clearance;
-    adaptive.max_engagement = *work.operation.max_engagement * kPi / 180.0;
+    adaptive.max_engagement = *work.operation.passes.max_engagement * kPi / 180.0;
     adaptive.tolerance = std::min(settings.chord, 0.005 * adaptive.tool_radius);
-    adaptive.corner = work.operation.plan_tolerance;
-    adaptive.direction = work.operation.direction_of_cut;
+    adaptive.corner = work.operation.tolerance.plan;
+    adaptive.direction = work.operation.passes.direction_of_cut;
     Region2d beside{{rectangle(settings.field)}};
     for (const Contour& hole :
          grown(Region2d{{rectangle(work.stock.plan)}}, tool.radius + kOffStock).contours) {

@@ -89,7 +89,7 @@ public:
         : work_{work}, tool_{tool}, clearance_{clearance}, before_{before}
     {
         step_ = pass_spacing(tool, work.depths.scallop_height);
-        inner_fit_ = std::min(0.25 * work.operation.plan_tolerance, 0.02 * step_.stepover);
+        inner_fit_ = std::min(0.25 * work.operation.tolerance.plan, 0.02 * step_.stepover);
         result_.levels.tool = tool;
     }
 
@@ -97,12 +97,13 @@ public:
     {
         const auto begin = std::chrono::steady_clock::now();
         const Box2d& plan = work_.stock.plan;
-        const bool adaptive = work_.operation.max_engagement.has_value();
+        const bool adaptive = work_.operation.passes.max_engagement.has_value();
         // Passes of bounded engagement start and turn beside the stock, in a strip that is no neck.
-        const double out = (adaptive ? 2.7 : 1.05) * (tool_.radius + work_.operation.allowance);
+        const double out =
+            (adaptive ? 2.7 : 1.05) * (tool_.radius + work_.operation.passes.allowance);
         SliceSettings settings;
         settings.clearance = clearance_;
-        settings.excess = 0.5 * work_.operation.plan_tolerance;
+        settings.excess = 0.5 * work_.operation.tolerance.plan;
         settings.least_pitch = work_.least_pitch;
         settings.field = {plan.x0 - out, plan.y0 - out, plan.x1 + out, plan.y1 + out};
         const WaterlineSlices slices{work_.model, tool_, settings};
@@ -112,11 +113,12 @@ public:
             std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance;
         const bool arcs = work_.operation.output != OutputForm::kLines;
         std::vector<ToolMove>& moves = result_.planned.path.moves;
-        LayerToolpathWriter runs{
-            result_.planned.path, tool_.radius, {clearance_z, work_.operation.entry, arcs, kChord}};
-        ToolpathWriter writer{moves, {clearance_z, work_.operation.entry, tool_.radius}};
+        LayerToolpathWriter runs{result_.planned.path,
+                                 tool_.radius,
+                                 {clearance_z, work_.operation.passes.entry, arcs, kChord}};
+        ToolpathWriter writer{moves, {clearance_z, work_.operation.passes.entry, tool_.radius}};
         AdaptivePathWriter passes{
-            writer, {arcs, kChord, work_.operation.entry == EntryKind::kPlunge, scallops()}};
+            writer, {arcs, kChord, work_.operation.passes.entry == EntryKind::kPlunge, scallops()}};
         double above = work_.stock.top;
         const std::vector<double>& heights = work_.depths.heights;
         std::vector<std::optional<Level>> ahead;  // cleared at once, from `first` on
@@ -249,7 +251,7 @@ private:
                 if (level.region.contours.empty()) {
                     return std::nullopt;
                 }
-                if (work_.operation.max_engagement) {
+                if (work_.operation.passes.max_engagement) {
                     level.adaptive = adaptive_level(work_, level.region, tool_,
                                                     {field_, kFirst, step_.scallop_height, kChord},
                                                     cleared_before(k));
@@ -258,7 +260,7 @@ private:
                 ClearingSettings clearing;
                 clearing.wall_clearance = kFirst;
                 clearing.stepover = share * step_.stepover - 4.0 * inner_fit_;
-                clearing.direction = work_.operation.direction_of_cut;
+                clearing.direction = work_.operation.passes.direction_of_cut;
                 level.cleared = clear_region(level.region, clearing);
                 if (covers(level, clearing.stepover)) {
                     return level;
@@ -405,10 +407,10 @@ private:
             const ToolMove& move = moves[k];
             const Vec3d at = end_of(moves[k - 1]);
             if (std::min(at.z, end_of(move).z) >=
-                work_.model.box_high().z + work_.operation.allowance) {
+                work_.model.box_high().z + work_.operation.passes.allowance) {
                 continue;
             }
-            const double sufficient = std::min(least, work_.operation.allowance + 1.0);
+            const double sufficient = std::min(least, work_.operation.passes.allowance + 1.0);
             const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
             Vec3d from = at;
             for (const Vec3d& to : points_of(move, at, kChord)) {
@@ -429,11 +431,12 @@ private:
         const double least = least_clearance();
         Toolpath& path = result_.planned.path;
         set_tool(path, work_.job, tool_);
-        path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
-                                     work_.operation.strategy, levels_, work_.operation.allowance),
-                         fmt::format("clearance from the model at least {:.4f} mm", least)};
+        path.comments = {
+            fmt::format("{}: {} roughing levels, allowance {:g} mm", work_.operation.name(),
+                        levels_, work_.operation.passes.allowance),
+            fmt::format("clearance from the model at least {:.4f} mm", least)};
         OperationStats& stats = result_.planned.stats;
-        stats.strategy = work_.operation.strategy;
+        stats.strategy = work_.operation.name();
         stats.roughing = true;
         stats.passes = result_.loops;
         stats.levels = levels_;
@@ -446,18 +449,18 @@ private:
                         {"loops", result_.loops},
                         {"layer_depth_mm", work_.stock.top - work_.depths.heights.front()},
                         {"clearance_bound_mm", least},
-                        {"allowance_mm", work_.operation.allowance}};
-        if (least < work_.operation.allowance - kProofStep) {
+                        {"allowance_mm", work_.operation.passes.allowance}};
+        if (least < work_.operation.passes.allowance - kProofStep) {
             stats.warnings.push_back(
                 fmt::format("roughing comes within {:.4f} mm of the model, the allowance is {:g} "
                             "mm",
-                            least, work_.operation.allowance));
+                            least, work_.operation.passes.allowance));
         }
         if (written.plunges > 0) {
             stats.warnings.push_back(
                 fmt::format("{} entries had no room for a ramp and plunge", written.plunges));
         }
-        if (work_.operation.max_engagement) {
+        if (work_.operation.passes.max_engagement) {
             stats.counts.emplace_back("entries", written.entries);
             stats.counts.emplace_back("lifts", written.retracts);
             engagement_.write(stats);
@@ -472,7 +475,7 @@ private:
     const std::vector<RoughedWaterlines>& before_;
     PassSpacing step_{};
     Box2d field_;  // of the axis
-    EngagementReport engagement_{work_.operation.max_engagement.value_or(0.0)};
+    EngagementReport engagement_{work_.operation.passes.max_engagement.value_or(0.0)};
     double inner_fit_{};
     RoughedTool result_;
     int levels_{};

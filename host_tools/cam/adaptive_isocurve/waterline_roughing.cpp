@@ -60,11 +60,11 @@ std::vector<Tool> cutters_of(const Operation& operation)
 void check(const Job& job, const Operation& operation, const std::vector<Tool>& tools)
 {
     for (const Tool& tool : tools) {
-        if (!(operation.plan_tolerance < tool.radius)) {
+        if (!(operation.tolerance.plan < tool.radius)) {
             throw InputError(fmt::format(
                 "{}: {} with roughing = true: plan_tolerance is {:g} mm, not below the radius of "
                 "{:g} mm of tool {}",
-                job.file, operation.strategy, operation.plan_tolerance, tool.radius, tool.number));
+                job.file, operation.name(), operation.tolerance.plan, tool.radius, tool.number));
         }
     }
 }
@@ -82,10 +82,10 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
 {
     const std::vector<Tool> tools = cutters_of(operation);
     check(job, operation, tools);
-    const PartModel model =
-        operation.mesh.empty() ? PartModel{operation.floor} : PartModel{operation.mesh};
+    const PartModel model = operation.part.mesh.empty() ? PartModel{operation.part.floor}
+                                                        : PartModel{operation.part.mesh};
     check_clearance(job, operation, model);
-    const RoughStock stock = stock_of(job, model, operation.allowance);
+    const RoughStock stock = stock_of(job, model, operation.passes.allowance);
     const double share = kRoughingDone / static_cast<double>(tools.size());
     RoughWork work{
         job, operation, model, stock, rough_depths(job, operation, tools, stock.top, stock.bottom),
@@ -94,12 +94,12 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
         return nothing_roughed(fmt::format(
             "with an allowance of {:g} mm the lowest level is at z = {:.6g} mm, the stock's top at "
             "{:.6g} mm",
-            operation.allowance, stock.bottom, stock.top));
+            operation.passes.allowance, stock.bottom, stock.top));
     }
     std::vector<PlannedOperation> out;
     std::vector<RoughedWaterlines> before;
     std::vector<std::string> warnings;
-    double keep = operation.allowance + kRounded;
+    double keep = operation.passes.allowance + kRounded;
     for (const Tool& tool : tools) {
         // A coarser lattice is sufficient if a smaller tool follows.
         work.least_pitch = std::max(tools.back().radius, 0.5 * tool.radius) / kPitchOfRadius;
@@ -117,9 +117,9 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
     if (out.empty()) {
         return nothing_roughed(
             fmt::format("no roughing tool fits into the stock with an allowance of {:g} mm",
-                        operation.allowance));
+                        operation.passes.allowance));
     }
-    const double least = operation.min_depth.value_or(0);
+    const double least = operation.levels.min_depth.value_or(0);
     if (work.depths.thinnest < least - kRounded) {
         warnings.push_back(fmt::format(
             "levels are {:.3f} mm deep, less than min_depth, {:g} mm: max_depth and the height of "

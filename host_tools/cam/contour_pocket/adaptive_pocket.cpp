@@ -43,11 +43,11 @@ constexpr double kLevel = 1e-6;  // mm: heights of a level floor differ by less
 
 double level_of(const Operation& operation)
 {
-    const Vec3d first = operation.floor.front().points.front();
-    for (const Surface& surface : operation.floor) {
+    const Vec3d first = operation.part.floor.front().points.front();
+    for (const Surface& surface : operation.part.floor) {
         for (const Vec3d p : surface.points) {
             if (std::abs(p.z - first.z) > kLevel) {
-                throw InputError(operation.floor_files.front() +
+                throw InputError(operation.part.floor_files.front() +
                                  ": clearing \"adaptive\" needs a level floor; it has z " +
                                  number_text(first.z) + " mm and " + number_text(p.z) + " mm");
             }
@@ -60,13 +60,13 @@ std::vector<double> heights_of(const Job& job, const Operation& operation, doubl
 {
     const double deep = job.stock_top - floor;
     std::vector<double> heights;
-    for (const double below : operation.layers) {
+    for (const double below : operation.levels.layers) {
         if (below < deep - kLevel) {
             heights.push_back(job.stock_top - below);
         }
     }
-    const int n = operation.layers.empty() && operation.max_depth && deep > 0.0
-                      ? layer_count(job, operation, deep, *operation.max_depth)
+    const int n = operation.levels.layers.empty() && operation.levels.max_depth && deep > 0.0
+                      ? layer_count(job, operation, deep, *operation.levels.max_depth)
                       : 1;
     for (int i = 1; i < n; ++i) {
         heights.push_back(job.stock_top - deep * i / n);
@@ -85,8 +85,8 @@ void check_size(const Operation& operation, const Region2d& region)
     const double y = box.y1 - box.y0;
     if (x * y > kMostCells * pitch * pitch) {
         throw InputError(
-            operation.boundary_file + ": the pocket of " + number_text(x) + " x " + number_text(y) +
-            " mm is over " + number_text(kMostCells * pitch * pitch) +
+            operation.outline.boundary_file + ": the pocket of " + number_text(x) + " x " +
+            number_text(y) + " mm is over " + number_text(kMostCells * pitch * pitch) +
             " mm^2, the most that clearing \"adaptive\" takes with the tool of radius " +
             number_text(operation.tool.radius) + " mm");
     }
@@ -107,10 +107,10 @@ AdaptivePath passes_of(const Job& job,
     AdaptiveSettings settings;
     settings.tool_radius = operation.tool.radius;
     settings.wall_clearance = tolerances.wall_clearance;
-    settings.max_engagement = *operation.max_engagement * kDegrees;
+    settings.max_engagement = *operation.passes.max_engagement * kDegrees;
     settings.tolerance = chord_tolerance(operation, tolerances);
     settings.corner = tolerances.plan_tolerance;
-    settings.direction = operation.direction_of_cut;
+    settings.direction = operation.passes.direction_of_cut;
     if (open) {
         settings.open.push_back(open->starts);
     }
@@ -119,7 +119,7 @@ AdaptivePath passes_of(const Job& job,
     };
     AdaptivePath path = clear_adaptively(region, settings);
     if (path.runs.empty()) {
-        throw PocketRefusal(operation.boundary_file + ": the tool of radius " +
+        throw PocketRefusal(operation.outline.boundary_file + ": the tool of radius " +
                             number_text(operation.tool.radius) +
                             " mm fits nowhere into the pocket");
     }
@@ -132,7 +132,7 @@ void warn_beside_stock(const Job& job,
                        OperationStats& stats)
 {
     if (lies_beside_stock(job, pocket)) {
-        stats.warnings.push_back(operation.boundary_file +
+        stats.warnings.push_back(operation.outline.boundary_file +
                                  ": the pocket lies beside the stock: the program cuts none");
     }
 }
@@ -149,38 +149,38 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     const Region2d& region = open ? open->region : pocket;
     check_work(job, operation, region, tolerances);
     check_size(operation, region);
-    const DropCutter floor{operation.floor, operation.tool, tolerances.accuracy};
+    const DropCutter floor{operation.part.floor, operation.tool, tolerances.accuracy};
     check_coverage(operation, open ? open->in_stock : pocket, floor);
     const std::vector<double> heights = heights_of(job, operation, level_of(operation));
     const AdaptivePath path = passes_of(job, operation, region, open, tolerances);
 
     PlannedOperation result;
     set_tool(result.path, job, operation.tool);
-    ToolpathWriter writer{result.path.moves,
-                          {job.stock_top + job.clearance, operation.entry, operation.tool.radius}};
+    ToolpathWriter writer{
+        result.path.moves,
+        {job.stock_top + job.clearance, operation.passes.entry, operation.tool.radius}};
     AdaptivePathWriter cutter{
         writer,
         {operation.output != OutputForm::kLines, chord_tolerance(operation, tolerances),
-         operation.entry == EntryKind::kPlunge}};
+         operation.passes.entry == EntryKind::kPlunge}};
     double above = job.stock_top;
     for (const double z : heights) {
         cutter.write(path, above, z);
         above = z;
     }
     writer.retract();
-
     OperationStats& stats = result.stats;
-    stats.strategy = operation.strategy;
+    stats.strategy = operation.name();
     stats.passes = static_cast<int>(path.runs.size() * heights.size());
     stats.levels = static_cast<int>(heights.size());
     stats.cl_points = cutter.points();
     stats.retracts = writer.retracts();
-    stats.scallop_bound_mm = operation.floor_tolerance;
+    stats.scallop_bound_mm = operation.tolerance.floor;
     stats.counts = {{"layers", static_cast<double>(heights.size())},
-                    {"islands", static_cast<double>(operation.islands.size())},
+                    {"islands", static_cast<double>(operation.outline.islands.size())},
                     {"entries", static_cast<double>(cutter.entries())},
                     {"lifts", static_cast<double>(writer.retracts())}};
-    EngagementReport engagement{*operation.max_engagement};
+    EngagementReport engagement{*operation.passes.max_engagement};
     engagement.add(path, heights.size());
     engagement.write(stats);
     if (open) {

@@ -80,7 +80,7 @@ constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius
 // True if the floor is one surface without trims, which has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
 {
-    return operation.floor.size() == 1 && operation.floor.front().trims.empty();
+    return operation.part.floor.size() == 1 && operation.part.floor.front().trims.empty();
 }
 
 class FinishPlanner {
@@ -95,15 +95,15 @@ public:
           region_{region},
           tolerances_{tolerances},
           walls_{region},
-          floor_{operation.floor, operation.tool, tolerances.accuracy},
-          loop_scallop_{floor_, operation.floor, tolerances_},
+          floor_{operation.part.floor, operation.tool, tolerances.accuracy},
+          loop_scallop_{floor_, operation.part.floor, tolerances_},
           moves_{job.stock_top + job.clearance},
           depth_{depth},
           begun_{is_roughed(operation) ? kRoughingDone : 0.0},
           levels_done_{is_roughed(operation) ? 0.0 : kLevelsDone}
     {
         if (!tolerances.one_sided) {
-            floor_.check_edge_gouges(operation.floor_tolerance);
+            floor_.check_edge_gouges(operation.tolerance.floor);
         }
     }
 
@@ -153,14 +153,14 @@ public:
             end_with_partial_loops(cleared);
             settings.rapid_to_stock = true;
             settings.skipped = cut_by_roughing(cleared, settings.repeated, *rough);
-            const bool stock_left = operation_.allowance > 0.0 ||
+            const bool stock_left = operation_.passes.allowance > 0.0 ||
                                     rough->operation.path.tool.number != operation_.tool.number;
             if (stock_left) {
                 settings.stock_beside = {stock_beside(cleared, settings.repeated), job_.stock_top,
                                          depths_beside(cleared, *rough)};
             }
         }
-        settings.retracts = cleared.leaves + static_cast<int>(operation_.islands.size());
+        settings.retracts = cleared.leaves + static_cast<int>(operation_.outline.islands.size());
         settings.progress = [&](double share) {
             report(levels_done_ + (1.0 - levels_done_) * share);
         };
@@ -182,10 +182,10 @@ private:
         settings.wall_clearance = tolerances_.wall_clearance;
         const double widest = finish_is_last_layer(operation_)
                                   ? rough_stepover(operation_)
-                                  : operation_.step_over.value_or(kUnbounded);
+                                  : operation_.passes.step_over.value_or(kUnbounded);
         settings.stepover = std::min(2.0 * operation_.tool.radius, widest);
-        settings.direction = operation_.direction_of_cut;
-        settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
+        settings.direction = operation_.passes.direction_of_cut;
+        settings.cover_corners = *operation_.tolerance.scallop > operation_.tolerance.floor;
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
         LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
@@ -223,13 +223,13 @@ private:
             }
         }
         if (cleared.passes.empty()) {
-            throw PocketRefusal(operation_.boundary_file + ": the tool of radius " +
+            throw PocketRefusal(operation_.outline.boundary_file + ": the tool of radius " +
                                 number_text(operation_.tool.radius) +
                                 " mm fits nowhere into the pocket");
         }
         if (cleared.rings >= kMaxRings) {
             throw InputError(operation_text(job_, operation_) + "scallop " +
-                             number_text(*operation_.scallop) + " mm makes " +
+                             number_text(*operation_.tolerance.scallop) + " mm makes " +
                              number_text(cleared.rings) + " levels of loops, the limit is " +
                              number_text(kMaxRings - 1));
         }
@@ -266,7 +266,7 @@ private:
     // that stock.
     std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
-        for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
+        for (std::size_t i = 0; operation_.levels.max_depth && i < beside.size(); ++i) {
             beside[i] = beside[i] && !cleared.passes[i].is_pencil;
         }
         return beside;
@@ -280,7 +280,7 @@ private:
         const Tool& tool = rough.operation.path.tool;
         const double larger = tool.radius - radius;
         const EdgeTree centres{edges_of(walls_.at(rough.wall_clearance))};
-        const DropCutter roughed_floor{operation_.floor, tool, tolerances_.accuracy};
+        const DropCutter roughed_floor{operation_.part.floor, tool, tolerances_.accuracy};
         const double depth = layer_depth(operation_);
         const double higher = rough.left + highest_over(tool, operation_.tool);
         const double max_error = 0.02 * radius;
@@ -314,7 +314,7 @@ private:
                                       const RoughResult& rough) const
     {
         std::vector<bool> cut(cleared.passes.size(), false);
-        const bool whole = operation_.prismatic && operation_.allowance <= 0.0 &&
+        const bool whole = operation_.prismatic && operation_.passes.allowance <= 0.0 &&
                            rough.operation.path.tool.corner_radius <= 0.0 && !rough.heights.empty();
         for (std::size_t i = 0; whole && i < cut.size(); ++i) {
             cut[i] = !beside[i] && cleared.passes[i].final_path.empty();
@@ -366,7 +366,7 @@ private:
             loop_scallop_.lookup_spacing(region_, 0.5 * tolerances_.accuracy);
         settings.path_settings.arcs = operation_.output != OutputForm::kLines;
         settings.path_settings.nurbs = operation_.output == OutputForm::kNurbs;
-        settings.entry = operation_.entry;
+        settings.entry = operation_.passes.entry;
         settings.wall_clearance = tolerances_.wall_clearance;
         // Between its loops on a slope, roughing leaves the deepest stock where it is narrowest.
         settings.depth_share = 0.7;
@@ -383,16 +383,16 @@ private:
 
     void fill(OperationStats& stats, const ClearedRegion& cleared, double clearance) const
     {
-        stats.strategy = operation_.strategy;
+        stats.strategy = operation_.name();
         stats.passes = loops_ + pencil_passes_;
         stats.levels = cleared.rings;
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -clearance);
-        stats.scallop_bound_mm = tolerances_.scallop_height + operation_.floor_tolerance;
+        stats.scallop_bound_mm = tolerances_.scallop_height + operation_.tolerance.floor;
         stats.counts = {{"loops", static_cast<double>(loops_)},
                         {"leaves", static_cast<double>(cleared.leaves)},
-                        {"islands", static_cast<double>(operation_.islands.size())}};
+                        {"islands", static_cast<double>(operation_.outline.islands.size())}};
         if (!cleared.partial.empty()) {
             stats.counts.emplace_back("partial_loops", static_cast<double>(cleared.partial.size()));
         }
@@ -442,7 +442,7 @@ private:
 
 std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
 {
-    if (operation.max_engagement) {
+    if (operation.passes.max_engagement) {
         return plan_adaptive_pocket(job, operation);
     }
     const auto begin = std::chrono::steady_clock::now();
@@ -456,7 +456,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
-                      operation.max_depth, kStockPitch);
+                      operation.levels.max_depth, kStockPitch);
     }
     AxialDepthTracker* const cut_depth = depth ? &*depth : nullptr;
     const RoughAndFinish shared = split_between_rough_and_finish(operation, tolerances);
@@ -477,7 +477,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         result.back().stats.warnings.push_back(
             "tool " + number_text(tool.number) + " of radius " + number_text(tool.radius) +
             " mm fits nowhere, or the stock is no higher than the allowance, " +
-            number_text(operation.allowance) + " mm: nothing is roughed");
+            number_text(operation.passes.allowance) + " mm: nothing is roughed");
     }
     const double roughing_s = rough ? rough->operation.stats.planning_s : 0.0;
     const auto end = std::chrono::steady_clock::now();

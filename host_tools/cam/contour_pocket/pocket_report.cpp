@@ -65,9 +65,10 @@ void report_uncut(const FinishedPocket& pocket, OperationStats& stats)
 {
     constexpr std::size_t kNamed = 5;
     const Region2d centres = pocket.walls.at(pocket.wall_clearance);
-    const double least = std::max(*pocket.operation.scallop, 0.02 * pocket.operation.tool.radius);
+    const double least =
+        std::max(*pocket.operation.tolerance.scallop, 0.02 * pocket.operation.tool.radius);
     const std::vector<UncutRegion> places = uncut_regions(
-        pocket.walls, centres, pocket.operation.floor, pocket.floor,
+        pocket.walls, centres, pocket.operation.part.floor, pocket.floor,
         {pocket.wall_clearance, pocket.job.stock_top, least, pocket.valleys, pocket.air});
     double volume = 0.0;
     double height = 0.0;

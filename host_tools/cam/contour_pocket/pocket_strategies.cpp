@@ -19,6 +19,7 @@ constexpr Traits traits_of(Region region)
     Traits traits;
     traits.region = region;
     traits.pocket = true;
+    traits.one_line = region == Region::kSurfaces;
     return traits;
 }
 
@@ -32,6 +33,12 @@ std::vector<toolpath::PlannedOperation> plan_pocket(const Job& job, const Operat
     return plan_contour_pocket(from_top, operation);
 }
 
+void check_level_pocket(const Operation& operation, const job::Refuse& refuse)
+{
+    check_level(operation, refuse);
+    check_pocket(operation, refuse);
+}
+
 }  // namespace
 
 const Strategy kContourPocket{
@@ -40,8 +47,9 @@ const Strategy kContourPocket{
     job::surface_keys({"tools"}),
     {{"scallop", Kind::kLength, "needed",
       "most that may be left where the tool reaches, square to the surface, tolerance included",
-      job::kTolerance}},
+      job::kToleranceRange}},
     traits_of(Region::kSurfaces),
+    nullptr,
     job::check_pocket,
     plan_contour_pocket};
 
@@ -54,11 +62,12 @@ const Strategy kPocket{
                       "chip_load",        "feed_min", "feed_max",  "tools",
                       "step_over",        "depth",    "top",       "may_open"}),
     {{"scallop", Kind::kLength, "0.04 mm for round ends", "the ridges on the floor",
-      job::kTolerance},
+      job::kToleranceRange},
      {"floor_tolerance", Kind::kLength, "0.002 mm", "of the path against the floor",
-      job::kTolerance}},
+      job::kToleranceRange}},
     traits_of(Region::kLevelPocket),
-    job::check_pocket,
+    nullptr,
+    check_level_pocket,
     plan_pocket};
 
 }  // namespace cusp::contour_pocket

@@ -59,7 +59,8 @@ void check_range(
 [[noreturn]] void refuse_region(const Operation& operation, const RegionFault& fault)
 {
     const auto file = [&](std::size_t contour) {
-        return contour == 0 ? operation.boundary_file : operation.island_files.at(contour - 1);
+        return contour == 0 ? operation.outline.boundary_file
+                            : operation.outline.island_files.at(contour - 1);
     };
     const std::string at = " at " + place_text(fault.where) + " mm";
     switch (fault.kind) {
@@ -75,7 +76,7 @@ void check_range(
             throw InputError(file(fault.second) + ": the island lies inside another, " +
                              file(fault.first) + "," + at);
     }
-    throw InputError(operation.boundary_file + ": the pocket has no valid region" + at);
+    throw InputError(operation.outline.boundary_file + ": the pocket has no valid region" + at);
 }
 
 }  // namespace
@@ -103,13 +104,13 @@ void report_plunges(int plunges, OperationStats& stats)
 ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
 {
     const double radius = operation.tool.radius;
-    if (operation.floor.empty()) {
+    if (operation.part.floor.empty()) {
         throw InputError(operation_text(job, operation) + "floor is missing");
     }
-    if (!operation.boundary) {
+    if (!operation.outline.boundary) {
         throw InputError(operation_text(job, operation) + "boundary is missing");
     }
-    if (!operation.scallop) {
+    if (!operation.tolerance.scallop) {
         throw InputError(operation_text(job, operation) + "scallop is missing");
     }
     if (operation.output == OutputForm::kNurbs && !nurbs_fit_available()) {
@@ -117,34 +118,35 @@ ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
                          "output \"nurbs\" needs Eigen, and this build has none "
                          "(libeigen3-dev, CUSP_EIGEN)");
     }
-    check_range(job, operation, "plan_tolerance", operation.plan_tolerance, kMostTolerance);
-    check_range(job, operation, "floor_tolerance", operation.floor_tolerance, kMostTolerance);
-    check_range(job, operation, "scallop", *operation.scallop, 0.9);
-    if (operation.allowance != 0.0) {
-        check_range(job, operation, "allowance", operation.allowance, 1.0);
+    check_range(job, operation, "plan_tolerance", operation.tolerance.plan, kMostTolerance);
+    check_range(job, operation, "floor_tolerance", operation.tolerance.floor, kMostTolerance);
+    check_range(job, operation, "scallop", *operation.tolerance.scallop, 0.9);
+    if (operation.passes.allowance != 0.0) {
+        check_range(job, operation, "allowance", operation.passes.allowance, 1.0);
     }
     ToleranceSplit tolerances;
-    tolerances.one_sided = operation.tolerance_side == ToleranceSide::kOutside;
-    tolerances.fit = 0.1 * operation.plan_tolerance;
-    tolerances.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
-    tolerances.height_tolerance = operation.floor_tolerance - 2.0 * tolerances.accuracy;
+    tolerances.one_sided = operation.tolerance.side == ToleranceSide::kOutside;
+    tolerances.fit = 0.1 * operation.tolerance.plan;
+    tolerances.accuracy = std::min(0.1 * operation.tolerance.floor, 5e-3);
+    tolerances.height_tolerance = operation.tolerance.floor - 2.0 * tolerances.accuracy;
     // The plan tolerance allows passes to be closer or farther apart than planned.
-    tolerances.scallop_height = *operation.scallop - operation.floor_tolerance;
+    tolerances.scallop_height = *operation.tolerance.scallop - operation.tolerance.floor;
     if (tolerances.one_sided) {
         if (tolerances.scallop_height <= 0.0) {
             throw InputError(operation_text(job, operation) + "scallop " +
-                             number_text(*operation.scallop) + " mm is not above floor_tolerance " +
-                             number_text(operation.floor_tolerance) +
+                             number_text(*operation.tolerance.scallop) +
+                             " mm is not above floor_tolerance " +
+                             number_text(operation.tolerance.floor) +
                              " mm, which it includes with tolerance_side \"outside\"");
         }
         tolerances.plan_tolerance =
-            0.5 * (operation.plan_tolerance - tolerances.fit) - kWrittenStep;
+            0.5 * (operation.tolerance.plan - tolerances.fit) - kWrittenStep;
         tolerances.wall_clearance =
             radius + tolerances.fit + tolerances.plan_tolerance + 2.0 * kWrittenStep;
     } else {
-        tolerances.scallop_height =
-            tolerances.scallop_height > 0.0 ? tolerances.scallop_height : *operation.scallop;
-        tolerances.plan_tolerance = operation.plan_tolerance - tolerances.fit;
+        tolerances.scallop_height = tolerances.scallop_height > 0.0 ? tolerances.scallop_height
+                                                                    : *operation.tolerance.scallop;
+        tolerances.plan_tolerance = operation.tolerance.plan - tolerances.fit;
         tolerances.wall_clearance = radius;
     }
     tolerances.plan_tolerance = std::max(tolerances.plan_tolerance, kWrittenStep);
@@ -155,12 +157,12 @@ RoughAndFinish split_between_rough_and_finish(const Operation& operation,
                                               const ToleranceSplit& tolerances)
 {
     constexpr double kNear = 0.2;  // of the room: with less, fits of curves need more moves
-    const bool roughs = operation.max_depth || !operation.layers.empty();
+    const bool roughs = operation.levels.max_depth || !operation.levels.layers.empty();
     const double near = std::max(kNear * tolerances.plan_tolerance, kWrittenStep);
     const double apart = 2.0 * kWrittenStep;  // ends are rounded to whole steps
     const double rest = tolerances.plan_tolerance - near - apart;
     RoughAndFinish shared{tolerances, tolerances};
-    if (!roughs || operation.allowance > 0.0 || rest < near) {
+    if (!roughs || operation.passes.allowance > 0.0 || rest < near) {
         return shared;
     }
     shared.rough.wall_clearance = tolerances.wall_clearance - tolerances.plan_tolerance + near;
@@ -178,8 +180,8 @@ Region2d make_region(const Operation& operation, double tolerance)
         const bool counter_clockwise = area(contour) > 0.0;
         region.contours.push_back(counter_clockwise == outer ? contour : reversed(contour));
     };
-    add(*operation.boundary, true);
-    for (const Loop& island : operation.islands) {
+    add(*operation.outline.boundary, true);
+    for (const Loop& island : operation.outline.islands) {
         add(island, false);
     }
     if (const auto fault = find_fault(region)) {
@@ -195,7 +197,7 @@ void check_work(const Job& job,
 {
     const Tool& tool = operation.tool;
     double lowest = job.stock_top;
-    for (const Surface& surface : operation.floor) {
+    for (const Surface& surface : operation.part.floor) {
         for (const Vec3d p : surface.points) {
             lowest = std::min(lowest, p.z);
         }
@@ -203,7 +205,7 @@ void check_work(const Job& job,
     const std::string radius = number_text(tool.radius) + " mm";
     if (job.stock_top - lowest > kMostDepth * tool.radius) {
         const std::string file =
-            operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+            operation.part.floor_files.empty() ? "floor" : operation.part.floor_files.front();
         throw InputError(file + ": the floor lies " + number_text(job.stock_top - lowest) +
                          " mm below stock.top, the limit is " +
                          number_text(kMostDepth * tool.radius) + " mm for the tool of radius " +
@@ -219,7 +221,7 @@ void check_work(const Job& job,
                                                             (round - tolerances.scallop_height)));
     const double way = room / std::min(across, 2.0 * tool.radius);
     if (way > kMaxPassLength * tool.radius) {
-        throw InputError(operation.boundary_file + ": the pocket of " + number_text(room) +
+        throw InputError(operation.outline.boundary_file + ": the pocket of " + number_text(room) +
                          " mm^2 takes " + number_text(way) + " mm of passes, the limit is " +
                          number_text(kMaxPassLength * tool.radius) + " mm for the tool of radius " +
                          radius);
@@ -230,11 +232,12 @@ int layer_count(const Job& job, const Operation& operation, double whole_depth, 
 {
     const double count = std::ceil(whole_depth / max_depth - 1e-9);
     if (count > kMostLayers) {
-        const std::string key = operation.max_depth ? "max_depth " : "layers of ";
+        const std::string key = operation.levels.max_depth ? "max_depth " : "layers of ";
         throw InputError(operation_text(job, operation) + key +
-                         number_text(operation.max_depth.value_or(max_depth)) + " mm makes " +
-                         number_text(count) + " layers of " + number_text(whole_depth) +
-                         " mm, the limit is " + number_text(kMostLayers));
+                         number_text(operation.levels.max_depth.value_or(max_depth)) +
+                         " mm makes " + number_text(count) + " layers of " +
+                         number_text(whole_depth) + " mm, the limit is " +
+                         number_text(kMostLayers));
     }
     return std::max(1, static_cast<int>(count));
 }
@@ -242,7 +245,7 @@ int layer_count(const Job& job, const Operation& operation, double whole_depth, 
 void check_coverage(const Operation& operation, const Region2d& region, const DropCutter& floor)
 {
     if (const auto place =
-            point_without_floor(region, floor, operation.floor, operation.tool.radius)) {
+            point_without_floor(region, floor, operation.part.floor, operation.tool.radius)) {
         refuse_uncovered(operation, *place);
     }
 }
@@ -250,7 +253,7 @@ void check_coverage(const Operation& operation, const Region2d& region, const Dr
 void refuse_uncovered(const Operation& operation, Vec2d p)
 {
     const std::string file =
-        operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+        operation.part.floor_files.empty() ? "floor" : operation.part.floor_files.front();
     throw InputError(file + ": the floor does not cover the pocket at " + place_text(p) + " mm");
 }
 

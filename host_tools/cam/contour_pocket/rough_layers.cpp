@@ -51,7 +51,7 @@ std::vector<double> layer_heights(const Job& job,
                                   double depth)
 {
     std::vector<double> heights;
-    for (const double below : operation.layers) {
+    for (const double below : operation.levels.layers) {
         heights.push_back(job.stock_top - below);
     }
     if (heights.empty()) {
@@ -60,10 +60,10 @@ std::vector<double> layer_heights(const Job& job,
             return layer_count(job, operation, deep, of);
         };
         int n = count(depth);
-        if (const double least = operation.min_depth.value_or(0.0); deep < n * least) {
+        if (const double least = operation.levels.min_depth.value_or(0.0); deep < n * least) {
             // Fewer layers, as far as max_depth allows: passes that become too deep over scallops
             // of the layer above are cut twice.
-            n = std::max(count(*operation.max_depth), static_cast<int>(deep / least + 1e-9));
+            n = std::max(count(*operation.levels.max_depth), static_cast<int>(deep / least + 1e-9));
         }
         for (int i = 1; i <= n; ++i) {
             heights.push_back(job.stock_top - deep * i / n);
@@ -77,10 +77,10 @@ std::vector<double> layer_heights(const Job& job,
 void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult& result)
 {
     const double deep = result.heights.empty() ? 0.0 : job.stock_top - result.heights.front();
-    if (deep < operation.min_depth.value_or(0.0) - 1e-6) {
+    if (deep < operation.levels.min_depth.value_or(0.0) - 1e-6) {
         result.operation.stats.warnings.push_back(
             "layers are " + number_text(deep) + " mm deep, less than min_depth, " +
-            number_text(*operation.min_depth) +
+            number_text(*operation.levels.min_depth) +
             " mm: max_depth and the depth of the pocket allow no others");
     }
 }
@@ -91,13 +91,13 @@ CutSettings rough_settings(const Operation& operation,
                            double wall_clearance)
 {
     CutSettings settings;
-    settings.entry = operation.entry;
+    settings.entry = operation.passes.entry;
     settings.wall_clearance = wall_clearance;
     settings.path_settings.plan_tolerance = tolerances.plan_tolerance;
     settings.path_settings.height_tolerance =
-        std::max(tolerances.height_tolerance, 0.1 * operation.allowance);
+        std::max(tolerances.height_tolerance, 0.1 * operation.passes.allowance);
     settings.path_settings.clearance_reserve = tolerances.accuracy;
-    settings.path_settings.allowance = operation.allowance;
+    settings.path_settings.allowance = operation.passes.allowance;
     settings.path_settings.spacing = 0.2 * tool.radius;
     settings.path_settings.arcs = operation.output != OutputForm::kLines;
     return settings;
@@ -113,9 +113,9 @@ void fill_operation(const Operation& operation,
     result.operation.path.comments = {
         "contour_pocket: " +
         (layers == 1 ? "1 roughing layer" : std::to_string(layers) + " roughing layers") +
-        ", allowance " + number_text(operation.allowance) + " mm"};
+        ", allowance " + number_text(operation.passes.allowance) + " mm"};
     OperationStats& stats = result.operation.stats;
-    stats.strategy = operation.strategy;
+    stats.strategy = operation.name();
     stats.roughing = true;
     stats.passes = static_cast<int>(cleared.passes.size());
     stats.levels = cleared.rings;
@@ -125,7 +125,7 @@ void fill_operation(const Operation& operation,
     stats.counts = {{"layers", static_cast<double>(layers)},
                     {"loops", static_cast<double>(cleared.passes.size())},
                     {"leaves", static_cast<double>(cleared.leaves)},
-                    {"islands", static_cast<double>(operation.islands.size())}};
+                    {"islands", static_cast<double>(operation.outline.islands.size())}};
     report_plunges(moves.steep_plunges(), stats);
     result.operation.path.moves = moves.take();
 }
@@ -159,31 +159,31 @@ void cut_layers(const Job& job,
 
 bool is_roughed(const Operation& operation)
 {
-    return operation.max_depth.has_value() || !operation.layers.empty();
+    return operation.levels.max_depth.has_value() || !operation.levels.layers.empty();
 }
 
 bool finish_is_last_layer(const Operation& operation)
 {
-    return is_roughed(operation) && operation.prismatic && operation.layers.empty() &&
-           operation.allowance <= 0.0 &&
+    return is_roughed(operation) && operation.prismatic && operation.levels.layers.empty() &&
+           operation.passes.allowance <= 0.0 &&
            (operation.tools.empty() || operation.tools.front().number == operation.tool.number);
 }
 
 double rough_stepover(const Operation& operation)
 {
     const Tool& tool = operation.tools.empty() ? operation.tool : operation.tools.front();
-    return std::min(rough_step(tool, operation.max_depth.value_or(tool.radius)).across,
-                    operation.step_over.value_or(kUnbounded));
+    return std::min(rough_step(tool, operation.levels.max_depth.value_or(tool.radius)).across,
+                    operation.passes.step_over.value_or(kUnbounded));
 }
 
 double layer_depth(const Operation& operation)
 {
-    if (operation.max_depth) {
-        return *operation.max_depth;
+    if (operation.levels.max_depth) {
+        return *operation.levels.max_depth;
     }
     double above = 0.0;
     double deepest = 0.0;
-    for (const double below : operation.layers) {
+    for (const double below : operation.levels.layers) {
         deepest = std::max(deepest, below - above);
         above = below;
     }
@@ -218,21 +218,21 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     const auto begin = std::chrono::steady_clock::now();
     Operation rough = operation;
     rough.tool = operation.tools.empty() ? operation.tool : operation.tools.front();
-    const double depth = operation.max_depth.value_or(rough.tool.radius);
+    const double depth = operation.levels.max_depth.value_or(rough.tool.radius);
     const RoughStep step = rough_step(rough.tool, depth);
-    DropCutter floor{operation.floor, rough.tool, tolerances.accuracy};
+    DropCutter floor{operation.part.floor, rough.tool, tolerances.accuracy};
     if (!tolerances.one_sided) {
-        floor.check_edge_gouges(operation.floor_tolerance);
+        floor.check_edge_gouges(operation.tolerance.floor);
     }
     ClearingSettings clearing;
-    clearing.wall_clearance =
-        tolerances.wall_clearance - operation.tool.radius + rough.tool.radius + operation.allowance;
+    clearing.wall_clearance = tolerances.wall_clearance - operation.tool.radius +
+                              rough.tool.radius + operation.passes.allowance;
     clearing.stepover = rough_stepover(operation);
-    clearing.direction = operation.direction_of_cut;
+    clearing.direction = operation.passes.direction_of_cut;
     ClearedRegion cleared = clear_region(region, clearing);
     RoughResult result;
     result.wall_clearance = clearing.wall_clearance;
-    result.left = operation.allowance + step.scallop_height;
+    result.left = operation.passes.allowance + step.scallop_height;
     set_tool(result.operation.path, job, rough.tool);
     if (cleared.passes.empty()) {
         return result;
@@ -243,8 +243,8 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         pass.path = flattened(pass.path, settings.path_settings.plan_tolerance,
                               settings.path_settings.spacing, settings.path_settings.arcs);
     }
-    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
-    if (operation.layers.empty() && bottom >= job.stock_top) {
+    const double bottom = lowest_tip(cleared, floor) + operation.passes.allowance;
+    if (operation.levels.layers.empty() && bottom >= job.stock_top) {
         return result;
     }
     settings.repeated.assign(cleared.passes.size(), true);
@@ -254,7 +254,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cut_depth != nullptr) {
         cut_depth->begin(rough.tool);
     }
-    const int each = cleared.leaves + static_cast<int>(operation.islands.size());
+    const int each = cleared.leaves + static_cast<int>(operation.outline.islands.size());
     result.heights =
         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
     if (finish_is_last_layer(operation)) {

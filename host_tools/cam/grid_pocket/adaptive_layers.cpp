@@ -44,7 +44,7 @@ constexpr double kMostLayers = 1e4;
 double scallop_height(const Operation& operation)
 {
     const double most = kScallop * operation.tool.corner_radius;
-    return std::min(most, kScallopOfDepth * operation.max_depth.value_or(kUnbounded));
+    return std::min(most, kScallopOfDepth * operation.levels.max_depth.value_or(kUnbounded));
 }
 
 // mm: of the circle that the tool clears to the scallop height.
@@ -58,7 +58,7 @@ class LayerPlanner {
 public:
     explicit LayerPlanner(const PocketSpace& pocket)
         : pocket_{pocket},
-          model_{pocket.operation.floor},
+          model_{pocket.operation.part.floor},
           slices_{model_, pocket.operation.tool, slice_settings(pocket)},
           room_{pocket.walls.at(pocket.kept + kWallRounding + pocket.rough_allowance - kFirst)},
           scallops_{scallop_height(pocket.operation)}
@@ -68,7 +68,7 @@ public:
     AdaptiveLayers plan()
     {
         AdaptiveLayers out;
-        out.max_engagement = *pocket_.operation.max_engagement;
+        out.max_engagement = *pocket_.operation.passes.max_engagement;
         out.scallops = scallops_;
         out.clears = cleared_radius(pocket_.operation.tool, scallops_);
         out.chord = kChord;
@@ -93,7 +93,7 @@ private:
         const double out = 2.0 * operation.tool.radius;
         const Box2d box = box_of(pocket.centres);
         return {pocket.rough_allowance + kRounded,
-                0.5 * operation.plan_tolerance,
+                0.5 * operation.tolerance.plan,
                 operation.tool.radius / kPitchOfRadius,
                 {box.x0 - out, box.y0 - out, box.x1 + out, box.y1 + out}};
     }
@@ -102,15 +102,16 @@ private:
     double most_between_planes() const
     {
         const Operation& operation = pocket_.operation;
-        if (!operation.max_depth) {
+        if (!operation.levels.max_depth) {
             return kUnbounded;
         }
         const FollowSettings follow = follow_settings(operation);
         const double band = band_height(follow) * (follow.both_sides ? 2 : 1);
-        const double depth = *operation.max_depth - kWritten;
+        const double depth = *operation.levels.max_depth - kWritten;
         const double step = depth - std::max(scallops_, pocket_.rough_allowance + band);
-        return std::min(depth - scallops_, std::max({step, kLeastApart * *operation.max_depth,
-                                                     operation.min_depth.value_or(0)}));
+        return std::min(depth - scallops_,
+                        std::max({step, kLeastApart * *operation.levels.max_depth,
+                                  operation.levels.min_depth.value_or(0)}));
     }
 
     std::vector<double> planes_down() const
@@ -118,7 +119,7 @@ private:
         const double lowest = lowest_of_tip(pocket_);
         const double most = most_between_planes();
         std::vector<double> ends;
-        for (const double depth : pocket_.operation.layers) {
+        for (const double depth : pocket_.operation.levels.layers) {
             if (pocket_.job.stock_top - depth > lowest) {
                 ends.push_back(pocket_.job.stock_top - depth);
             }
@@ -154,10 +155,10 @@ private:
         AdaptiveSettings out;
         out.tool_radius = radius;
         out.wall_clearance = kFirst;
-        out.max_engagement = *operation.max_engagement * kPi / 180.0;
+        out.max_engagement = *operation.passes.max_engagement * kPi / 180.0;
         out.tolerance = std::min(kChord, 0.005 * radius);
-        out.corner = operation.plan_tolerance;
-        out.direction = operation.direction_of_cut;
+        out.corner = operation.tolerance.plan;
+        out.direction = operation.passes.direction_of_cut;
         return out;
     }
 

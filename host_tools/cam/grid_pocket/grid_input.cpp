@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "host_tools/geometry/drop_cutter/floor_coverage.hpp"
 #include "host_tools/geometry/offset/contour_fit.hpp"
 #include "host_tools/geometry/offset/region_check.hpp"
@@ -48,10 +49,10 @@ std::string count_text(double count)
 std::string fault_text(const Job& job, const Operation& operation, const RegionFault& fault)
 {
     const auto name = [&](std::size_t contour) {
-        const auto& islands = operation.island_files;
+        const auto& islands = operation.outline.island_files;
         if (contour == 0) {
-            return operation.boundary_file.empty() ? std::string("boundary")
-                                                   : operation.boundary_file;
+            return operation.outline.boundary_file.empty() ? std::string("boundary")
+                                                           : operation.outline.boundary_file;
         }
         return contour <= islands.size() ? islands[contour - 1]
                                          : "island " + std::to_string(contour);
@@ -92,10 +93,10 @@ std::string length_text(const Job& job, double mm)
 void check_grid_input(const Job& job, const Operation& operation)
 {
     const Tool& tool = operation.tool;
-    if (operation.floor.empty()) {
+    if (operation.part.floor.empty()) {
         refuse_grid_pocket(job, "floor names no surface");
     }
-    if (!operation.boundary || operation.boundary->empty()) {
+    if (!operation.outline.boundary || operation.outline.boundary->empty()) {
         refuse_grid_pocket(job, "boundary is missing");
     }
     if (!(tool.radius > 0)) {
@@ -106,7 +107,7 @@ void check_grid_input(const Job& job, const Operation& operation)
         refuse_grid_pocket(job, "output \"nurbs\": the paper's moves are lines or arcs");
     }
     const double most = 2 * tool.radius / std::sqrt(2.0);
-    for (const double size : {operation.grid_x, operation.grid_y}) {
+    for (const double size : {grid_keys(operation).grid_x, grid_keys(operation).grid_y}) {
         if (!(size > 0)) {
             refuse_grid_pocket(job, "grid " + length_text(job, size) + " must be above 0");
         }
@@ -118,23 +119,24 @@ void check_grid_input(const Job& job, const Operation& operation)
         }
     }
     for (const double tolerance :
-         {operation.floor_tolerance, operation.plan_tolerance, operation.arc_tolerance,
-          operation.max_arc_radius, operation.allowance}) {
+         {operation.tolerance.floor, operation.tolerance.plan, grid_keys(operation).arc_tolerance,
+          grid_keys(operation).max_arc_radius, operation.passes.allowance}) {
         if (!(tolerance >= 0) || !std::isfinite(tolerance)) {
             refuse_grid_pocket(
                 job, "tolerance or radius " + length_text(job, tolerance) + " must be at least 0");
         }
     }
-    if (operation.max_depth && !(*operation.max_depth > 0)) {
+    if (operation.levels.max_depth && !(*operation.levels.max_depth > 0)) {
         refuse_grid_pocket(
-            job, "max_depth " + length_text(job, *operation.max_depth) + " must be above 0");
+            job, "max_depth " + length_text(job, *operation.levels.max_depth) + " must be above 0");
     }
-    if (operation.max_roughness && !(*operation.max_roughness > 0)) {
-        refuse_grid_pocket(job, "max_roughness " + length_text(job, *operation.max_roughness) +
+    if (grid_keys(operation).max_roughness && !(*grid_keys(operation).max_roughness > 0)) {
+        refuse_grid_pocket(job, "max_roughness " +
+                                    length_text(job, *grid_keys(operation).max_roughness) +
                                     " must be above 0");
     }
     double before = 0;
-    for (const double depth : operation.layers) {
+    for (const double depth : operation.levels.layers) {
         if (!(depth > before)) {
             refuse_grid_pocket(job, "layers: depth " + length_text(job, depth) +
                                         " is not below the one before, " +
@@ -147,7 +149,7 @@ void check_grid_input(const Job& job, const Operation& operation)
 PocketWalls pocket_walls(const Job& job, const Operation& operation)
 {
     PocketWalls walls;
-    const double tolerance = std::max(operation.plan_tolerance / 2, 1e-4);
+    const double tolerance = std::max(operation.tolerance.plan / 2, 1e-4);
     const auto add = [&](const Loop& loop) {
         walls.region.contours.push_back(fit_contour(loop, tolerance));
         walls.wall_error = std::max(walls.wall_error, has_free_curve(loop) ? tolerance : 0.0);
@@ -157,18 +159,18 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
             contour = reversed(contour);
         }
     };
-    add(*operation.boundary);
-    for (const Loop& island : operation.islands) {
+    add(*operation.outline.boundary);
+    for (const Loop& island : operation.outline.islands) {
         add(island);
     }
     if (const auto fault = find_fault(walls.region)) {
         refuse_grid_pocket(job, fault_text(job, operation, *fault));
     }
-    const double cells =
-        std::abs(area(walls.region.contours[0])) / operation.grid_x / operation.grid_y;
+    const double cells = std::abs(area(walls.region.contours[0])) / grid_keys(operation).grid_x /
+                         grid_keys(operation).grid_y;
     if (cells > kMostCells) {
-        refuse_grid_pocket(job, "grid " + length_text(job, operation.grid_x) + " x " +
-                                    length_text(job, operation.grid_y) + " makes " +
+        refuse_grid_pocket(job, "grid " + length_text(job, grid_keys(operation).grid_x) + " x " +
+                                    length_text(job, grid_keys(operation).grid_y) + " makes " +
                                     count_text(cells) + " cells; at most " +
                                     count_text(kMostCells));
     }
@@ -177,11 +179,11 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
 
 void check_grid_floor(const Job& job, const Operation& operation, const Region2d& region)
 {
-    const DropCutter floor{operation.floor, operation.tool, 0.01};
+    const DropCutter floor{operation.part.floor, operation.tool, 0.01};
     if (const auto at =
-            point_without_floor(region, floor, operation.floor, operation.tool.radius)) {
+            point_without_floor(region, floor, operation.part.floor, operation.tool.radius)) {
         const std::string file =
-            operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+            operation.part.floor_files.empty() ? "floor" : operation.part.floor_files.front();
         refuse_grid_pocket(job, file + ": the floor does not cover the pocket at x " +
                                     length_text(job, at->x) + ", y " + length_text(job, at->y));
     }

@@ -56,9 +56,10 @@ void append_chords(const Edge& edge,
 EntrySettings entry_settings(const PocketSpace& pocket)
 {
     const Operation& operation = pocket.operation;
-    const bool any = operation.entry == EntryKind::kAuto;
-    return {pocket.job.stock_top + pocket.job.clearance, any ? EntryKind::kRamp : operation.entry,
-            operation.tool.radius, operation.max_depth.value_or(kUnbounded)};
+    const bool any = operation.passes.entry == EntryKind::kAuto;
+    return {pocket.job.stock_top + pocket.job.clearance,
+            any ? EntryKind::kRamp : operation.passes.entry, operation.tool.radius,
+            operation.levels.max_depth.value_or(kUnbounded)};
 }
 
 }  // namespace
@@ -70,13 +71,13 @@ GridPasses::GridPasses(PocketSpace& pocket, Toolpath& path)
       stock_tops_(pocket.grid.size(), static_cast<float>(pocket.job.stock_top))
 {
     const Operation& operation = pocket.operation;
-    if (operation.max_depth || !operation.layers.empty()) {
+    if (operation.levels.max_depth || !operation.levels.layers.empty()) {
         const Box2d box = box_of(pocket.centres);
         const double radius = operation.tool.radius;
         const Box2d field{box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius};
-        depth_.emplace(
-            writer_, path,
-            AxialDepthTracker{field, operation.tool, pocket.job.stock_top, operation.max_depth});
+        depth_.emplace(writer_, path,
+                       AxialDepthTracker{field, operation.tool, pocket.job.stock_top,
+                                         operation.levels.max_depth});
     }
 }
 
@@ -144,7 +145,7 @@ void GridPasses::adaptive_layer(const AdaptiveLayers& layers, const AdaptiveLaye
     const Operation& operation = pocket_.operation;
     AdaptivePathWriter cutter{writer_,
                               {operation.output != OutputForm::kLines, layers.chord,
-                               operation.entry == EntryKind::kPlunge, layers.scallops}};
+                               operation.passes.entry == EntryKind::kPlunge, layers.scallops}};
     cutter.write(layer.path, layer.above, layer.z);
     passes_ += static_cast<int>(layer.path.runs.size());
     adaptive_entries_ += cutter.entries();
@@ -321,7 +322,7 @@ Contour GridPasses::wall_loop(const Contour& contour) const
 {
     // Boundary loops have the pocket on their left: counter-clockwise, as in the paper. With a
     // spindle that turns clockwise that leaves the wall on the right: climb milling.
-    const bool climb = pocket_.operation.direction_of_cut == CutDirection::kClimb;
+    const bool climb = pocket_.operation.passes.direction_of_cut == CutDirection::kClimb;
     Contour loop = climb ? contour : reversed(contour);
     const auto nearest =
         std::min_element(loop.begin(), loop.end(), [&](const Edge& a, const Edge& b) {
@@ -339,8 +340,8 @@ Contour GridPasses::wall_loop(const Contour& contour) const
 
 void GridPasses::append_points(const Edge& edge, std::vector<Vec2d>& corners) const
 {
-    const bool climb = pocket_.operation.direction_of_cut == CutDirection::kClimb;
-    const double tolerance = std::max(pocket_.operation.plan_tolerance / 4, kWallRounding / 2);
+    const bool climb = pocket_.operation.passes.direction_of_cut == CutDirection::kClimb;
+    const double tolerance = std::max(pocket_.operation.tolerance.plan / 4, kWallRounding / 2);
     append_chords(edge, tolerance, (edge.turn < 0) == climb, corners);
 }
 

@@ -33,22 +33,22 @@ std::string sufficient_grid(const PocketSpace& pocket, const PocketWalls& walls,
 {
     Operation finer = pocket.operation;
     for (int attempt = 0; attempt < 4; ++attempt) {
-        const double factor = 0.98 * std::sqrt(*finer.max_roughness / roughness);
-        finer.grid_x *= factor;
-        finer.grid_y *= factor;
+        const double factor = 0.98 * std::sqrt(*grid_keys(finer).max_roughness / roughness);
+        grid_keys(finer).grid_x *= factor;
+        grid_keys(finer).grid_y *= factor;
         if (static_cast<double>(pocket.grid.count_inside()) / (factor * factor) > 1e6) {
             break;
         }
         PocketSpace tried{pocket.job, finer, walls};
         tried.heights = heights_over(tried, tried.finish);
         roughness = roughness_of(tried, finish_navigation(tried));
-        if (roughness <= *finer.max_roughness) {
-            return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
-                   length_text(pocket.job, finer.grid_y) + " suffices";
+        if (roughness <= *grid_keys(finer).max_roughness) {
+            return "grid " + length_text(pocket.job, grid_keys(finer).grid_x) + " x " +
+                   length_text(pocket.job, grid_keys(finer).grid_y) + " suffices";
         }
     }
-    return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
-           length_text(pocket.job, finer.grid_y) + " would be needed at least";
+    return "grid " + length_text(pocket.job, grid_keys(finer).grid_x) + " x " +
+           length_text(pocket.job, grid_keys(finer).grid_y) + " would be needed at least";
 }
 
 void warn_of_layers(const Job& job, const LayerPlanes& planes, OperationStats& stats)
@@ -78,9 +78,10 @@ void warn_of_depth(const Job& job,
                    OperationStats& stats)
 {
     const double deepest = planner.deepest_cut().value_or(0);
-    if (operation.max_depth && deepest > *operation.max_depth + kDepthRounding) {
+    if (operation.levels.max_depth && deepest > *operation.levels.max_depth + kDepthRounding) {
         stats.warnings.push_back("a cut is " + length_text(job, deepest) +
-                                 " deep, over max_depth " + length_text(job, *operation.max_depth));
+                                 " deep, over max_depth " +
+                                 length_text(job, *operation.levels.max_depth));
     }
 }
 
@@ -106,7 +107,7 @@ void fill_report(const PocketSpace& pocket,
     const Job& job = pocket.job;
     const std::size_t cells = pocket.grid.count_inside();
     OperationStats& stats = out.stats;
-    stats.strategy = "grid_pocket";
+    stats.strategy = pocket.operation.name();
     stats.passes = planner.passes();
     stats.levels = static_cast<int>(planes.z.size()) + 1;
     stats.cl_points = static_cast<int>(out.path.moves.size());
@@ -143,7 +144,7 @@ void cut_layers(const PocketSpace& pocket,
                 AdaptiveLayers& layers,
                 LayerPlanes& planes)
 {
-    if (pocket.operation.max_engagement) {
+    if (pocket.operation.passes.max_engagement) {
         layers = adaptive_layers(pocket);
         for (const AdaptiveLayer& layer : layers.layers) {
             planner.adaptive_layer(layers, layer);
@@ -191,10 +192,10 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     job.report_progress(0.2);
     const double roughness = roughness_of(pocket, navigation);
     job.report_progress(0.3);
-    if (operation.max_roughness && roughness > *operation.max_roughness) {
+    if (grid_keys(operation).max_roughness && roughness > *grid_keys(operation).max_roughness) {
         refuse_grid_pocket(job, "roughness " + length_text(job, roughness) +
                                     " is over max_roughness " +
-                                    length_text(job, *operation.max_roughness) + "; " +
+                                    length_text(job, *grid_keys(operation).max_roughness) + "; " +
                                     sufficient_grid(pocket, walls, roughness));
     }
     PlannedOperation out;
@@ -202,7 +203,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     GridPasses planner{pocket, out.path};
     LayerPlanes planes{};
     AdaptiveLayers layers;
-    if (!operation.layers.empty() || operation.max_depth) {
+    if (!operation.levels.layers.empty() || operation.levels.max_depth) {
         pocket.rough_heights =
             pocket.rough_allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
         cut_layers(pocket, planner, layers, planes);
@@ -212,13 +213,13 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     job.report_progress(0.9);
     planner.wall();
     Tracks tracks = tracks_of(pocket.grid, navigation);
-    for (const char axis : operation.zigzag) {
+    for (const char axis : grid_keys(operation).zigzag) {
         planner.zigzag(axis, tracks);
     }
     planner.finish();
     job.report_progress(1);
     fill_report(pocket, planes, planner, roughness, out);
-    if (operation.max_engagement) {
+    if (operation.passes.max_engagement) {
         report_engagement(layers, planner, out.stats);
     }
     std::vector<PlannedOperation> result;

@@ -10,6 +10,7 @@
 // Dead ends are left straight. Layers visit only cells that the floor has not reached.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
@@ -20,6 +21,23 @@ namespace cusp::grid_pocket {
 
 // The record of the strategy.
 extern const job::Strategy kGridPocket;
+
+// What a job says of it alone.
+struct GridKeys {
+    double grid_x{};  // mm, of a cell
+    double grid_y{};
+    std::vector<char> zigzag;             // 'x', 'y'
+    double arc_tolerance{};               // mm; 0: the floor's
+    double max_arc_radius{};              // mm; 0: 1000
+    std::optional<double> max_roughness;  // mm; none: any
+};
+
+// Those of the operation.
+template <class AnyOperation>
+decltype(auto) grid_keys(AnyOperation& operation)
+{
+    return job::parameters_of<GridKeys>(operation);
+}
 
 // Plans the operation in the paper's order: layers 1 to N, P (the navigation from its end to its
 // start), W (the wall), N (zigzags along x, then y). Reports cells, backtracks, roughness and

@@ -5,6 +5,8 @@
 
 namespace cusp::grid_pocket {
 
+using job::choice;
+using job::KeyValues;
 using job::kPositive;
 using job::Operation;
 using job::Refuse;
@@ -12,14 +14,43 @@ using Kind = job::KeyKind;
 
 namespace {
 
+using Axes = std::vector<std::string>;
+
+job::Traits traits()
+{
+    job::Traits traits;
+    traits.bounds_engagement = true;
+    return traits;
+}
+
+std::any read(const KeyValues& values, const Operation& operation, const Refuse& refuse)
+{
+    GridKeys keys;
+    const auto grid = values.find<std::vector<double>>("grid").value_or(std::vector{0.0});
+    if (grid.empty() || grid.size() > 2) {
+        refuse("grid", "two numbers [gx, gy] are needed");
+    }
+    keys.grid_x = grid.front();
+    keys.grid_y = grid.back();
+    for (const auto& axis : values.find<std::vector<std::string>>("zigzag").value_or(Axes{})) {
+        keys.zigzag.push_back(axis.front());
+    }
+    keys.arc_tolerance = values.number("arc_tolerance").value_or(operation.tolerance.floor);
+    keys.max_arc_radius = values.get<double>("max_arc_radius");
+    keys.max_roughness = values.number("max_roughness");
+    return keys;
+}
+
 void check(const Operation& operation, const Refuse& refuse)
 {
     check_end(operation, refuse);
-    need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket", operation,
+    need(operation.outline.boundary.has_value(), "boundary", "the loop that bounds the pocket",
+         operation, refuse);
+    need(grid_keys(operation).grid_x > 0, "grid", "the size of its cells, [gx, gy]", operation,
          refuse);
-    need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]", operation, refuse);
     check_least_depth(operation, refuse);
-    if (operation.max_engagement && !operation.max_depth && operation.layers.empty()) {
+    if (operation.passes.max_engagement && !operation.levels.max_depth &&
+        operation.levels.layers.empty()) {
         refuse("clearing",
                "\"adaptive\" needs max_depth or layers: without them nothing is roughed");
     }
@@ -32,19 +63,23 @@ const job::Strategy kGridPocket{
     "what a boundary encloses, in cells of a grid, down to a floor of surfaces",
     job::surface_keys(),
     {{"grid", Kind::kLengths, "needed", "size of a cell, `[gx, gy]`", kPositive},
-     {"zigzag", Kind::kFiles, "none", "`[\"x\"]`, `[\"y\"]` or both, between the tracks"},
+     {"zigzag",
+      Kind::kTexts,
+      "none",
+      "`[\"x\"]`, `[\"y\"]` or both, between the tracks",
+      {},
+      {"x", "y"}},
      {"arc_tolerance", Kind::kLength, "`floor_tolerance`", "of arcs in place of lines",
-      job::kTolerance},
+      job::kToleranceRange},
      {"max_arc_radius", Kind::kLength, "1000 mm", "of arcs in place of lines", kPositive},
      {"max_roughness", Kind::kLength, "none",
       "a grid that leaves more is refused, and one that does not is named", kPositive},
-     {"clearing",
-      Kind::kChoice,
-      "cells",
-      "`\"adaptive\"`, with `max_depth` or `layers`: passes of bounded engagement",
-      {},
-      {"contour", "adaptive"}}},
-    {},
+     choice("clearing",
+            {"contour", "adaptive"},
+            "`\"adaptive\"`, with `max_depth` or `layers`: passes of bounded engagement",
+            "cells")},
+    traits(),
+    read,
     check,
     plan_grid_pocket};
 

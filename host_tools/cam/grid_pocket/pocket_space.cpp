@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
+
 namespace cusp::grid_pocket {
 
 using job::Job;
@@ -55,8 +57,8 @@ double ridge_over_tracks(const Operation& operation)
         const double beside = std::max(0.0, corner * corner - across * across / 4);
         return std::sqrt(beside) - std::sqrt(std::max(0.0, beside - along * along / 4));
     };
-    return std::max(rise(operation.grid_x, operation.grid_y),
-                    rise(operation.grid_y, operation.grid_x));
+    return std::max(rise(grid_keys(operation).grid_x, grid_keys(operation).grid_y),
+                    rise(grid_keys(operation).grid_y, grid_keys(operation).grid_x));
 }
 
 // Bisects the half with the larger step until it is too short to be a slope.
@@ -97,26 +99,28 @@ double roughing_allowance(const Operation& operation)
 {
     constexpr double kOfRadius = 0.1;  // over the pitch of the map
     constexpr double kOfDepth = 0.25;  // most, of max_depth
-    if (!operation.max_engagement) {
-        return operation.allowance;
+    if (!operation.passes.max_engagement) {
+        return operation.passes.allowance;
     }
-    return std::max(operation.allowance,
+    return std::max(operation.passes.allowance,
                     std::min(kOfRadius * operation.tool.radius,
-                             kOfDepth * operation.max_depth.value_or(kUnbounded)));
+                             kOfDepth * operation.levels.max_depth.value_or(kUnbounded)));
 }
 
 FollowSettings follow_settings(const Operation& operation)
 {
     FollowSettings s;
-    s.tolerance = std::max(operation.floor_tolerance, 1e-3);
-    s.both_sides = operation.tolerance_side == ToleranceSide::kBoth;
+    s.tolerance = std::max(operation.tolerance.floor, 1e-3);
+    s.both_sides = operation.tolerance.side == ToleranceSide::kBoth;
     s.arcs = operation.output == OutputForm::kArcs;
-    s.arc_tolerance = operation.arc_tolerance > 0 ? operation.arc_tolerance : s.tolerance;
-    s.max_arc_radius = operation.max_arc_radius > 0 ? operation.max_arc_radius : 1e3;
+    s.arc_tolerance =
+        grid_keys(operation).arc_tolerance > 0 ? grid_keys(operation).arc_tolerance : s.tolerance;
+    s.max_arc_radius =
+        grid_keys(operation).max_arc_radius > 0 ? grid_keys(operation).max_arc_radius : 1e3;
     // At this distance of samples the tip's height rises above a chord by about an eighth of the
     // band.
     const double bend = std::sqrt(0.5 * bend_radius(operation.tool) * band_height(s));
-    s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
+    s.sample = std::min(std::max(grid_keys(operation).grid_x, grid_keys(operation).grid_y), bend);
     return s;
 }
 
@@ -128,10 +132,11 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       walls{pocket.region},
       centres{walls.at(kept + kWallRounding)},
       centre_edges{edges_of(centres)},
-      grid{walls, o.grid_x, o.grid_y, kept},
-      finish{o.floor, o.tool, 0, follow_settings(o)},
-      rough{rough_allowance > 0 ? ClPathFitter{o.floor, o.tool, rough_allowance, follow_settings(o)}
-                                : finish}
+      grid{walls, grid_keys(o).grid_x, grid_keys(o).grid_y, kept},
+      finish{o.part.floor, o.tool, 0, follow_settings(o)},
+      rough{rough_allowance > 0
+                ? ClPathFitter{o.part.floor, o.tool, rough_allowance, follow_settings(o)}
+                : finish}
 {
 }
 
@@ -218,7 +223,7 @@ Tracks tracks_of(const CellGrid& grid, const Navigation& navigation)
 double roughness_of(const PocketSpace& pocket, const Navigation& navigation)
 {
     Tracks tracks = tracks_of(pocket.grid, navigation);
-    for (const char axis : pocket.operation.zigzag) {
+    for (const char axis : grid_keys(pocket.operation).zigzag) {
         add_zigzag(pocket, axis, tracks);
     }
     const TipSurface surface{pocket.heights, [&](Vec2d p) { return pocket.finish.height(p); },
@@ -273,24 +278,24 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
     const double lowest = lowest_of_tip(pocket);
     std::vector<double> planes;
     const Operation& operation = pocket.operation;
-    if (!operation.layers.empty()) {
-        for (const double depth : operation.layers) {
+    if (!operation.levels.layers.empty()) {
+        for (const double depth : operation.levels.layers) {
             planes.push_back(pocket.job.stock_top - depth);
         }
-    } else if (operation.max_depth) {
+    } else if (operation.levels.max_depth) {
         // A layer leaves scallops between its tracks, is above the floor by its tolerance, and the
         // finish also cuts the allowance: all add to the next depth of cut.
         const double scallop_height = ridge_over_tracks(operation);
         const FollowSettings follow = follow_settings(operation);
         const double over = band_height(follow) * (follow.both_sides ? 2 : 1);
         // With min_depth, more passes may be added to keep max_depth.
-        const double step =
-            std::max({*operation.max_depth - scallop_height - over - operation.allowance,
-                      *operation.max_depth * kLeastStep, operation.min_depth.value_or(0)});
+        const double step = std::max(
+            {*operation.levels.max_depth - scallop_height - over - operation.passes.allowance,
+             *operation.levels.max_depth * kLeastStep, operation.levels.min_depth.value_or(0)});
         if ((pocket.job.stock_top - lowest) / step > 1e4) {
-            refuse_grid_pocket(pocket.job, "max_depth " +
-                                               length_text(pocket.job, *operation.max_depth) +
-                                               " makes more than 10000 layers");
+            refuse_grid_pocket(pocket.job,
+                               "max_depth " + length_text(pocket.job, *operation.levels.max_depth) +
+                                   " makes more than 10000 layers");
         }
         for (int i = 1; pocket.job.stock_top - i * step > lowest; ++i) {
             planes.push_back(pocket.job.stock_top - i * step);

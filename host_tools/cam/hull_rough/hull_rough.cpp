@@ -41,21 +41,22 @@ constexpr double kLeastOverlap = 0.01;
 
 void check(const Job& job, const Operation& operation, const std::vector<Tool>& tools)
 {
-    if (operation.floor.empty()) {
+    if (operation.part.floor.empty()) {
         refuse(job, "floor names no surface");
     }
-    if (operation.boundary || !operation.islands.empty()) {
+    if (operation.outline.boundary || !operation.outline.islands.empty()) {
         refuse(job,
                "boundary and islands are not used by this strategy: the stock is the boundary");
     }
     if (operation.output == OutputForm::kNurbs) {
         refuse(job, "output \"nurbs\": layers are lines or arcs");
     }
-    if (operation.extra_subdivision < 0 || operation.extra_subdivision > kMostSubdivisions) {
-        refuse(job, "extra_subdivision " + std::to_string(operation.extra_subdivision) +
+    if (hull_keys(operation).extra_subdivision < 0 ||
+        hull_keys(operation).extra_subdivision > kMostSubdivisions) {
+        refuse(job, "extra_subdivision " + std::to_string(hull_keys(operation).extra_subdivision) +
                         " lies outside 0 to " + std::to_string(kMostSubdivisions));
     }
-    for (const double size : {operation.allowance, operation.plan_tolerance}) {
+    for (const double size : {operation.passes.allowance, operation.tolerance.plan}) {
         if (!(size >= 0) || !std::isfinite(size)) {
             refuse(job, "allowance or tolerance " + plain_number(size) + " mm must be at least 0");
         }
@@ -65,8 +66,9 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
             refuse(job, "tool " + std::to_string(tool.number) + " has radius " +
                             plain_number(tool.radius) + " mm; it must be above 0");
         }
-        if (!(operation.overlap >= 0 && operation.overlap < 2 * tool.radius)) {
-            refuse(job, "overlap " + plain_number(operation.overlap) +
+        if (!(hull_keys(operation).overlap >= 0 &&
+              hull_keys(operation).overlap < 2 * tool.radius)) {
+            refuse(job, "overlap " + plain_number(hull_keys(operation).overlap) +
                             " mm lies outside 0 to the diameter " + plain_number(2 * tool.radius) +
                             " mm of tool " + std::to_string(tool.number));
         }
@@ -75,8 +77,8 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
 
 DepthLimits depth_limits(const Job& job, const Operation& operation, const Tool& tool)
 {
-    const double most = operation.max_depth.value_or(tool.radius);
-    const double least = operation.min_depth.value_or(most / 2);
+    const double most = operation.levels.max_depth.value_or(tool.radius);
+    const double least = operation.levels.min_depth.value_or(most / 2);
     if (!(most > 0) || !std::isfinite(most)) {
         refuse(job, "max_depth " + plain_number(most) + " mm must be above 0");
     }
@@ -137,10 +139,10 @@ LayerPlan planned_layers(const Job& job,
                         " mm makes more than 10000 layers of a stock " +
                         plain_number(stock.top - stock.bottom) + " mm high");
     }
-    if (!operation.layers.empty()) {
+    if (!operation.levels.layers.empty()) {
         LayerPlan plan;
         plan.planes.push_back(stock.top);
-        for (const double depth : operation.layers) {
+        for (const double depth : operation.levels.layers) {
             const double z = job.stock_top - depth;
             if (z >= plan.planes.back() || z < stock.bottom - 1e-9) {
                 refuse(job, "layers: depth " + plain_number(depth) +
@@ -153,7 +155,7 @@ LayerPlan planned_layers(const Job& job,
         return plan;
     }
     LayerPlan plan = depth_layers(std::move(patches), stock.top, stock.bottom, limits);
-    if (operation.extra_subdivision > 0) {
+    if (hull_keys(operation).extra_subdivision > 0) {
         plan.planes = least_leftover_planes(plan, limits);
     }
     return plan;
@@ -184,8 +186,9 @@ bool clear_layers(Roughing& work)
     const Operation& operation = work.operation;
     std::vector<std::vector<Rectangle>> boxes;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
-        boxes.push_back(boxes_above(work.plan.patches, work.bottom(layer) - operation.allowance,
-                                    operation.extra_subdivision));
+        boxes.push_back(boxes_above(work.plan.patches,
+                                    work.bottom(layer) - operation.passes.allowance,
+                                    hull_keys(operation).extra_subdivision));
         work.boxes += boxes.back().size();
         work.left_under_boxes += work.thickness(layer) * union_area(boxes.back(), work.stock.plan);
     }
@@ -222,7 +225,7 @@ bool clear_layers(Roughing& work)
 std::vector<PlannedOperation> nothing_roughed(const std::string& why)
 {
     PlannedOperation none;
-    none.stats.strategy = "hull_rough";
+    none.stats.strategy = kHullRough.name;
     none.stats.warnings = {"hull_rough: nothing is roughed: " + why};
     return {std::move(none)};
 }
@@ -235,15 +238,16 @@ LayerSettings layer_settings(const Roughing& work, std::size_t layer, const Tool
     LayerSettings settings;
     // The overlap is that of the whole cutter; the width cleared to the scallop is smaller.
     settings.clears = cleared_width(tool, work.scallop_height(layer) - work.rest_height(layer)) / 2;
-    settings.step = std::min(std::max(2 * tool.radius - operation.overlap, tool.radius / 50),
-                             2 * settings.clears * (1 - kLeastOverlap));
-    settings.tolerance = std::max(operation.plan_tolerance, kLeastTolerance);
-    settings.side_allowance = operation.allowance;
-    settings.one_way = operation.traversal == Traversal::kOneWay;
-    settings.contour = operation.contour_clearing;
-    settings.direction = operation.direction_of_cut;
-    if (operation.max_engagement) {
-        settings.max_engagement = *operation.max_engagement * kPi / 180;
+    settings.step =
+        std::min(std::max(2 * tool.radius - hull_keys(operation).overlap, tool.radius / 50),
+                 2 * settings.clears * (1 - kLeastOverlap));
+    settings.tolerance = std::max(operation.tolerance.plan, kLeastTolerance);
+    settings.side_allowance = operation.passes.allowance;
+    settings.one_way = operation.passes.traversal == Traversal::kOneWay;
+    settings.contour = hull_keys(operation).contour_clearing;
+    settings.direction = operation.passes.direction_of_cut;
+    if (operation.passes.max_engagement) {
+        settings.max_engagement = *operation.passes.max_engagement * kPi / 180;
     }
     return settings;
 }
@@ -258,11 +262,11 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     std::sort(tools.begin(), tools.end(),
               [](const Tool& a, const Tool& b) { return a.radius > b.radius; });
     check(job, operation, tools);
-    std::vector<HullPatch> patches = hull_patches(operation.floor);
+    std::vector<HullPatch> patches = hull_patches(operation.part.floor);
     if (patches.empty()) {
         refuse(job, "the trims of the floor leave nothing of it");
     }
-    const StockBox stock = stock_of(job, operation.floor);
+    const StockBox stock = stock_of(job, operation.part.floor);
     const DepthLimits limits = depth_limits(job, operation, tools.back());
     constexpr double kNoHeight = 1e-3;  // mm
     if (stock.top - stock.bottom < kNoHeight) {
@@ -278,7 +282,7 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
         return nothing_roughed(
             "no cutter reaches into the stock in any layer; the smallest has radius " +
             plain_number(work.tools.back().radius) + " mm, with an allowance of " +
-            plain_number(operation.allowance) + " mm");
+            plain_number(operation.passes.allowance) + " mm");
     }
     std::vector<PlannedOperation> out = write_layers(work);
     job.report_progress(1);

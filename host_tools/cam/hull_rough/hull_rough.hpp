@@ -27,6 +27,20 @@ namespace cusp::hull_rough {
 // The record of the strategy.
 extern const job::Strategy kHullRough;
 
+// What a job says of it alone.
+struct HullKeys {
+    double overlap{};         // mm, of neighbouring passes
+    int extra_subdivision{};  // halvings of patches
+    bool contour_clearing{};  // in place of lines
+};
+
+// Those of the operation.
+template <class AnyOperation>
+decltype(auto) hull_keys(AnyOperation& operation)
+{
+    return job::parameters_of<HullKeys>(operation);
+}
+
 // Plans the operation: one result for each run of layers with the same cutter, from the top down.
 // Reports layers, patches, boxes, islands and the time that the choice of cutters saves. If nothing
 // is to be roughed, it returns one result without moves.

@@ -5,18 +5,29 @@
 
 namespace cusp::hull_rough {
 
+using job::choice;
+using job::KeyValues;
 using job::Operation;
 using job::Refuse;
 using Kind = job::KeyKind;
 
 namespace {
 
+std::any read(const KeyValues& values, const Operation& /*operation*/, const Refuse& /*refuse*/)
+{
+    HullKeys keys;
+    keys.overlap = values.get<double>("overlap");
+    keys.extra_subdivision = static_cast<int>(values.get<double>("extra_subdivision"));
+    keys.contour_clearing = values.get<std::string>("clearing") == "contour";
+    return keys;
+}
+
 void check(const Operation& operation, const Refuse& refuse)
 {
     check_end(operation, refuse);
-    need(operation.max_depth.has_value(), "max_depth", "the depth of cut of a layer", operation,
-         refuse);
-    if (operation.max_engagement && operation.overlap > 0) {
+    need(operation.levels.max_depth.has_value(), "max_depth", "the depth of cut of a layer",
+         operation, refuse);
+    if (operation.passes.max_engagement && hull_keys(operation).overlap > 0) {
         refuse("overlap", "does not go with clearing = \"adaptive\", which has no lines");
     }
 }
@@ -34,13 +45,12 @@ const job::Strategy kHullRough{
       "0",
       "more halvings of patches before they are boxed",
       {0, 8}},
-     {"clearing",
-      Kind::kChoice,
-      "zigzag",
-      "or `\"contour\"`, or `\"adaptive\"`: passes of bounded engagement (`docs/strategies.md`)",
-      {},
-      {"zigzag", "contour", "adaptive"}}},
+     choice("clearing",
+            {"zigzag", "contour", "adaptive"},
+            "or `\"contour\"`, or `\"adaptive\"`: passes of bounded engagement "
+            "(`docs/strategies.md`)")},
     {},
+    read,
     check,
     plan_hull_rough};
 

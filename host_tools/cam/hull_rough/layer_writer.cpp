@@ -40,7 +40,7 @@ double clearance_height(const Roughing& work)
 
 double chord_tolerance(const Roughing& work)
 {
-    return std::max(work.operation.plan_tolerance, kLeastTolerance) / 2;
+    return std::max(work.operation.tolerance.plan, kLeastTolerance) / 2;
 }
 
 // Writes the moves of one cutter, layer by layer.
@@ -72,7 +72,7 @@ public:
         : LayersOfCutter{work, tool},
           moves_{path_,
                  work.clearings[first][tool].zone->radius(),
-                 {clearance_height(work), work.operation.entry,
+                 {clearance_height(work), work.operation.passes.entry,
                   work.operation.output == OutputForm::kArcs, chord_tolerance(work)}}
     {
     }
@@ -133,11 +133,11 @@ public:
     AdaptiveLayerWriter(const Roughing& work, std::size_t tool)
         : LayersOfCutter{work, tool},
           writer_{path_.moves,
-                  {clearance_height(work), work.operation.entry, work.tools[tool].radius}},
+                  {clearance_height(work), work.operation.passes.entry, work.tools[tool].radius}},
           cutter_{writer_,
                   {work.operation.output == OutputForm::kArcs, chord_tolerance(work),
-                   work.operation.entry == EntryKind::kPlunge, scallops(work)}},
-          report_{*work.operation.max_engagement}
+                   work.operation.passes.entry == EntryKind::kPlunge, scallops(work)}},
+          report_{*work.operation.passes.max_engagement}
     {
     }
 
@@ -199,7 +199,7 @@ private:
 
 std::unique_ptr<LayersOfCutter> writer_of(const Roughing& work, std::size_t first, std::size_t tool)
 {
-    if (work.operation.max_engagement) {
+    if (work.operation.passes.max_engagement) {
         return std::make_unique<AdaptiveLayerWriter>(work, tool);
     }
     return std::make_unique<RunWriter>(work, first, tool);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "host_tools/cam/hull_rough/roughing.hpp"
 
 namespace cusp::hull_rough {
@@ -26,7 +27,7 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     }
     const double degrees = std::acos(std::max(-1.0, 1 - step / tool.radius)) * 180 / kPi;
     OperationStats& stats = operation.stats;
-    if (work.operation.max_engagement) {
+    if (work.operation.passes.max_engagement) {
         stats.warnings.push_back("cuts are at most " + plain_number(work.deepest_cut()) +
                                  " mm deep; entries descend as a helix where there is room");
         return;
@@ -34,7 +35,8 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     stats.counts.emplace_back("engagement_deg", 180);
     stats.counts.emplace_back("step_mm", step);
     stats.counts.emplace_back("step_engagement_deg", degrees);
-    stats.counts.emplace_back("entry_deg", work.operation.entry == EntryKind::kPlunge ? 90 : 3);
+    stats.counts.emplace_back("entry_deg",
+                              work.operation.passes.entry == EntryKind::kPlunge ? 90 : 3);
     stats.warnings.push_back(
         "cuts are at most " + plain_number(work.deepest_cut()) +
         " mm deep; first passes, necks and corners are cut at "
@@ -42,8 +44,8 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
         plain_number(2 * tool.radius) + " mm (180 degrees), straight passes beside " +
         "another at " + plain_number(step) + " mm (" + plain_number(std::round(degrees)) +
         " degrees); " +
-        (work.operation.entry == EntryKind::kPlunge ? "entries plunge"
-                                                    : "entries descend at up to 3 degrees"));
+        (work.operation.passes.entry == EntryKind::kPlunge ? "entries plunge"
+                                                           : "entries descend at up to 3 degrees"));
 }
 
 // Figures of all layers.
@@ -105,7 +107,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
                              : 0.0;
     for (PlannedOperation& operation : out) {
         OperationStats& stats = operation.stats;
-        stats.strategy = "hull_rough";
+        stats.strategy = work.operation.name();
         stats.roughing = true;
         stats.gouge_bound_mm = 0;
         // Hulls bound what is cut, not what is left: the only bound of that is the stock's height.
@@ -130,7 +132,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
                         {"left_mm2", layers.left}};
         stats.counts.insert(stats.counts.end(), written.begin(), written.end());
         add_engagement(work, operation);
-        if (work.operation.contour_clearing && layers.zigzags > 0) {
+        if (hull_keys(work.operation).contour_clearing && layers.zigzags > 0) {
             stats.warnings.push_back(std::to_string(layers.zigzags) +
                                      " layers are cleared by zigzag: loops parallel to their "
                                      "islands would have too little clearance");

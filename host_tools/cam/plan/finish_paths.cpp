@@ -41,7 +41,7 @@ void finish_paths(Planning& planning)
                 continue;
             }
             path.stats.retracts += keep_off_fixtures(
-                job, fmt::format("operation {}, {}", operation.number, operation.strategy),
+                job, fmt::format("operation {}, {}", operation.number, operation.name()),
                 path.path);
             add_rounding(job, path);
         }

@@ -91,17 +91,18 @@ void leave_room_for_rounding(Job& job)
         value -= by;
     };
     for (Operation& operation : job.operations) {
-        if (operation.default_floor_tolerance) {
-            operation.floor_tolerance = std::max(operation.floor_tolerance, 3 * added);
+        if (operation.tolerance.default_floor) {
+            operation.tolerance.floor = std::max(operation.tolerance.floor, 3 * added);
         }
-        if (operation.default_scallop) {
-            operation.scallop = std::max(*operation.scallop, 2 * operation.floor_tolerance);
+        if (operation.tolerance.default_scallop) {
+            operation.tolerance.scallop =
+                std::max(*operation.tolerance.scallop, 2 * operation.tolerance.floor);
         }
         // twice: half of a floor tolerance has been spent on the height field of a mesh
-        reduce(operation, "floor_tolerance", operation.floor_tolerance, 2 * added);
-        reduce(operation, "plan_tolerance", operation.plan_tolerance, added);
-        if (operation.scallop) {
-            reduce(operation, "scallop", *operation.scallop, added);
+        reduce(operation, "floor_tolerance", operation.tolerance.floor, 2 * added);
+        reduce(operation, "plan_tolerance", operation.tolerance.plan, added);
+        if (operation.tolerance.scallop) {
+            reduce(operation, "scallop", *operation.tolerance.scallop, added);
         }
     }
 }

@@ -45,7 +45,7 @@ std::vector<std::string> RestOfJob::programs_before(const Job& job,
             files.push_back(program.file);
         }
     }
-    for (const std::string& file : operation.after) {
+    for (const std::string& file : operation.rest.after) {
         if (std::find(files.begin(), files.end(), file) == files.end()) {
             files.push_back(file);
         }
@@ -82,14 +82,15 @@ void RestOfJob::remember(const std::vector<PlannedOperation>& results)
 
 bool RestOfJob::lower_scallop(const Job& job, Operation& operation) const
 {
-    if (programs_before(job, operation).empty() || !operation.scallop || operation.rest_tolerance) {
+    if (programs_before(job, operation).empty() || !operation.tolerance.scallop ||
+        operation.rest.tolerance) {
         return false;
     }
     const double least =
-        operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
-    const double lower = *operation.scallop - tolerances_.at(operation.number).surface;
+        operation.tolerance.side == ToleranceSide::kOutside ? operation.tolerance.floor : 0;
+    const double lower = *operation.tolerance.scallop - tolerances_.at(operation.number).surface;
     if (lower > least) {
-        operation.scallop = lower;
+        operation.tolerance.scallop = lower;
     }
     return lower > least;
 }
@@ -120,7 +121,7 @@ bool RestOfJob::keep(const Job& job,
     if (nothing && !results.empty()) {
         results.front().stats.warnings.push_back(fmt::format(
             "operation {}, {}: nothing thicker than {:g} mm is left after {}: nothing is cut",
-            operation.number, operation.strategy, tolerances_.at(operation.number).surface,
+            operation.number, operation.name(), tolerances_.at(operation.number).surface,
             fmt::join(programs, ", ")));
     }
     return !nothing;
@@ -135,7 +136,7 @@ void keep_rest(Planning& planning)
     for (Planned& planned : planning.planned) {
         Operation& operation = job.operations[planned.place];
         planning.begin(fmt::format("looking for what is left for operation {} ({}) of {}",
-                                   operation.number, operation.strategy, job.file));
+                                   operation.number, operation.name(), job.file));
         if (rest.keep(job, operation, planned.paths) && rest.lower_scallop(job, operation)) {
             planned.paths = plan_operation_at(planning, planned.place);
             rest.keep(job, operation, planned.paths);

@@ -77,10 +77,10 @@ std::vector<PlannedOperation> plan_operation_at(Planning& planning, std::size_t 
     Job& job = planning.job;
     const Operation& operation = job.operations[place];
     planning.begin(fmt::format("planning operation {} of {} ({}) of {}", place + 1,
-                               job.operations.size(), operation.strategy, job.file));
+                               job.operations.size(), operation.name(), job.file));
     const auto begin = std::chrono::steady_clock::now();
     const auto progress =
-        std::make_shared<PartsProgress>(operation.roughing, planning.reports("planning"));
+        std::make_shared<PartsProgress>(operation.passes.roughing, planning.reports("planning"));
     job.progress = [progress](double share) {
         (*progress)(share);
     };
@@ -98,7 +98,7 @@ void plan_operations(Planning& planning)
 {
     const std::vector<Operation>& operations = planning.job.operations;
     for (std::size_t i = 0; i < operations.size(); ++i) {
-        planning.watcher.operation(i + 1, operations.size(), operations[i].strategy);
+        planning.watcher.operation(i + 1, operations.size(), operations[i].name());
         planning.planned.push_back({i, plan_operation_at(planning, i)});
     }
 }

@@ -205,15 +205,17 @@ void find_engagement(Planning& planning)
     const Job& job = planning.job;
     const bool counts = planning.options.measures_engagement;
     if (std::none_of(job.operations.begin(), job.operations.end(), [counts](const Operation& o) {
-            return (counts && o.max_engagement.has_value()) || o.chip_load.has_value();
+            return (counts && o.passes.max_engagement.has_value()) ||
+                   o.passes.chip_load.has_value();
         })) {
         return;
     }
     // A plan with a bound for some operations and none for others can't know what is over in all.
     for (const PlannedOperation& planned : planning.program.operations) {
         const Operation& operation = operation_of(job, planned);
-        planning.limits.push_back(operation.strategy == "grid_pocket" ? operation.max_engagement
-                                                                      : std::nullopt);
+        planning.limits.push_back(operation.strategy->traits.bounds_engagement
+                                      ? operation.passes.max_engagement
+                                      : std::nullopt);
     }
     planning.begin("looking for the engagement");
     planning.engagement = path_engagement(job, paths_of(planning.program), planning.limits,
@@ -230,7 +232,7 @@ void put_feeds_by_load(Planning& planning)
     planning.feeds.resize(program.operations.size());
     for (std::size_t k = 0; k < program.operations.size(); ++k) {
         PlannedOperation& planned = program.operations[k];
-        const auto& chip_load = operation_of(job, planned).chip_load;
+        const auto& chip_load = operation_of(job, planned).passes.chip_load;
         if (chip_load && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
             planning.feeds[k] = put_feeds(planning.engagement[k], *chip_load, planned.path);
             planning.is_written = false;
@@ -248,7 +250,7 @@ void count_engagement(Planning& planning)
     for (std::size_t k = 0; k < planning.engagement.size(); ++k) {
         toolpath::OperationStats& stats = program.operations[k].stats;
         const double seconds = program.measures[k].estimated_s;
-        if (operation_of(planning.job, program.operations[k]).max_engagement) {
+        if (operation_of(planning.job, program.operations[k]).passes.max_engagement) {
             add_removal(planning.engagement[k], seconds, stats);
             if (planning.limits[k]) {
                 stats.counts.emplace_back("found_over_engagement_mm",

@@ -43,7 +43,7 @@ double pass_height(const Job& job)
     constexpr double kOverTolerance = 2;
     double most = kSameHeight;
     for (const Operation& operation : job.operations) {
-        most = std::max(most, kOverTolerance * operation.floor_tolerance);
+        most = std::max(most, kOverTolerance * operation.tolerance.floor);
     }
     return most;
 }

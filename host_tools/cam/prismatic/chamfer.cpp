@@ -60,8 +60,8 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
     PlannedOperation planned =
         begun(job, operation, fmt::format("{:g} mm wide, tip at z {:.6g} mm", cut.width, z));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
-    const bool climb = operation.direction_of_cut == CutDirection::kClimb;
-    const EdgeForm form{operation.output != OutputForm::kLines, operation.plan_tolerance / 2,
+    const bool climb = operation.passes.direction_of_cut == CutDirection::kClimb;
+    const EdgeForm form{operation.output != OutputForm::kLines, operation.tolerance.plan / 2,
                         climb};
     std::vector<Vec2d> starts;
     for (const Contour& contour : centres.contours) {

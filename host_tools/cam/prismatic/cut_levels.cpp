@@ -20,12 +20,12 @@ std::vector<double> cut_levels(const Job& job, const Operation& operation, doubl
     constexpr double kMost = 1000;
     constexpr double kRounding = 1e-9;
     const double top = operation.prismatic->top;
-    const double count = std::ceil(depth / operation.max_depth.value_or(depth) - kRounding);
+    const double count = std::ceil(depth / operation.levels.max_depth.value_or(depth) - kRounding);
     if (count > kMost) {
-        throw InputError(
-            fmt::format("{}max_depth {:g} mm makes {:g} levels of {:g} mm, the limit "
-                        "is {:g}",
-                        operation_text(job, operation), *operation.max_depth, count, depth, kMost));
+        throw InputError(fmt::format(
+            "{}max_depth {:g} mm makes {:g} levels of {:g} mm, the limit "
+            "is {:g}",
+            operation_text(job, operation), *operation.levels.max_depth, count, depth, kMost));
     }
     std::vector<double> levels;
     for (double k = 1; k <= count; ++k) {
@@ -38,8 +38,8 @@ PlannedOperation begun(const Job& job, const Operation& operation, const std::st
 {
     PlannedOperation planned;
     set_tool(planned.path, job, operation.tool);
-    planned.path.comments = {operation.strategy + ": " + comment};
-    planned.stats.strategy = operation.strategy;
+    planned.path.comments = {operation.name() + ": " + comment};
+    planned.stats.strategy = operation.name();
     return planned;
 }
 
@@ -59,15 +59,15 @@ void count_moves(const ToolpathWriter& writer, int passes, int levels, PlannedOp
 
 double chord_tolerance(const Operation& operation)
 {
-    const double across = operation.plan_tolerance / 2;
-    return is_conical(operation.tool) ? std::min(across, operation.floor_tolerance / 2 *
+    const double across = operation.tolerance.plan / 2;
+    return is_conical(operation.tool) ? std::min(across, operation.tolerance.floor / 2 *
                                                              std::tan(operation.tool.tip_angle / 2))
                                       : across;
 }
 
 std::string operation_text(const Job& job, const Operation& operation)
 {
-    return fmt::format("{}: operation {}: {}: ", job.file, operation.number, operation.strategy);
+    return fmt::format("{}: operation {}: {}: ", job.file, operation.number, operation.name());
 }
 
 }  // namespace cusp::prismatic

@@ -81,7 +81,7 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
         throw InputError(operation_text(job, operation) + operation.prismatic->file +
                          ": no curve to engrave");
     }
-    if (!operation.floor.empty()) {
+    if (!operation.part.floor.empty()) {
         return engraved_on_floor(job, operation, in_order(std::move(chains)));
     }
     const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);

@@ -39,10 +39,10 @@ public:
         : job_{job},
           operation_{operation},
           tip_{toolpath::tip_of(operation.tool)},
-          allowed_{operation.floor_tolerance / 2},
-          accuracy_{operation.floor_tolerance / 16},
-          cutter_{operation.floor, tip_, accuracy_},
-          bounds_{operation.floor}
+          allowed_{operation.tolerance.floor / 2},
+          accuracy_{operation.tolerance.floor / 16},
+          cutter_{operation.part.floor, tip_, accuracy_},
+          bounds_{operation.part.floor}
     {
     }
 
@@ -162,7 +162,7 @@ std::vector<PlannedOperation> engraved_on_floor(const Job& job,
                 static_cast<int>(levels.size()), planned);
     planned.stats.counts.emplace_back("curves", static_cast<double>(chains.size()));
     // half by follows(), half by the chord of a curve on the flank
-    planned.stats.gouge_bound_mm = operation.floor_tolerance;
+    planned.stats.gouge_bound_mm = operation.tolerance.floor;
     return {planned};
 }
 

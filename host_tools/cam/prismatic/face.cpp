@@ -56,7 +56,7 @@ double stepover_of(const Job& job, const Operation& operation)
                                      operation_text(job, operation), operation.tool.number,
                                      name_of(operation.tool.shape)));
     }
-    const double step = operation.step_over.value_or(kStepover * across);
+    const double step = operation.passes.step_over.value_or(kStepover * across);
     if (step > across) {
         throw InputError(
             fmt::format("{}step_over {:g} mm leaves ridges, the bottom of tool {} is "
@@ -85,9 +85,9 @@ std::vector<PlannedOperation> plan_face(const Job& job, const Operation& operati
                           counted(static_cast<std::size_t>(passes), "pass", "passes")));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
     const double beside = operation.tool.radius + operation.prismatic->overhang.value_or(kOverhang);
-    const bool one_way = operation.traversal == Traversal::kOneWay;
+    const bool one_way = operation.passes.traversal == Traversal::kOneWay;
     // with the uncut stock on the tool's left, which is behind it on the way to -x
-    const bool climb = operation.direction_of_cut == CutDirection::kClimb;
+    const bool climb = operation.passes.direction_of_cut == CutDirection::kClimb;
     double above = operation.prismatic->top;
     for (const double z : levels) {
         bool to_right = !climb;

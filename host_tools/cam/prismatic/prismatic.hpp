@@ -1,6 +1,6 @@
 // The 2.5-D operations of a shop: cuts along curves of a drawing at level depths.
 //
-//     operation.strategy = "profile";
+//     operation.strategy = &kProfile;
 //     operation.prismatic->loops = {{outline, "plate.dxf#outline", false}};
 //     operation.prismatic->depth = 6.0;
 //     operation.prismatic->tabs = {4, {}, 6.0, 1.5, true};

@@ -1,41 +1,114 @@
 // The records of the 2.5-D strategies.
 #include "host_tools/cam/prismatic/prismatic.hpp"
+#include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
+
+#include "fmt/format.h"
 
 namespace cusp::prismatic {
 
+using job::choice;
 using job::kNotNegative;
 using job::kPositive;
+using job::need;
+using job::Operation;
+using job::Refuse;
 using job::Region;
 using job::shared_keys;
 using job::Strategy;
+using job::table;
 using Kind = job::KeyKind;
+
+namespace {
+
+void check_drawing(const Operation& operation, const Refuse& refuse)
+{
+    need(!operation.prismatic->file.empty(), "boundary", "a drawing, such as \"plate.dxf#layer\"",
+         operation, refuse);
+}
+
+void check_profile(const Operation& operation, const Refuse& refuse)
+{
+    const job::Prismatic& cut = *operation.prismatic;
+    check_level(operation, refuse);
+    if (cut.side == job::ProfileSide::kOn && operation.passes.allowance > 0) {
+        refuse("allowance",
+               "belongs to a profile inside or outside: on the line there is no wall to finish");
+    }
+    if (cut.tabs && cut.tabs->height >= cut.depth) {
+        refuse("tabs",
+               fmt::format(
+                   "height is {:g} mm, the cut is only {:g} mm deep: tabs are lower than the cut",
+                   cut.tabs->height, cut.depth));
+    }
+    check_drawing(operation, refuse);
+}
+
+void check_engraving(const Operation& operation, const Refuse& refuse)
+{
+    need(operation.prismatic->given_depth, "depth", "how deep it cuts", operation, refuse);
+    check_sideways(operation, refuse);
+    if (!operation.part.floor.empty() && operation.prismatic->given_top) {
+        refuse("top", "does not go with floor: an engraving begins at its surface");
+    }
+    check_drawing(operation, refuse);
+}
+
+// A cone that is sharp or flat at its tip.
+void check_flank(const Operation& operation, const Refuse& refuse)
+{
+    const toolpath::Tool& tool = operation.tool;
+    if (tool.shape != toolpath::ToolShape::kVee && tool.shape != toolpath::ToolShape::kTaper) {
+        refuse("tool", fmt::format("{} needs a vee or a taper, tool {} is {}", operation.name(),
+                                   tool.number, name_of(tool.shape)));
+    }
+    if (tool.corner_radius > 0) {
+        refuse("tool", fmt::format("tool {} has a ball at its tip: {} needs a sharp or a flat one",
+                                   tool.number, operation.name()));
+    }
+}
+
+void check_chamfer(const Operation& operation, const Refuse& refuse)
+{
+    need(operation.prismatic->width > 0, "width", "its width, seen from above", operation, refuse);
+    check_flank(operation, refuse);
+    check_drawing(operation, refuse);
+}
+
+void check_v_carve(const Operation& operation, const Refuse& refuse)
+{
+    check_flank(operation, refuse);
+    const double flank = job::flank_height(operation.tool);
+    if (operation.prismatic->depth > flank) {
+        refuse("depth", fmt::format("is {:g} mm, the flank of tool {} is only {:.4g} mm high",
+                                    operation.prismatic->depth, operation.tool.number, flank));
+    }
+    check_drawing(operation, refuse);
+}
+
+}  // namespace
 
 const Strategy kProfile{
     "profile",
     "around the loops of a drawing, or on them, down to a level",
     shared_keys({"output", "join_gaps", "direction_of_cut", "entry", "allowance", "max_depth",
                  "chip_load", "feed_min", "feed_max", "depth", "top"}),
-    {{"side",
-      Kind::kChoice,
-      "outside",
-      "of the loops, or on them. A loop within a loop is a hole: outside the part is inside its "
-      "holes",
-      {},
-      {"outside", "inside", "on"}},
-     {"tabs",
-      Kind::kTable,
-      "none",
-      "bridges that hold the part: `{ count = 4, width = 6.0, height = 1.5, shape = \"ramp\" }`",
-      {},
-      {},
-      job::tabs_table},
+    {choice("side",
+            {"outside", "inside", "on"},
+            "of the loops, or on them. A loop within a loop is a hole: outside the part is inside "
+            "its holes"),
+     table("tabs",
+           job::tabs_table,
+           "none",
+           "bridges that hold the part: `{ count = 4, width = 6.0, height = 1.5, shape = \"ramp\" "
+           "}`"),
      {"lead_in", Kind::kLength, "the tool's radius",
       "radius of the arc onto the path; 0: none. Halved where it has no room; on the line 0",
       kNotNegative},
      {"lead_out", Kind::kLength, "`lead_in`", "likewise off the path", kNotNegative}},
     {Region::kOutline},
     nullptr,
+    check_profile,
     plan_profile};
 
 const Strategy kDrill{
@@ -51,6 +124,7 @@ const Strategy kDrill{
       "the deepest step; the drill comes out after each to clear chips", kPositive}},
     {Region::kHoles},
     nullptr,
+    check_drawing,
     plan_drill};
 
 const Strategy kFace{
@@ -62,6 +136,7 @@ const Strategy kFace{
       kNotNegative}},
     {Region::kTop},
     nullptr,
+    job::check_level,
     plan_face};
 
 const Strategy kEngrave{
@@ -71,6 +146,7 @@ const Strategy kEngrave{
     {{"floor", Kind::kFiles, "none", "files of surfaces that it follows"}},
     {Region::kGrooves},
     nullptr,
+    check_engraving,
     plan_engrave};
 
 const Strategy kVCarve{
@@ -79,9 +155,10 @@ const Strategy kVCarve{
     shared_keys(
         {"output", "join_gaps", "direction_of_cut", "max_depth", "step_over", "top", "may_open"}),
     {{"depth", Kind::kLength, "the height of the flank", "below `top`: the most", kPositive},
-     {"scallop", Kind::kLength, "0.05 mm", "the ridges on a level floor", job::kTolerance}},
+     {"scallop", Kind::kLength, "0.05 mm", "the ridges on a level floor", job::kToleranceRange}},
     {Region::kValleys},
     nullptr,
+    check_v_carve,
     plan_v_carve};
 
 const Strategy kChamfer{"chamfer",
@@ -91,6 +168,7 @@ const Strategy kChamfer{"chamfer",
                           "seen from above; the vee's angle makes the depth", kPositive}},
                         {Region::kEdges},
                         nullptr,
+                        check_chamfer,
                         plan_chamfer};
 
 }  // namespace cusp::prismatic

@@ -70,13 +70,14 @@ public:
           walls_{edges_of(waste_)},
           levels_{cut_levels(job, operation, cut_.depth)},
           planned_{begun(job, operation, side_text())},
-          writer_{planned_.path.moves,
-                  {job.stock_top + job.clearance,
-                   operation.entry == EntryKind::kPlunge ? EntryKind::kPlunge : EntryKind::kRamp,
-                   operation.tool.radius}}
+          writer_{
+              planned_.path.moves,
+              {job.stock_top + job.clearance,
+               operation.passes.entry == EntryKind::kPlunge ? EntryKind::kPlunge : EntryKind::kRamp,
+               operation.tool.radius}}
     {
-        const bool climb = operation.direction_of_cut == CutDirection::kClimb;
-        form_ = {operation.output != OutputForm::kLines, operation.plan_tolerance / 2, climb,
+        const bool climb = operation.passes.direction_of_cut == CutDirection::kClimb;
+        form_ = {operation.output != OutputForm::kLines, operation.tolerance.plan / 2, climb,
                  cut_.side == ProfileSide::kOn};
     }
 
@@ -85,8 +86,8 @@ public:
         const double radius = on_line() ? 0.0 : operation_.tool.radius;
         const Region2d centres = centres_at(radius);
         check_reach(centres);
-        if (operation_.allowance > 0) {
-            const double away = radius + operation_.allowance;
+        if (operation_.passes.allowance > 0) {
+            const double away = radius + operation_.passes.allowance;
             const Region2d rough = centres_at(away);
             cut_around(rough, away, {});
             cut_around(centres, radius, edges_of(rough));
@@ -189,7 +190,7 @@ private:
     bool is_roughed(const Contour& contour, const EdgeTree& roughed) const
     {
         const double radius = operation_.tool.radius;
-        const double reach = operation_.allowance + 0.5 * radius;
+        const double reach = operation_.passes.allowance + 0.5 * radius;
         const auto near = [&](const Edge& edge) {
             const int pieces = 1 + static_cast<int>(2 * offset::length(edge) / radius);
             for (int i = 0; i < pieces; ++i) {
@@ -261,7 +262,7 @@ private:
                             double away,
                             const std::vector<Vec2d>& places) const
     {
-        const bool left = operation_.direction_of_cut == CutDirection::kClimb;
+        const bool left = operation_.passes.direction_of_cut == CutDirection::kClimb;
         const ContourRun whole{left ? contour : reversed(contour)};
         const double radius = operation_.tool.radius;
         // Round a narrow contour the tool comes down along it.

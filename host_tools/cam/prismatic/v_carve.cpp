@@ -274,9 +274,10 @@ void Carver::add_branches(double above, double depth, std::vector<Way>& ways) co
 void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& ways)
 {
     constexpr double kMostLoops = 20000;
-    const double ridge = last ? *operation_.scallop : std::max(*operation_.scallop, depth - above);
-    const double step =
-        operation_.step_over && last ? *operation_.step_over : 2 * (tip_ + ridge / slope_);
+    const double ridge = last ? *operation_.tolerance.scallop
+                              : std::max(*operation_.tolerance.scallop, depth - above);
+    const double step = operation_.passes.step_over && last ? *operation_.passes.step_over
+                                                            : 2 * (tip_ + ridge / slope_);
     const double room = widest_.radius - radius_at(depth);
     if (room / step > kMostLoops) {
         throw InputError(
@@ -286,7 +287,7 @@ void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& 
     }
     for (double away = radius_at(depth); away < widest_.radius; away += step) {
         for (const Contour& contour : region_.at(away).contours) {
-            const bool climb = operation_.direction_of_cut == CutDirection::kClimb;
+            const bool climb = operation_.passes.direction_of_cut == CutDirection::kClimb;
             const Contour way = climb ? contour : offset::reversed(contour);
             const Vec2d start = way.front().start;
             const Vec3d end{start.x, start.y, cut_.top - depth};
@@ -310,7 +311,7 @@ double Carver::worth_of_lift(double above, double z) const
 void Carver::write(const std::vector<Way>& ways, double above, ToolpathWriter& writer) const
 {
     const EdgeForm form{operation_.output != OutputForm::kLines, chord_tolerance(operation_),
-                        operation_.direction_of_cut == CutDirection::kClimb};
+                        operation_.passes.direction_of_cut == CutDirection::kClimb};
     WayGraph graph{ends_of(ways)};
     const auto follow = [&](std::size_t k, bool backward, MoveKind kind) {
         std::vector<Vec3d> points = ways[k].points;
@@ -387,7 +388,7 @@ PlannedOperation Carver::plan()
     planned.stats.counts.emplace_back("floor_loops", loops_);
     planned.stats.counts.emplace_back("depth_mm", deepest);
     planned.stats.gouge_bound_mm = kFit;
-    planned.stats.scallop_bound_mm = loops_ > 0 ? *operation_.scallop : 0.0;
+    planned.stats.scallop_bound_mm = loops_ > 0 ? *operation_.tolerance.scallop : 0.0;
     return planned;
 }
 

@@ -187,13 +187,13 @@ RestTolerance rest_tolerance(const Operation& operation)
 {
     constexpr double kOfScallop = 1.0 / 20;
     constexpr double kLeast = 1e-3;  // mm
-    double tolerance = std::min(operation.plan_tolerance, operation.floor_tolerance);
-    if (operation.scallop) {
-        tolerance = std::min(tolerance, kOfScallop * *operation.scallop);
+    double tolerance = std::min(operation.tolerance.plan, operation.tolerance.floor);
+    if (operation.tolerance.scallop) {
+        tolerance = std::min(tolerance, kOfScallop * *operation.tolerance.scallop);
     }
-    tolerance = std::max(operation.rest_tolerance.value_or(tolerance), kLeast);
+    tolerance = std::max(operation.rest.tolerance.value_or(tolerance), kLeast);
     return {tolerance,
-            operation.prismatic ? std::max(tolerance, operation.plan_tolerance) : tolerance};
+            operation.prismatic ? std::max(tolerance, operation.tolerance.plan) : tolerance};
 }
 
 void take_away(const Toolpath& path, SweptStock& stock)

@@ -13,33 +13,29 @@ namespace cusp::import {
 
 using job::Operation;
 
-namespace {
-
-}  // namespace
-
 void read_clearing(JobTable& table, const job::Strategy& strategy, Operation& operation)
 {
     const auto clearing = table.choice("clearing");
-    operation.contour_clearing = clearing == "contour";
     const bool is_given = table.has("max_engagement");
     const double engagement = table.number_or_default("max_engagement");
     const double least = table.range_of("max_engagement").low;
     if (clearing == "adaptive") {
-        operation.max_engagement = engagement;
+        operation.passes.max_engagement = engagement;
         const double radius = operation.tool.radius;
         // Elsewhere a step over is that of the finish.
-        if (strategy.traits.pocket && operation.step_over && *operation.step_over < radius) {
+        if (strategy.traits.pocket && operation.passes.step_over &&
+            *operation.passes.step_over < radius) {
             // A straight cut of this width has this angle.
-            operation.max_engagement =
-                std::min(*operation.max_engagement,
-                         std::acos(1.0 - *operation.step_over / radius) * 180.0 / kPi);
+            operation.passes.max_engagement =
+                std::min(*operation.passes.max_engagement,
+                         std::acos(1.0 - *operation.passes.step_over / radius) * 180.0 / kPi);
         }
-        if (*operation.max_engagement < least) {
-            table.refuse(
-                "step_over",
-                fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
-                            "radius {:g} mm; the least is {:g}",
-                            *operation.step_over, *operation.max_engagement, radius, least));
+        if (*operation.passes.max_engagement < least) {
+            table.refuse("step_over",
+                         fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
+                                     "radius {:g} mm; the least is {:g}",
+                                     *operation.passes.step_over, *operation.passes.max_engagement,
+                                     radius, least));
         }
     } else if (is_given) {
         table.refuse("max_engagement", "needs clearing = \"adaptive\"");
@@ -70,7 +66,7 @@ void read_chip_load(JobTable& table, double unit, Operation& operation)
         table.refuse("feed_min", fmt::format("is {:g} mm/min, above feed_max, {:g} mm/min",
                                              *load.feed_min, *load.feed_max));
     }
-    operation.chip_load = load;
+    operation.passes.chip_load = load;
 }
 
 }  // namespace cusp::import

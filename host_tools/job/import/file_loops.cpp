@@ -130,14 +130,14 @@ std::vector<Operation> pockets_of(const Operation& operation,
     for (std::size_t k = 0; k < loops.size(); ++k) {
         if (loops[k].depth % 2 == 0) {
             pockets.push_back(operation);
-            pockets.back().boundary = loops[k].loop;
-            pockets.back().boundary_file = loops[k].name;
+            pockets.back().outline.boundary = loops[k].loop;
+            pockets.back().outline.boundary_file = loops[k].name;
             bounds.push_back(k);
         }
     }
     const auto add = [](Operation& pocket, const FileLoop& island) {
-        pocket.islands.push_back(island.loop);
-        pocket.island_files.push_back(island.name);
+        pocket.outline.islands.push_back(island.loop);
+        pocket.outline.island_files.push_back(island.name);
     };
     for (const FileLoop& loop : loops) {
         if (loop.depth % 2 == 1) {
@@ -151,14 +151,14 @@ std::vector<Operation> pockets_of(const Operation& operation,
         // smallest pocket first; of a single pocket check_operation() checks the islands
         const auto around = std::find_if(pockets.rbegin(), pockets.rend(), [&](const Operation& o) {
             return pockets.size() == 1 ||
-                   !lies_outside(outline, loop_polyline(*o.boundary, kChord));
+                   !lies_outside(outline, loop_polyline(*o.outline.boundary, kChord));
         });
         if (around == pockets.rend()) {
             throw InputError(
                 fmt::format("{}: the island lies outside all {} pockets of {}, at x "
                             "{:.6g} y {:.6g} mm",
-                            island.name, pockets.size(), operation.boundary_file, outline.front().x,
-                            outline.front().y));
+                            island.name, pockets.size(), operation.outline.boundary_file,
+                            outline.front().x, outline.front().y));
         }
         add(*around, island);
     }

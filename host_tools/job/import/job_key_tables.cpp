@@ -1,9 +1,6 @@
 // One row a key.
 #include "host_tools/job/import/job_key_tables.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "host_tools/job/job/operation_keys.hpp"
 
 #include "fmt/format.h"
@@ -11,23 +8,17 @@
 
 namespace cusp::import {
 
-using job::kAnyNumber;
+using job::choice;
 using job::Key;
 using job::KeyTable;
-using job::kFeed;
+using job::kFeedRange;
 using job::kNotNegative;
 using job::kPositive;
+using job::table;
+using job::tables;
 using Kind = job::KeyKind;
 
 namespace {
-
-std::vector<std::string> names_of(const job::Strategies& strategies)
-{
-    std::vector<std::string> names;
-    std::transform(strategies.begin(), strategies.end(), std::back_inserter(names),
-                   [](const job::Strategy* strategy) { return strategy->name; });
-    return names;
-}
 
 void refuse_keys_of_others(const JobTable& table,
                            const job::Strategies& strategies,
@@ -39,7 +30,7 @@ void refuse_keys_of_others(const JobTable& table,
         if (!table.has(key.name.c_str()) || job::find_key(known, key.name) != nullptr) {
             continue;
         }
-        const auto names = names_of(job::strategies_with(strategies, key.name));
+        const auto names = job::names_of(job::strategies_with(strategies, key.name));
         table.refuse(key.name.c_str(), names.size() > kFew
                                            ? fmt::format("is no key of {}", strategy.name)
                                            : fmt::format("is a key of {}, not of {}",
@@ -54,33 +45,18 @@ const KeyTable& job_table()
     static const KeyTable kTable{
         "",
         "The file itself.",
-        {{"units",
-          Kind::kChoice,
-          "mm",
-          "of this file, of JSON, STL, OBJ and DXF parts without a unit of their own, and of the "
-          "G-code (G20, G21)",
-          {},
-          {"mm", "inch"}},
-         {"tool", Kind::kTables, "needed without `library`", "the tools", {}, {}, tool_table},
+        {choice("units", {"mm", "inch"},
+                "of this file, of JSON, STL, OBJ and DXF parts without a unit of their own, and of "
+                "the G-code (G20, G21)"),
+         tables("tool", tool_table, "needed without `library`", "the tools"),
          {"library", Kind::kText, "none",
           "file of tools, `.toml`; or one that comes with the program: `\"wood\"`, `\"plastics\"`, "
           "`\"aluminium\"`"},
-         {"cutting",
-          Kind::kTable,
-          "needed, unless all tools have a feed",
-          "rates of tools without their own",
-          {},
-          {},
-          cutting_table},
-         {"stock", Kind::kTable, "none", "what is cut from", {}, {}, stock_table},
-         {"placing",
-          Kind::kTables,
-          "none",
-          "how files of parts and drawings lie",
-          {},
-          {},
-          placing_table},
-         {"fixture", Kind::kTables, "none", "what holds the stock", {}, {}, fixture_table},
+         table("cutting", cutting_table, "needed, unless all tools have a feed",
+               "rates of tools without their own"),
+         table("stock", stock_table, "none", "what is cut from"),
+         tables("placing", placing_table, "none", "how files of parts and drawings lie"),
+         tables("fixture", fixture_table, "none", "what holds the stock"),
          {"post", Kind::kText, "cusp",
           "the controller to write for: `\"grbl\"`, `\"grblhal\"`, `\"linuxcnc\"`, `\"mach3\"`, "
           "`\"fanuc\"`, or a file `.toml` (`docs/posts.md`)"},
@@ -88,13 +64,7 @@ const KeyTable& job_table()
          {"group_by_tool", Kind::kFlag, "true",
           "operations whose cuts lie beside each other change places where that saves a change of "
           "tool; false: the order of the job"},
-         {"setup",
-          Kind::kTables,
-          "none",
-          "how the stock is clamped, time after time",
-          {},
-          {},
-          setup_table}}};
+         tables("setup", setup_table, "none", "how the stock is clamped, time after time")}};
     return kTable;
 }
 
@@ -103,13 +73,8 @@ const KeyTable& library_table()
     static const KeyTable kTable{
         "library",
         "A file of tools.",
-        {{"units",
-          Kind::kChoice,
-          "needed",
-          "of the library's lengths and feeds",
-          {},
-          {"mm", "inch"}},
-         {"tool", Kind::kTables, "needed", "the tools; each has a `name`", {}, {}, tool_table}}};
+        {choice("units", {"mm", "inch"}, "of the library's lengths and feeds", "needed"),
+         tables("tool", tool_table, "needed", "the tools; each has a `name`")}};
     return kTable;
 }
 
@@ -119,12 +84,8 @@ const KeyTable& tool_table()
         "tool",
         "A tool; several are `[[tool]]`.",
         {{"number", Kind::kCount, "its place", "the T word", job::kToolNumber},
-         {"shape",
-          Kind::kChoice,
-          "needed",
-          "`\"taper\"`: a flat end or a ball under slanted flanks",
-          {},
-          {"ball", "flat", "bull", "vee", "drill", "taper"}},
+         choice("shape", {"ball", "flat", "bull", "vee", "drill", "taper"},
+                "`\"taper\"`: a flat end or a ball under slanted flanks", "needed"),
          {"diameter", Kind::kLength, "needed", "of a taper at its upper end", kPositive},
          {"corner_radius", Kind::kLength, "bull: needed",
           "of a bull-nose end; of a taper that of a ball at its tip, in place of `tip_diameter`",
@@ -153,28 +114,23 @@ const KeyTable& tool_table()
           kPositive},
          {"holder_clearance", Kind::kLength, "0.5 mm",
           "that the shank and the holder keep to stock, to the sides and downward", kNotNegative},
-         {"feed", Kind::kRate, "of `[cutting]`", "of this tool", kFeed},
+         {"feed", Kind::kRate, "of `[cutting]`", "of this tool", kFeedRange},
          {"plunge_feed", Kind::kRate, "of `[cutting]`",
-          "of this tool; a `feed` without it makes it a quarter of itself", kFeed},
+          "of this tool; a `feed` without it makes it a quarter of itself", kFeedRange},
          {"spindle", Kind::kNumber, "of `[cutting]`", "rpm, of this tool", kNotNegative},
-         {"coolant",
-          Kind::kChoice,
-          "off",
-          "`\"mist\"` (M7), `\"flood\"` (M8)",
-          {},
-          {"off", "mist", "flood"}}}};
+         choice("coolant", {"off", "mist", "flood"}, "`\"mist\"` (M7), `\"flood\"` (M8)")}};
     return kTable;
 }
 
 const KeyTable& cutting_table()
 {
-    static const KeyTable kTable{
-        "cutting",
-        "Rates of tools without their own.",
-        {{"feed", Kind::kRate, "needed, unless all tools have one", "of cuts and links", kFeed},
-         {"plunge_feed", Kind::kRate, "a quarter of `feed`",
-          "down into stock; on a slope this over its sine", kFeed},
-         {"spindle", Kind::kNumber, "0", "rpm", kNotNegative}}};
+    static const KeyTable kTable{"cutting",
+                                 "Rates of tools without their own.",
+                                 {{"feed", Kind::kRate, "needed, unless all tools have one",
+                                   "of cuts and links", kFeedRange},
+                                  {"plunge_feed", Kind::kRate, "a quarter of `feed`",
+                                   "down into stock; on a slope this over its sine", kFeedRange},
+                                  {"spindle", Kind::kNumber, "0", "rpm", kNotNegative}}};
     return kTable;
 }
 
@@ -216,25 +172,17 @@ const KeyTable& placing_table()
         "placing",
         "How files lie; all optional, in the order in which they act.",
         {{"file", Kind::kFiles, "all others", "the file or files that the table is for"},
-         {"scale", Kind::kNumber, "1", "factor", job::kScale},
-         {"up",
-          Kind::kChoice,
-          "+z",
-          "the file's axis that points up",
-          {},
-          {"+x", "-x", "+y", "-y", "+z", "-z"}},
+         {"scale", Kind::kNumber, "1", "factor", job::kScaleRange},
+         choice("up", {"+x", "-x", "+y", "-y", "+z", "-z"}, "the file's axis that points up", "+z"),
          {"rotate",
           Kind::kNumbers,
           "0",
           "degrees: about z, or `[x, y, z]`, about x first",
           {-360, 360}},
-         {"origin",
-          Kind::kChoice,
-          "the file's",
-          "`\"top\"`: the part's top at z = 0; `\"corner\"`: also its least x and y at 0; "
-          "`\"centre\"`: also its middle in x and y at 0",
-          {},
-          {"corner", "centre", "top"}},
+         choice("origin", {"corner", "centre", "top"},
+                "`\"top\"`: the part's top at z = 0; `\"corner\"`: also its least x and y at 0; "
+                "`\"centre\"`: also its middle in x and y at 0",
+                "the file's"),
          {"move", Kind::kLengths, "`[0, 0, 0]`", "`[x, y, z]`, after all else"}}};
     return kTable;
 }
@@ -258,22 +206,15 @@ const KeyTable& fixture_table()
 
 const KeyTable& setup_table()
 {
-    static const KeyTable kTable{"setup",
-                                 "How the stock is clamped; `[[setup]]` for each time.",
-                                 {{"name", Kind::kText, "needed",
-                                   "letters, digits, `_`, `-`: part of the program's file name"},
-                                  {"offset",
-                                   Kind::kChoice,
-                                   "by its place",
-                                   "the work offset of its program; each set-up has its own",
-                                   {},
-                                   {"G54", "G55", "G56", "G57", "G58", "G59"}},
-                                  {"flip",
-                                   Kind::kChoice,
-                                   "none",
-                                   "the stock is turned over about a line along that axis",
-                                   {},
-                                   {"x", "y"}}}};
+    static const KeyTable kTable{
+        "setup",
+        "How the stock is clamped; `[[setup]]` for each time.",
+        {{"name", Kind::kText, "needed",
+          "letters, digits, `_`, `-`: part of the program's file name"},
+         choice("offset", {"G54", "G55", "G56", "G57", "G58", "G59"},
+                "the work offset of its program; each set-up has its own", "by its place"),
+         choice("flip", {"x", "y"}, "the stock is turned over about a line along that axis",
+                "none")}};
     return kTable;
 }
 
@@ -285,11 +226,11 @@ const KeyTable& post_table()
         "A controller to write for, a file of its own.",
         {{"mm_decimals", Kind::kCount, "needed", "of coordinates in mm", {3, 6}},
          {"inch_decimals", Kind::kCount, "needed", "of coordinates in inches", {4, 6}},
-         {"arcs", Kind::kChoice, "needed", "centre or radius of an arc", {}, {"IJ", "R"}},
+         choice("arcs", {"IJ", "R"}, "centre or radius of an arc", "needed"),
          {"nurbs", Kind::kFlag, "needed", "it knows G6.2"},
          {"drill_cycles", Kind::kFlag, "false", "it knows G81 and G83"},
          {"point", Kind::kFlag, "needed", "whole numbers have a point"},
-         {"comments", Kind::kChoice, "needed", "how a comment is written", {}, {"()", ";", "none"}},
+         choice("comments", {"()", ";", "none"}, "how a comment is written", "needed"),
          {"line_numbers", Kind::kCount, "0", "step between N words; 0: none", {0, 1000}},
          {"begin", Kind::kTexts, "needed", "first lines"},
          {"modes", Kind::kTexts, "needed", "lines that set the modes"},
@@ -317,7 +258,7 @@ const job::Strategy& strategy_of(JobTable& operation, const job::Strategies& str
     const job::Strategy* const strategy = find_strategy(strategies, *name);
     if (strategy == nullptr) {
         operation.refuse("strategy", fmt::format("is \"{}\", known are \"{}\"", *name,
-                                                 fmt::join(names_of(strategies), "\", \"")));
+                                                 fmt::join(job::names_of(strategies), "\", \"")));
     }
     refuse_keys_of_others(operation, strategies, *strategy);
     return *strategy;

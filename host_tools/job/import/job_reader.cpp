@@ -87,7 +87,6 @@ private:
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
     void read_strategy_keys(JobTable& table, const Strategy& strategy, Operation& operation);
-    void read_grid(JobTable& table, Operation& operation);
     static bool takes_mesh(const Strategy& strategy, const std::vector<std::string>& floor);
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
@@ -152,39 +151,39 @@ void JobReader::read_common(JobTable& table, Operation& operation)
     operation.output = output == "lines"  ? OutputForm::kLines
                        : output == "arcs" ? OutputForm::kArcs
                                           : OutputForm::kNurbs;
-    operation.plan_tolerance = table.length_or_default("plan_tolerance", unit_);
-    operation.join_gaps = table.length("join_gaps", unit_);
-    operation.floor_tolerance = table.length_or_default("floor_tolerance", unit_);
-    operation.tolerance_side = table.choice_or_default("tolerance_side") == "both"
+    operation.tolerance.plan = table.length_or_default("plan_tolerance", unit_);
+    operation.tolerance.join_gaps = table.length("join_gaps", unit_);
+    operation.tolerance.floor = table.length_or_default("floor_tolerance", unit_);
+    operation.tolerance.side = table.choice_or_default("tolerance_side") == "both"
                                    ? ToleranceSide::kBoth
                                    : ToleranceSide::kOutside;
-    operation.scallop = table.length("scallop", unit_);
-    if (operation.scallop && operation.tolerance_side == ToleranceSide::kOutside &&
-        *operation.scallop <= operation.floor_tolerance) {
+    operation.tolerance.scallop = table.length("scallop", unit_);
+    if (operation.tolerance.scallop && operation.tolerance.side == ToleranceSide::kOutside &&
+        *operation.tolerance.scallop <= operation.tolerance.floor) {
         table.refuse("scallop",
                      fmt::format("is {:g} mm, not above the floor_tolerance of {:g} mm that it "
                                  "includes; raise it or set tolerance_side = \"both\"",
-                                 *operation.scallop, operation.floor_tolerance));
+                                 *operation.tolerance.scallop, operation.tolerance.floor));
     }
-    operation.direction_of_cut = table.choice_or_default("direction_of_cut") == "climb"
-                                     ? CutDirection::kClimb
-                                     : CutDirection::kConventional;
+    operation.passes.direction_of_cut = table.choice_or_default("direction_of_cut") == "climb"
+                                            ? CutDirection::kClimb
+                                            : CutDirection::kConventional;
     const auto entry = table.choice_or_default("entry");
-    operation.entry = entry == "auto"    ? EntryKind::kAuto
-                      : entry == "helix" ? EntryKind::kHelix
-                      : entry == "ramp"  ? EntryKind::kRamp
-                                         : EntryKind::kPlunge;
-    operation.traversal =
+    operation.passes.entry = entry == "auto"    ? EntryKind::kAuto
+                             : entry == "helix" ? EntryKind::kHelix
+                             : entry == "ramp"  ? EntryKind::kRamp
+                                                : EntryKind::kPlunge;
+    operation.passes.traversal =
         table.choice_or_default("traversal") == "zigzag" ? Traversal::kZigzag : Traversal::kOneWay;
-    operation.allowance = table.length_or_default("allowance", unit_);
+    operation.passes.allowance = table.length_or_default("allowance", unit_);
 }
 
 void JobReader::read_rest(JobTable& table, Operation& operation)
 {
-    operation.after = read_programs(table, "after", folder_);
+    operation.rest.after = read_programs(table, "after", folder_);
     operation.may_open = table.flag_or_default("may_open");
-    operation.rest_tolerance = table.length("rest_tolerance", unit_);
-    if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty() &&
+    operation.rest.tolerance = table.length("rest_tolerance", unit_);
+    if (operation.rest.tolerance && operation.rest.after.empty() && job_.stock_programs.empty() &&
         !job_.setup) {
         table.refuse("rest_tolerance", "needs after, or program in [stock], or a set-up");
     }
@@ -192,11 +191,13 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
 
 void JobReader::read_depths(JobTable& table, Operation& operation)
 {
-    operation.max_depth = table.length("max_depth", unit_);
-    operation.min_depth = table.length("min_depth", unit_);
-    if (operation.max_depth && operation.min_depth && *operation.min_depth > *operation.max_depth) {
-        table.refuse("min_depth", fmt::format("is {:g} mm, above the max_depth of {:g} mm",
-                                              *operation.min_depth, *operation.max_depth));
+    operation.levels.max_depth = table.length("max_depth", unit_);
+    operation.levels.min_depth = table.length("min_depth", unit_);
+    if (operation.levels.max_depth && operation.levels.min_depth &&
+        *operation.levels.min_depth > *operation.levels.max_depth) {
+        table.refuse("min_depth",
+                     fmt::format("is {:g} mm, above the max_depth of {:g} mm",
+                                 *operation.levels.min_depth, *operation.levels.max_depth));
     }
     double above = 0;
     for (const double depth : table.numbers("layers").value_or(std::vector<double>{})) {
@@ -204,42 +205,18 @@ void JobReader::read_depths(JobTable& table, Operation& operation)
             table.refuse("layers", "depths below stock.top must grow from layer to layer");
         }
         above = depth * unit_;
-        operation.layers.push_back(above);
+        operation.levels.layers.push_back(above);
     }
-}
-
-void JobReader::read_grid(JobTable& table, Operation& operation)
-{
-    const auto grid = table.numbers("grid").value_or(std::vector<double>{});
-    if (!grid.empty()) {
-        operation.grid_x = grid[0] * unit_;
-        operation.grid_y = grid.back() * unit_;
-    }
-    if (grid.size() > 2) {
-        table.refuse("grid", "two numbers [gx, gy] are needed");
-    }
-    for (const std::string& axis : table.texts("zigzag").value_or(std::vector<std::string>{})) {
-        if (axis != "x" && axis != "y") {
-            table.refuse("zigzag", fmt::format("holds \"{}\", known are \"x\" and \"y\"", axis));
-        }
-        operation.zigzag.push_back(axis[0]);
-    }
-    operation.arc_tolerance =
-        table.length("arc_tolerance", unit_).value_or(operation.floor_tolerance);
-    operation.max_arc_radius = table.length_or_default("max_arc_radius", unit_);
-    operation.max_roughness = table.length("max_roughness", unit_);
 }
 
 void JobReader::read_strategy_keys(JobTable& table, const Strategy& strategy, Operation& operation)
 {
-    operation.iso_distance = table.length("iso_distance", unit_);
-    operation.even_steps = table.choice_or_default("iso_spacing") == "even";
-    operation.direction = table.choice_or_default("direction")[0];
-    operation.roughing = table.flag_or_default("roughing");
-    read_grid(table, operation);
-    operation.overlap = table.length_or_default("overlap", unit_);
-    operation.extra_subdivision = table.whole_number_or_default("extra_subdivision");
-    operation.step_over = table.length("step_over", unit_);
+    operation.passes.roughing = table.flag_or_default("roughing");
+    if (strategy.parameters != nullptr) {
+        operation.parameters =
+            strategy.parameters(table.values(strategy.own, unit_), operation, refuse_in(table));
+    }
+    operation.passes.step_over = table.length("step_over", unit_);
     read_clearing(table, strategy, operation);
     read_chip_load(table, unit_, operation);
 }
@@ -262,15 +239,15 @@ void JobReader::intersect(JobTable& table,
                           Operation& operation)
 {
     for (const std::string& name : bodies) {
-        operation.intersect_files.push_back(path_of(name));
+        operation.part.intersect_files.push_back(path_of(name));
     }
     const auto [found, is_new] = intersections_.try_emplace(
-        {operation.floor_files, operation.intersect_files, operation.floor_tolerance});
+        {operation.part.floor_files, operation.part.intersect_files, operation.tolerance.floor});
     std::vector<Surface>& floor = found->second;
     if (is_new) {
-        std::vector<std::vector<Surface>> models{operation.floor};
-        for (const std::string& file : operation.intersect_files) {
-            models.push_back(surfaces_of(file, operation.floor_tolerance));
+        std::vector<std::vector<Surface>> models{operation.part.floor};
+        for (const std::string& file : operation.part.intersect_files) {
+            models.push_back(surfaces_of(file, operation.tolerance.floor));
         }
         floor = intersection_of(models);
         for (Surface& surface : floor) {
@@ -284,7 +261,7 @@ void JobReader::intersect(JobTable& table,
     if (floor.empty()) {
         table.refuse("intersect", "leaves nothing of the floor: in plan they do not overlap");
     }
-    operation.floor = floor;
+    operation.part.floor = floor;
 }
 
 void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation& operation)
@@ -295,20 +272,22 @@ void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation&
         table.texts("intersect").value_or(std::vector<std::string>{});
     const bool mesh = bodies.empty() && takes_mesh(strategy, floor);
     for (const std::string& name : floor) {
-        operation.floor_files.push_back(path_of(name));
+        operation.part.floor_files.push_back(path_of(name));
         if (mesh) {
-            const Triangles& triangles = parts_.mesh(operation.floor_files.back(), unit_);
-            operation.mesh.insert(operation.mesh.end(), triangles.begin(), triangles.end());
+            const Triangles& triangles = parts_.mesh(operation.part.floor_files.back(), unit_);
+            operation.part.mesh.insert(operation.part.mesh.end(), triangles.begin(),
+                                       triangles.end());
         } else {
             const std::vector<Surface>& surfaces =
-                surfaces_of(operation.floor_files.back(), operation.floor_tolerance);
-            operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
+                surfaces_of(operation.part.floor_files.back(), operation.tolerance.floor);
+            operation.part.floor.insert(operation.part.floor.end(), surfaces.begin(),
+                                        surfaces.end());
         }
     }
     if (mesh) {
-        parts_.close_mesh(operation.floor_files, operation.mesh);
+        parts_.close_mesh(operation.part.floor_files, operation.part.mesh);
     }
-    if (operation.floor.empty() && operation.mesh.empty()) {
+    if (operation.part.floor.empty() && operation.part.mesh.empty()) {
         table.refuse("floor", "is missing: files with the surfaces to cut");
     }
     if (!bodies.empty()) {
@@ -320,7 +299,8 @@ void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation&
 std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
 {
     const auto loops_of = [&](const std::string& name) {
-        return parts_.loops(path_of(name), unit_, {operation.plan_tolerance, operation.join_gaps});
+        return parts_.loops(path_of(name), unit_,
+                            {operation.tolerance.plan, operation.tolerance.join_gaps});
     };
     std::vector<FileLoop> islands;
     for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
@@ -331,12 +311,12 @@ std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operat
         }
     }
     if (const auto name = table.text("boundary")) {
-        operation.boundary_file = path_of(*name);
+        operation.outline.boundary_file = path_of(*name);
         return pockets_of(operation, loops_of(*name), islands);
     }
     for (const FileLoop& island : islands) {
-        operation.islands.push_back(island.loop);
-        operation.island_files.push_back(island.name);
+        operation.outline.islands.push_back(island.loop);
+        operation.outline.island_files.push_back(island.name);
     }
     return {std::move(operation)};
 }
@@ -378,8 +358,9 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     Operation operation;
     operation.number = static_cast<int>(index);
     const Strategy& strategy = strategy_of(any, strategies_);
-    operation.strategy = strategy.name;
+    operation.strategy = &strategy;
     JobTable table{entry, file_, place, keys_of(strategy), all_keys_};
+    table.check_values();
     table.leave({"strategy", "setup"});
     read_rest(table, operation);
     read_tool_choice(table, operation);
@@ -397,7 +378,9 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     }
     if (operation.prismatic && !strategy.traits.pocket) {
         const auto name = table.text("boundary");
-        read_drawing(table, unit_, name ? path_of(*name) : "", parts_, operation);
+        operation.prismatic->file = name ? path_of(*name) : "";
+        check_operation(strategy, operation, refuse_in(table));
+        read_drawing(table, unit_, parts_, operation);
         job_.operations.push_back(std::move(operation));
     } else {
         for (Operation& pocket : read_pockets(table, std::move(operation))) {

@@ -3,6 +3,7 @@
 
 #include "host_tools/base/json_text/json_text.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
+#include "host_tools/job/job/operation_keys.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
@@ -40,30 +41,42 @@ Schema pair_of(const Schema& items)
     return {{"type", "array"}, {"items", items}, {"minItems", 2}, {"maxItems", 2}};
 }
 
-Schema any_of(const std::vector<Schema>& forms) { return {{"anyOf", forms}}; }
-
-Schema tool_form(const Key& key)
+// A value or a list. No `anyOf`, for editors then mark the whole and not what is wrong in it: limits of
+// numbers do not apply to lists, nor those of lists to numbers.
+Schema one_or(const Schema& one, const Schema& list)
 {
-    Schema number = number_form(key);
-    number["type"] = "integer";
-    return any_of({number, {{"type", "string"}}});
+    Schema form = one;
+    form.update(list);
+    form["type"] = {one["type"], "array"};
+    return form;
+}
+
+// One table or several of them, by the name of their definition.
+Schema tables_form(const std::string& name)
+{
+    const Schema each{{"$ref", "#/definitions/" + name}};
+    return {{"type", {"object", "array"}},
+            {"items", each},
+            {"if", {{"type", "object"}}},
+            {"then", each}};
 }
 
 Schema form_of(const Key& key)
 {
     const Schema text{{"type", "string"}};
     const Schema number = number_form(key);
+    Schema whole = number;
+    whole["type"] = "integer";
+    Schema tool = whole;
+    tool["type"] = {"integer", "string"};
     switch (key.kind) {
         case Kind::kLength:
         case Kind::kRate:
         case Kind::kNumber:
         case Kind::kAngle:
             return number;
-        case Kind::kCount: {
-            Schema whole = number;
-            whole["type"] = "integer";
+        case Kind::kCount:
             return whole;
-        }
         case Kind::kFlag:
             return {{"type", "boolean"}};
         case Kind::kText:
@@ -71,29 +84,32 @@ Schema form_of(const Key& key)
         case Kind::kChoice:
             return {{"type", "string"}, {"enum", key.choices}};
         case Kind::kFiles:
-        case Kind::kTexts:
-            return any_of({text, list_of(text)});
+        case Kind::kTexts: {
+            Schema item = text;
+            if (!key.choices.empty()) {
+                item["enum"] = key.choices;
+            }
+            return one_or(text, list_of(item));
+        }
         case Kind::kLengths:
             return list_of(number);
         case Kind::kNumbers:
-            return any_of({number, list_of(number)});
+            return one_or(number, list_of(number));
         case Kind::kMargin:
         case Kind::kInterval:
-            return any_of({number, pair_of(number)});
+            return one_or(number, pair_of(number));
         case Kind::kExtent:
             return pair_of(number);
         case Kind::kPairs:
             return list_of(pair_of(number));
         case Kind::kTool:
-            return tool_form(key);
+            return tool;
         case Kind::kTools:
-            return any_of({text, list_of(tool_form(key))});
+            return one_or(text, list_of(tool));
         case Kind::kTable:
             return table_form(key.members());
-        case Kind::kTables: {
-            const Schema each = table_form(key.members());
-            return any_of({each, list_of(each)});
-        }
+        case Kind::kTables:
+            return tables_form(key.name);
     }
     return {};
 }
@@ -132,12 +148,21 @@ Schema operation_form(const job::Strategies& strategies)
         names.push_back(strategy->name);
         Schema keys = members_of(keys_of(*strategy));
         keys["description"] = strategy->help;
-        const Schema name{{"const", strategy->name}};
-        conditions.push_back({{"if", {{"properties", {{"strategy", name}}}}}, {"then", keys}});
+        const Schema name{{"properties", {{"strategy", {{"const", strategy->name}}}}},
+                          {"required", {"strategy"}}};
+        conditions.push_back({{"if", name}, {"then", keys}});
+    }
+    // editors that look at no conditions complete and explain the keys, too
+    Schema properties{{"strategy", {{"enum", names}, {"description", "what cuts, and how"}}}};
+    for (const Key& key : job::all_keys(strategies)) {
+        if (!properties.contains(key.name)) {
+            properties[key.name] = {{"description", key.help}};
+        }
     }
     return {{"type", "object"},
+            {"description", "What is cut; [[operation]] for each."},
             {"required", {"strategy"}},
-            {"properties", {{"strategy", {{"enum", names}}}}},
+            {"properties", properties},
             {"allOf", conditions}};
 }
 
@@ -145,18 +170,16 @@ Schema operation_form(const job::Strategies& strategies)
 
 std::string job_schema(const job::Strategies& strategies)
 {
-    std::vector<Key> keys;
+    Schema schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+                  {"title", "A job of cusp"}};
+    schema.update(members_of(job_table().keys));
+    Schema& definitions = schema["definitions"];
     for (const Key& key : job_table().keys) {
-        if (key.kind != Kind::kTables || key.members != nullptr) {
-            keys.push_back(key);
+        if (key.kind == Kind::kTables) {
+            definitions[key.name] =
+                key.members == nullptr ? operation_form(strategies) : table_form(key.members());
         }
     }
-    Schema schema = members_of(keys);
-    const Schema operation = operation_form(strategies);
-    schema["properties"]["operation"] = any_of({operation, list_of(operation)});
-    schema["required"] = {"operation"};
-    schema["$schema"] = "http://json-schema.org/draft-07/schema#";
-    schema["title"] = "A job of cusp";
     return json_text::written(schema, 1) + "\n";
 }
 

@@ -11,9 +11,10 @@ namespace cusp::import {
 // docs/job_tables.py. It takes what the reader takes, but for conditions between keys.
 std::string job_schema(const job::Strategies& strategies);
 
-// The keys of the tables of a job in aligned lines, and the strategies with a line each.
+// The strategies, tables and single keys of a job, a line each, at most 100 characters wide.
 std::string job_help(const job::Strategies& strategies);
-// The keys of one strategy: its own first.
-std::string strategy_help(const job::Strategy& strategy);
+// The keys of one strategy or table.
+// Errors: InputError where there is none of that name, with the nearest ones.
+std::string job_help(const job::Strategies& strategies, const std::string& name);
 
 }  // namespace cusp::import

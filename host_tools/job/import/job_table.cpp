@@ -253,19 +253,25 @@ std::optional<std::vector<std::string>> JobTable::texts(const char* key)
     if (node == nullptr) {
         return std::nullopt;
     }
-    if (const auto single = node->value<std::string>(); single && node->is_string()) {
-        return std::vector<std::string>{*single};
-    }
     std::vector<std::string> out;
-    if (node->is_array()) {
+    if (node->is_string()) {
+        out.push_back(*node->value<std::string>());
+    } else if (node->is_array()) {
         for (const toml::node& entry : *node->as_array()) {
             if (entry.is_string()) {
                 out.push_back(*entry.value<std::string>());
             }
         }
     }
-    if (!node->is_array() || out.size() != node->as_array()->size()) {
+    if (node->is_array() ? out.size() != node->as_array()->size() : out.empty()) {
         refuse(key, "a list of texts in quotes is needed");
+    }
+    const std::vector<std::string>& allowed = key_of(key).choices;
+    for (const std::string& each : out) {
+        if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), each) == allowed.end()) {
+            refuse(key, fmt::format("holds \"{}\", known are \"{}\"", each,
+                                    fmt::join(allowed, "\" and \"")));
+        }
     }
     return out;
 }
@@ -376,6 +382,82 @@ double JobTable::required_number(const char* key)
         refuse(key, "is missing");
     }
     return *value;
+}
+
+job::KeyValues JobTable::values(const std::vector<job::Key>& keys, double millimetres)
+{
+    job::KeyValues out;
+    for (const job::Key& key : keys) {
+        if (auto given = value(key, millimetres)) {
+            out.set(key.name, std::move(*given));
+        }
+    }
+    return out;
+}
+
+void JobTable::check_values()
+{
+    const std::set<std::string> read = read_;
+    values(known_, 1.0);
+    read_ = read;  // looked at, not used
+}
+
+// No value where the key is absent and has no default, or where it is a table or a tool.
+std::optional<job::KeyValues::Value> JobTable::value(const job::Key& key, double millimetres)
+{
+    using Kind = job::KeyKind;
+    using Value = std::optional<job::KeyValues::Value>;
+    const char* const name = key.name.c_str();
+    const auto list = [](std::optional<std::vector<double>> numbers, double unit) -> Value {
+        for (std::size_t i = 0; numbers && i < numbers->size(); ++i) {
+            (*numbers)[i] *= unit;
+        }
+        return numbers ? Value{std::move(*numbers)} : std::nullopt;
+    };
+    const auto number_or_none = [&](double unit) -> Value {
+        const auto given = length(name, unit);
+        return given                        ? Value{*given}
+               : key.has_number_otherwise() ? Value{key.number_otherwise()}
+                                            : std::nullopt;
+    };
+    switch (key.kind) {
+        case Kind::kLength:
+        case Kind::kRate:
+            return number_or_none(millimetres);
+        case Kind::kCount:
+            whole_number(name);
+            return number_or_none(1.0);
+        case Kind::kNumber:
+        case Kind::kAngle:
+            return number_or_none(1.0);
+        case Kind::kFlag:
+            return flag_or_default(name);
+        case Kind::kText: {
+            auto given = text(name);
+            return given ? Value{std::move(*given)} : std::nullopt;
+        }
+        case Kind::kChoice:
+            return choice_or_default(name);
+        case Kind::kFiles:
+        case Kind::kTexts: {
+            auto given = texts(name);
+            return given ? Value{std::move(*given)} : std::nullopt;
+        }
+        case Kind::kLengths:
+        case Kind::kMargin:
+        case Kind::kInterval:
+        case Kind::kExtent:
+            return list(one_or_more(name), millimetres);
+        case Kind::kNumbers:
+            return list(one_or_more(name), 1.0);
+        case Kind::kPairs:
+        case Kind::kTool:
+        case Kind::kTools:
+        case Kind::kTable:
+        case Kind::kTables:
+            break;
+    }
+    return std::nullopt;
 }
 
 void JobTable::refuse_unknown_keys() const

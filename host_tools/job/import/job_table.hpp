@@ -65,6 +65,12 @@ public:
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);
 
+    // Of those of the keys that are values, not tables or tools; lengths in units of `millimetres`.
+    job::KeyValues values(const std::vector<job::Key>& keys, double millimetres);
+
+    // Refuses the first known value of another kind or out of its range, before any is used.
+    void check_values();
+
     // As the above, with the default of the table of keys where the key is absent; lengths in mm.
     double length_or_default(const char* key, double millimetres);
     double number_or_default(const char* key);
@@ -97,6 +103,7 @@ public:
 private:
     void refuse_unknown_keys() const;
     const job::Key& key_of(const char* key) const;
+    std::optional<job::KeyValues::Value> value(const job::Key& key, double millimetres);
     const toml::node* find(const char* key);
     double checked(const toml::node& node, const char* key) const;
 

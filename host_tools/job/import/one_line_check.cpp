@@ -45,12 +45,12 @@ void check_parts(const OneLineRequest& request)
 
 void check_numbers(const OneLineRequest& request)
 {
-    check_range("--scallop", request.scallop, job::kTolerance.low, true);
-    check_range("--tolerance", request.tolerance, job::kTolerance.low, false);
+    check_range("--scallop", request.scallop, job::kToleranceRange.low, true);
+    check_range("--tolerance", request.tolerance, job::kToleranceRange.low, false);
     check_range("--max-depth", request.max_depth, 0, true);
     check_range("--allowance", request.allowance, 0, false);
-    check_range("--feed", request.feed, job::kFeed.low, false);
-    check_range("--plunge-feed", request.plunge_feed, job::kFeed.low, false);
+    check_range("--feed", request.feed, job::kFeedRange.low, false);
+    check_range("--plunge-feed", request.plunge_feed, job::kFeedRange.low, false);
     check_range("--spindle", request.spindle, 0, false);
     check_range("--stock-top", request.stock_top, -job::kLargest, false);
     check_range("--clearance", request.clearance, 0, true);
@@ -69,7 +69,7 @@ void check_numbers(const OneLineRequest& request)
 void check_placing(const OneLineRequest& request)
 {
     constexpr double kTurn = 360;  // degrees
-    check_range("--scale", request.scale, job::kScale.low, false);
+    check_range("--scale", request.scale, job::kScaleRange.low, false);
     const auto check_count = [](const char* option, const char* needed,
                                 const std::vector<double>& values, bool also_one) {
         if (!values.empty() && values.size() != 3 && !(also_one && values.size() == 1)) {
@@ -101,8 +101,7 @@ void check_strategy(const OneLineRequest& request, const job::Strategies& strate
                                      strategy.name));
     }
     if (!pocket && request.boundary) {
-        throw InputError(
-            fmt::format("--boundary: is for contour_pocket, not for {}", strategy.name));
+        throw InputError(fmt::format("--boundary: is for pockets, not for {}", strategy.name));
     }
     if (strategy.traits.only_finishes && request.roughing) {
         throw InputError(
@@ -120,13 +119,15 @@ bool is_part_file(const std::string& file)
 
 const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strategies& strategies)
 {
-    const std::string& asked = request.strategy;
-    const std::string name = !asked.empty()     ? asked
-                             : request.boundary ? "contour_pocket"
-                                                : "adaptive_isocurve";
-    const job::Strategy* const strategy = find_strategy(strategies, name);
-    if (strategy == nullptr || strategy->is_prismatic()) {
-        throw InputError(fmt::format("--strategy {}: there is none of that name for parts", name));
+    const auto suits = [&](const job::Strategy* strategy) {
+        return strategy->traits.one_line && strategy->traits.pocket == request.boundary.has_value();
+    };
+    const job::Strategy* const strategy =
+        request.strategy.empty() ? *std::find_if(strategies.begin(), strategies.end(), suits)
+                                 : find_strategy(strategies, request.strategy);
+    if (strategy == nullptr || !strategy->traits.one_line) {
+        throw InputError(
+            fmt::format("--strategy {}: there is none of that name for parts", request.strategy));
     }
     return *strategy;
 }

@@ -34,7 +34,7 @@ struct OneLineRequest {
     std::string origin;
     std::vector<double> move;  // x, y, z
     bool roughing{true};
-    std::string strategy;         // "": adaptive_isocurve, with a boundary contour_pocket
+    std::string strategy;         // "": the first for parts, with a boundary for pockets
     std::string output{"lines"};  // "lines", "arcs", "nurbs"
     std::string post;             // "": the default
 };

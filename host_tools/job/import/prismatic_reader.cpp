@@ -13,6 +13,7 @@
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/part_extent.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
+#include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
 
 #include "fmt/format.h"
@@ -59,57 +60,13 @@ Tabs read_tabs(JobTable& keys, double unit)
 void choose_pocket_tolerances(JobTable& table, Operation& operation)
 {
     if (!table.has("floor_tolerance")) {
-        operation.default_floor_tolerance = true;
+        operation.tolerance.default_floor = true;
     }
-    if (!operation.scallop) {
-        operation.default_scallop = true;
-        operation.scallop = operation.tool.corner_radius > 0
-                                ? table.length_or_default("scallop", 1.0)
-                                : 2 * operation.floor_tolerance;
-    }
-}
-
-void check_tool(const JobTable& table, const Operation& operation)
-{
-    const Tool& tool = operation.tool;
-    const bool drills = operation.strategy == "drill";
-    const bool flank = operation.strategy == "chamfer" || operation.strategy == "v_carve";
-    if (flank && tool.shape != toolpath::ToolShape::kVee &&
-        tool.shape != toolpath::ToolShape::kTaper) {
-        table.refuse("tool", fmt::format("{} needs a vee or a taper, tool {} is {}",
-                                         operation.strategy, tool.number, name_of(tool.shape)));
-    }
-    if (flank && tool.corner_radius > 0) {
-        table.refuse("tool",
-                     fmt::format("tool {} has a ball at its tip: {} needs a sharp or a flat one",
-                                 tool.number, operation.strategy));
-    }
-    if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
-        table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
-                                         "sideways",
-                                         tool.number, operation.strategy));
-    }
-    const bool level = operation.strategy == "pocket" || operation.strategy == "face" ||
-                       operation.strategy == "profile";
-    if (level && is_conical(tool)) {
-        table.refuse("tool", fmt::format("tool {} is {}: {} needs vertical flanks: a flat, bull or "
-                                         "ball end",
-                                         tool.number, name_of(tool.shape), operation.strategy));
-    }
-}
-
-void check_profile(const JobTable& table, const Operation& operation)
-{
-    const Prismatic& cut = *operation.prismatic;
-    if (cut.side == ProfileSide::kOn && operation.allowance > 0) {
-        table.refuse("allowance",
-                     "belongs to a profile inside or outside: on the line there is no "
-                     "wall to finish");
-    }
-    if (cut.tabs && cut.tabs->height >= cut.depth) {
-        table.refuse("tabs", fmt::format("height is {:g} mm, the cut is only {:g} mm deep: tabs "
-                                         "are lower than the cut",
-                                         cut.tabs->height, cut.depth));
+    if (!operation.tolerance.scallop) {
+        operation.tolerance.default_scallop = true;
+        operation.tolerance.scallop = operation.tool.corner_radius > 0
+                                          ? table.length_or_default("scallop", 1.0)
+                                          : 2 * operation.tolerance.floor;
     }
 }
 
@@ -157,7 +114,7 @@ void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
 void settle_holes(const Job& job, Operation& operation)
 {
     Prismatic& cut = *operation.prismatic;
-    if (operation.strategy != "drill" || cut.given_depth) {
+    if (!operation.cuts(job::Region::kHoles) || cut.given_depth) {
         return;
     }
     for (const Hole& hole : cut.holes) {
@@ -221,57 +178,27 @@ void read_prismatic_keys(JobTable& table,
     if (!strategy.is_prismatic()) {
         return;
     }
-    const bool chamfers = operation.strategy == "chamfer";
-    const bool carves = operation.strategy == "v_carve";
-    // holes of a model have a depth of their own
-    const bool drills = operation.strategy == "drill";
-    if (!depth && !chamfers && !carves && !drills) {
-        table.refuse("depth",
-                     fmt::format("is missing: {} needs how deep it cuts", operation.strategy));
-    }
-    if (!width && chamfers) {
-        table.refuse("width", "is missing: chamfer needs its width, seen from above");
-    }
-    check_tool(table, operation);
-    if (table.has("floor") && cut.given_top) {
-        table.refuse("top", "does not go with floor: an engraving begins at its surface");
-    }
     cut.width = width.value_or(0);
     cut.given_depth = depth.has_value();
+    cut.depth = depth.value_or(0);
     const double slope = 1 / std::tan(operation.tool.tip_angle / 2);
-    if (carves) {
-        const double flank = (operation.tool.radius - operation.tool.tip_radius) * slope;
-        if (depth && *depth > flank) {
-            table.refuse("depth", fmt::format("is {:g} mm, the flank of tool {} is only {:.4g} mm "
-                                              "high",
-                                              *depth, operation.tool.number, flank));
-        }
-        cut.depth = depth.value_or(flank);
-        operation.scallop = table.length_or_default("scallop", unit);
-    } else {
-        cut.depth = chamfers ? cut.width * slope : depth.value_or(0);
+    if (operation.cuts(job::Region::kEdges)) {
+        cut.depth = cut.width * slope;
+    } else if (operation.cuts(job::Region::kValleys)) {
+        cut.depth = depth.value_or(job::flank_height(operation.tool));
+        operation.tolerance.scallop = table.length_or_default("scallop", unit);
     }
     operation.prismatic = cut;
-    if (operation.strategy == "pocket") {
+    if (operation.cuts(job::Region::kLevelPocket)) {
         choose_pocket_tolerances(table, operation);
     }
-    check_profile(table, operation);
 }
 
-void read_drawing(const JobTable& table,
-                  double unit,
-                  const std::string& file,
-                  PartFiles& parts,
-                  Operation& operation)
+void read_drawing(const JobTable& table, double unit, PartFiles& parts, Operation& operation)
 {
     Prismatic& cut = *operation.prismatic;
-    if (file.empty() && operation.strategy != "face") {
-        table.refuse("boundary", fmt::format("is missing: {} needs a drawing, such as "
-                                             "\"plate.dxf#layer\"",
-                                             operation.strategy));
-    }
-    cut.file = file;
-    if (operation.strategy == "drill") {
+    const std::string& file = cut.file;
+    if (operation.cuts(job::Region::kHoles)) {
         const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, job::kLargest});
         cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
                                 cut.diameters.has_value());
@@ -281,11 +208,11 @@ void read_drawing(const JobTable& table,
                          "is missing: drill needs how deep it cuts where the holes are "
                          "those of a drawing");
         }
-    } else if (operation.strategy == "engrave") {
+    } else if (operation.cuts(job::Region::kGrooves)) {
         cut.chains = parts.chains(file, unit);
     } else if (!file.empty()) {
-        cut.loops =
-            nested(parts.loops(file, unit, {operation.plan_tolerance, operation.join_gaps}));
+        cut.loops = nested(
+            parts.loops(file, unit, {operation.tolerance.plan, operation.tolerance.join_gaps}));
     }
 }
 
@@ -295,10 +222,10 @@ void check_sheet(const Job& job)
         return;
     }
     const auto is_open = [](const Operation& o) {
-        return !o.prismatic && !o.boundary;
+        return !o.prismatic && !o.outline.boundary;
     };
     const auto is_beside = [](const Operation& o) {
-        return o.strategy == "profile" && o.prismatic->side != ProfileSide::kInside;
+        return o.cuts(job::Region::kOutline) && o.prismatic->side != ProfileSide::kInside;
     };
     const auto& all = job.operations;
     const auto open = std::find_if(all.begin(), all.end(), is_open);
@@ -309,7 +236,7 @@ void check_sheet(const Job& job)
                         "{} ({}) takes the "
                         "part's box for the stock and would move in rapids through it: give x and "
                         "y, or margin, in [stock]",
-                        job.file, beside->number, open->number, open->strategy));
+                        job.file, beside->number, open->number, open->name()));
     }
 }
 
@@ -323,14 +250,14 @@ void settle_levels(Job& job)
         Prismatic& cut = *operation.prismatic;
         cut.top = cut.given_top.value_or(level);
         settle_holes(job, operation);
-        if (operation.strategy == "face" && cut.loops.empty()) {
+        if (operation.cuts(job::Region::kTop) && cut.loops.empty()) {
             level = cut.top - cut.depth;
         }
-        if (operation.strategy == "pocket") {
-            operation.floor = {
-                flat_floor(*operation.boundary, 2 * operation.tool.radius, cut.top - cut.depth)};
-            operation.floor_files = {
-                fmt::format("{}: level at {:.9g}", operation.boundary_file, cut.top - cut.depth)};
+        if (operation.cuts(job::Region::kLevelPocket)) {
+            operation.part.floor = {flat_floor(*operation.outline.boundary,
+                                               2 * operation.tool.radius, cut.top - cut.depth)};
+            operation.part.floor_files = {fmt::format(
+                "{}: level at {:.9g}", operation.outline.boundary_file, cut.top - cut.depth)};
         }
     }
 }

@@ -20,15 +20,12 @@ void read_prismatic_keys(JobTable& table,
                          const job::Strategy& strategy,
                          job::Operation& operation);
 
-// Reads the drawing that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
-//
-// file  may end in #layer; "": none, which only face allows
+// Reads the drawing, `prismatic->file`, that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
 //
 // Errors: InputError: no such layer, open loops, no hole of the wanted diameter, a hole narrower
 // than the tool.
 void read_drawing(const JobTable& table,
                   double millimetres,
-                  const std::string& file,
                   PartFiles& parts,
                   job::Operation& operation);
 

@@ -163,14 +163,15 @@ void StockTable::read_outline(PartFiles& parts, Job& job) const
 void StockTable::check_pockets(const Job& job) const
 {
     for (const job::Operation& operation : job.operations) {
-        if (operation.boundary && !has_stock(*operation.boundary, job.stock_outline)) {
-            const PartExtent box = extent_of_curves(*operation.boundary);
+        if (operation.outline.boundary &&
+            !has_stock(*operation.outline.boundary, job.stock_outline)) {
+            const PartExtent box = extent_of_curves(*operation.outline.boundary);
             keys_.refuse(
                 "outline",
                 fmt::format("{} has no stock in the pocket {} of operation {}, x {:.6g} to {:.6g}, "
                             "y {:.6g} to {:.6g} mm: the stock's box is x {:.6g} to {:.6g}, y "
                             "{:.6g} to {:.6g}",
-                            outline_, operation.boundary_file, operation.number, box.low.x,
+                            outline_, operation.outline.boundary_file, operation.number, box.low.x,
                             box.high.x, box.low.y, box.high.y, (*job.stock_x)[0], (*job.stock_x)[1],
                             (*job.stock_y)[0], (*job.stock_y)[1]));
         }

@@ -15,18 +15,18 @@ using job::Operation;
 
 namespace {
 
-bool is_pocket(const Operation& operation) { return operation.boundary.has_value(); }
+bool is_pocket(const Operation& operation) { return operation.outline.boundary.has_value(); }
 
 // An engraving may be the only operation on its floor.
 bool is_on_floor(const Operation& operation)
 {
-    return operation.strategy == "engrave" && !operation.floor.empty();
+    return operation.cuts(job::Region::kGrooves) && !operation.part.floor.empty();
 }
 
 double highest_of(const Operation& operation)
 {
-    return operation.mesh.empty() ? highest_of_surfaces(operation.floor)
-                                  : extent_of_triangles(operation.mesh).high.z;
+    return operation.part.mesh.empty() ? highest_of_surfaces(operation.part.floor)
+                                       : extent_of_triangles(operation.part.mesh).high.z;
 }
 
 // z of the highest point of the floors for which counts(operation); no value: there are none.
@@ -38,7 +38,7 @@ std::optional<double> highest_floor(const Job& job, const Counts& counts)
     std::optional<double> highest;
     for (const Operation& operation : job.operations) {
         if (counts(operation) &&
-            measured.emplace(operation.floor_files, operation.intersect_files).second) {
+            measured.emplace(operation.part.floor_files, operation.part.intersect_files).second) {
             const double top = highest_of(operation);
             highest = std::max(highest.value_or(top), top);
         }
@@ -59,16 +59,16 @@ std::optional<PartExtent> floor_extent(const Operation& operation)
     if (operation.prismatic) {
         return std::nullopt;
     }
-    return operation.mesh.empty() ? extent_of_surfaces(operation.floor)
-                                  : extent_of_triangles(operation.mesh);
+    return operation.part.mesh.empty() ? extent_of_surfaces(operation.part.floor)
+                                       : extent_of_triangles(operation.part.mesh);
 }
 
 // In x and y, of what the operation is drawn by.
 std::optional<PartExtent> drawing_extent(const Operation& operation)
 {
     std::optional<PartExtent> box;
-    if (operation.boundary) {
-        box = extent_of_curves(*operation.boundary);
+    if (operation.outline.boundary) {
+        box = extent_of_curves(*operation.outline.boundary);
     }
     if (!operation.prismatic) {
         return box;

@@ -4,16 +4,17 @@
 //     job::Job job;
 //     job.feed = 1200;  // mm/min
 //     job::Operation finish;
-//     finish.strategy = "adaptive_isocurve";
-//     finish.floor = surfaces;
+//     finish.strategy = &adaptive_isocurve::kAdaptiveIsocurve;
+//     finish.part.floor = surfaces;
 //     finish.tool = {1, toolpath::ToolShape::kBall, 3.0, 3.0};
-//     finish.scallop = 0.02;
-//     finish.floor_tolerance = finish.plan_tolerance = 0.01;
+//     finish.tolerance.scallop = 0.02;
+//     finish.tolerance.floor = finish.tolerance.plan = 0.01;
 //     job.operations.push_back(finish);
 //
 // docs/job_file.md explains the keys of the file; each has a member here.
 #pragma once
 
+#include <any>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -30,6 +31,7 @@
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/prismatic_keys.hpp"
 #include "host_tools/job/job/setup.hpp"
+#include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::job {
 
@@ -54,68 +56,103 @@ struct ChipLoad {
     std::optional<double> feed_max;  // none: twice the feed
 };
 
-struct Operation {
-    int number{1};  // its place in the job
-    std::string strategy;
+// What is cut: surfaces or triangles, and the files that they come from.
+struct CutPart {
     std::vector<nurbs::Surface> floor;
     std::vector<std::string> floor_files;
     // Files of the bodies that the floor was intersected with; `floor` is the result.
     std::vector<std::string> intersect_files;
-    // The triangles, where all of the floor is STL and the strategy is adaptive_isocurve or
-    // parallel_planes; `floor` is empty then.
+    // The triangles, where all of the floor is STL and the strategy takes a mesh; `floor` is empty then.
     std::vector<std::array<Vec3d, 3>> mesh;
+};
+
+// Where it is cut, seen from above.
+struct CutOutline {
     std::optional<Loop> boundary;
     std::string boundary_file;
     std::vector<Loop> islands;
     std::vector<std::string> island_files;
-    toolpath::Tool tool;
-    // Tools that rough, or from which hull_rough chooses; otherwise `tool` alone.
-    std::vector<toolpath::Tool> tools;
-    OutputForm output{OutputForm::kLines};
-    double plan_tolerance{};
-    std::optional<double>
-        join_gaps;  // mm: of drawings; none: as plan_tolerance and the drawing say
-    double floor_tolerance{};
-    // Default tolerances of a level floor: a post with fewer decimals may raise them.
-    bool default_floor_tolerance{false};
-    bool default_scallop{false};
-    ToleranceSide tolerance_side{ToleranceSide::kOutside};
+};
+
+// How near the cut comes to the part; mm.
+struct CutTolerance {
+    double plan{};   // across walls
+    double floor{};  // of the path against the floor
+    // The floor's is a level floor's default: a post with fewer decimals may raise it.
+    bool default_floor{false};
+    ToleranceSide side{ToleranceSide::kOutside};
     std::optional<double> scallop;
+    bool default_scallop{false};
+    std::optional<double> join_gaps;  // of drawings; none: as `plan` and the drawing say
+};
+
+// How deep a layer goes; mm.
+struct CutLevels {
+    std::optional<double> max_depth;
+    std::optional<double> min_depth;
+    std::vector<double> layers;  // depths, below stock.top
+};
+
+// How the tool goes over an area or along a wall.
+struct CutPasses {
     CutDirection direction_of_cut{CutDirection::kClimb};
     EntryKind entry{EntryKind::kAuto};
     Traversal traversal{Traversal::kZigzag};
-    double allowance{};
-    bool may_open{false};  // into what the other side of a stock that was turned over has cut
-    std::optional<double> max_depth;
-    std::optional<double> min_depth;
-    std::vector<double> layers;  // depths below stock.top
-    // adaptive_isocurve
-    std::optional<double> iso_distance;
-    bool even_steps{false};  // iso_spacing = "even": full steps instead of the paper's halving
-    char direction{'u'};
-    bool roughing{false};
-    // grid_pocket
-    double grid_x{};
-    double grid_y{};
-    std::vector<char> zigzag;  // 'x', 'y'
-    double arc_tolerance{};
-    double max_arc_radius{};
-    std::optional<double> max_roughness;
-    // hull_rough
-    double overlap{};
-    int extra_subdivision{};
-    bool contour_clearing{false};
+    bool roughing{false};             // in levels, before the finish
+    double allowance{};               // mm
+    std::optional<double> step_over;  // mm, the most between passes
     // clearing = "adaptive": degrees
     std::optional<double> max_engagement;
     std::optional<ChipLoad> chip_load;
-    // parallel_planes; most between passes of pocket, face and v_carve
-    std::optional<double> step_over;
-    // Programs that have been cut before, beside those of the stock: only what they leave is cut.
-    std::vector<std::string> after;
-    std::optional<double> rest_tolerance;  // mm: stock thinner than this may stay
-    // pocket, profile, drill, face, engrave, v_carve, chamfer; a pocket's floor and boundary are set too
-    std::optional<Prismatic> prismatic;
 };
+
+// Only what earlier programs leave is cut.
+struct CutRest {
+    std::vector<std::string> after;   // programs, beside those of the stock
+    std::optional<double> tolerance;  // mm: stock thinner than this may stay
+};
+
+struct Operation {
+    int number{1};  // its place in the job
+    const Strategy* strategy{&kNoStrategy};
+    CutPart part;
+    CutOutline outline;
+    toolpath::Tool tool;
+    // Tools that rough, or from which the strategy chooses; otherwise `tool` alone.
+    std::vector<toolpath::Tool> tools;
+    OutputForm output{OutputForm::kLines};
+    CutTolerance tolerance;
+    CutLevels levels;
+    CutPasses passes;
+    CutRest rest;
+    bool may_open{false};  // into what the other side of a stock that was turned over has cut
+    // Of 2.5-D strategies; the floor and boundary of a pocket are set too.
+    std::optional<Prismatic> prismatic;
+    std::any parameters;  // the strategy's own: parameters_of()
+
+    const std::string& name() const { return strategy->name; }
+    bool cuts(Region region) const { return strategy->traits.region == region; }
+};
+
+// The strategy's own parameters, their default values where the operation has none.
+// Throws std::bad_any_cast where it has those of another strategy.
+template <class Parameters>
+const Parameters& parameters_of(const Operation& operation)
+{
+    static const Parameters kDefault{};
+    return operation.parameters.has_value() ? std::any_cast<const Parameters&>(operation.parameters)
+                                            : kDefault;
+}
+
+// The same, to be changed.
+template <class Parameters>
+Parameters& parameters_of(Operation& operation)
+{
+    if (!operation.parameters.has_value()) {
+        operation.parameters = Parameters{};
+    }
+    return std::any_cast<Parameters&>(operation.parameters);
+}
 
 // Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;

@@ -54,14 +54,19 @@ const char* words_of(KeyKind kind)
     return "";
 }
 
-double Key::number_otherwise() const
+bool Key::has_number_otherwise() const
 {
     char* end = nullptr;
-    const double value = std::strtod(otherwise.c_str(), &end);
-    if (end == otherwise.c_str()) {
+    std::strtod(otherwise.c_str(), &end);
+    return end != otherwise.c_str();
+}
+
+double Key::number_otherwise() const
+{
+    if (!has_number_otherwise()) {
         throw std::logic_error("the key " + name + " has no number as its default");
     }
-    return value;
+    return std::strtod(otherwise.c_str(), nullptr);
 }
 
 const Key* find_key(const std::vector<Key>& keys, const std::string& name)

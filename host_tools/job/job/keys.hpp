@@ -6,7 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace cusp::job {
@@ -24,10 +28,10 @@ inline constexpr Range kPositive{0, kLargest, true};
 inline constexpr Range kNotNegative{0, kLargest};
 inline constexpr Range kAnyNumber{-kLargest, kLargest};
 // G-code has coordinates to 1e-4 mm and feeds to 1e-3 mm/min.
-inline constexpr Range kTolerance{1e-5, kLargest};  // mm
-inline constexpr Range kScale{1e-6, kLargest};      // of a part
-inline constexpr Range kFeed{0.01, kLargest};       // mm/min
-inline constexpr Range kToolNumber{1, 255};         // T word
+inline constexpr Range kToleranceRange{1e-5, kLargest};  // mm
+inline constexpr Range kScaleRange{1e-6, kLargest};      // of a part
+inline constexpr Range kFeedRange{0.01, kLargest};       // mm/min
+inline constexpr Range kToolNumber{1, 255};              // T word
 
 enum class KeyKind : std::uint8_t {
     kLength,    // in the file's unit; converted to mm
@@ -68,6 +72,7 @@ struct Key {
     std::vector<std::string> choices{};
     const KeyTable& (*members)(){nullptr};  // of a table
 
+    bool has_number_otherwise() const;
     // The number that `otherwise` begins with. Throws std::logic_error where it has none.
     double number_otherwise() const;
 };
@@ -80,5 +85,32 @@ struct KeyTable {
 
 // The one of that name; null where there is none.
 const Key* find_key(const std::vector<Key>& keys, const std::string& name);
+
+// Values of a table's keys: lengths in mm, feeds in mm/min; texts for choices; lists for a value that
+// may be one. A key that is absent has the value of its default, if that is one.
+class KeyValues {
+public:
+    using Value =
+        std::variant<double, bool, std::string, std::vector<double>, std::vector<std::string>>;
+
+    void set(const std::string& key, Value value) { values_[key] = std::move(value); }
+    // No value where the key has none. Throws std::bad_variant_access where it is of another kind.
+    template <class Type>
+    std::optional<Type> find(const std::string& key) const
+    {
+        const auto found = values_.find(key);
+        return found == values_.end() ? std::nullopt : std::optional{std::get<Type>(found->second)};
+    }
+    std::optional<double> number(const std::string& key) const { return find<double>(key); }
+    // As above, of a key that has a default. Throws std::bad_optional_access where it has no value.
+    template <class Type>
+    Type get(const std::string& key) const
+    {
+        return find<Type>(key).value();
+    }
+
+private:
+    std::map<std::string, Value> values_;
+};
 
 }  // namespace cusp::job

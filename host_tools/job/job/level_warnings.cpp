@@ -16,7 +16,7 @@ std::string warning_of(const Job& job, const Operation& operation)
 {
     const double top = operation.prismatic->top;
     const double end = top - operation.prismatic->depth;
-    const std::string name = fmt::format("operation {} ({})", operation.number, operation.strategy);
+    const std::string name = fmt::format("operation {} ({})", operation.number, operation.name());
     if (end > job.stock_top - kSameLevel) {
         return fmt::format(
             "{} ends at z = {:.6g} mm, not below the stock's top, z = {:.6g} mm: it "
@@ -45,10 +45,11 @@ std::string warning_of(const Job& job, const Operation& operation)
 
 bool goes_in_one_level(const Operation& operation)
 {
-    const bool in_slots = operation.strategy == "profile" || operation.strategy == "pocket" ||
-                          operation.strategy == "face" || operation.strategy == "engrave";
-    return in_slots && !operation.max_depth && operation.layers.empty() &&
-           !operation.max_engagement;
+    const bool in_slots = operation.cuts(Region::kOutline) ||
+                          operation.cuts(Region::kLevelPocket) || operation.cuts(Region::kTop) ||
+                          operation.cuts(Region::kGrooves);
+    return in_slots && !operation.levels.max_depth && operation.levels.layers.empty() &&
+           !operation.passes.max_engagement;
 }
 
 // True if what an earlier operation or program left is all that there is to cut: how deep that is
@@ -56,13 +57,13 @@ bool goes_in_one_level(const Operation& operation)
 bool is_cut_before(const Job& job, const Operation& operation)
 {
     const auto cuts_it = [&](const Operation& before) {
-        return before.number < operation.number && before.prismatic && before.strategy != "drill" &&
-               before.strategy != "chamfer" &&
+        return before.number < operation.number && before.prismatic &&
+               !before.cuts(Region::kHoles) && !before.cuts(Region::kEdges) &&
                before.prismatic->file == operation.prismatic->file &&
                before.prismatic->top - before.prismatic->depth <=
                    operation.prismatic->top - operation.prismatic->depth + kSameLevel;
     };
-    return !job.stock_programs.empty() || !operation.after.empty() ||
+    return !job.stock_programs.empty() || !operation.rest.after.empty() ||
            std::any_of(job.operations.begin(), job.operations.end(), cuts_it);
 }
 
@@ -80,7 +81,7 @@ std::string depth_warning(const Job& job, const Operation& operation)
         "operation {} ({}): tool {} of {:.6g} mm cuts {:.6g} mm deep in one level, {:.3g} times "
         "its "
         "diameter: a max_depth of {:.6g} mm would make {:g} levels of {:.4g} mm",
-        operation.number, operation.strategy, operation.tool.number, across, depth, depth / across,
+        operation.number, operation.name(), operation.tool.number, across, depth, depth / across,
         across, levels, depth / levels);
 }
 
@@ -91,7 +92,8 @@ std::vector<std::string> level_warnings(const Job& job)
     std::vector<std::string> warnings;
     int last = 0;  // several pockets of a drawing are one operation
     for (const Operation& operation : job.operations) {
-        const bool follows_floor = operation.strategy == "engrave" && !operation.floor.empty();
+        const bool follows_floor =
+            operation.cuts(Region::kGrooves) && !operation.part.floor.empty();
         if (!operation.prismatic || follows_floor || operation.number == last) {
             continue;
         }

@@ -1,6 +1,8 @@
 // Checks an operation as a whole, strategy by strategy.
 #include "host_tools/job/job/operation_check.hpp"
 
+#include <cmath>
+
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
@@ -15,16 +17,17 @@ namespace {
 void check_islands(const Operation& operation)
 {
     constexpr double kChord = 1e-3;
-    if (!operation.boundary) {
+    if (!operation.outline.boundary) {
         return;
     }
-    const auto outer = loop_polyline(*operation.boundary, kChord);
-    for (std::size_t i = 0; i < operation.islands.size(); ++i) {
-        const auto island = loop_polyline(operation.islands[i], kChord);
+    const auto outer = loop_polyline(*operation.outline.boundary, kChord);
+    for (std::size_t i = 0; i < operation.outline.islands.size(); ++i) {
+        const auto island = loop_polyline(operation.outline.islands[i], kChord);
         if (lies_outside(island, outer)) {
-            throw InputError(fmt::format(
-                "{}: the island lies outside the boundary {} at ({:g}, {:g}) mm",
-                operation.island_files[i], operation.boundary_file, island[0].x, island[0].y));
+            throw InputError(
+                fmt::format("{}: the island lies outside the boundary {} at ({:g}, {:g}) mm",
+                            operation.outline.island_files[i], operation.outline.boundary_file,
+                            island[0].x, island[0].y));
         }
     }
 }
@@ -37,11 +40,11 @@ void check_roughing(const Operation& operation, const Refuse& refuse)
         refuse("tools", fmt::format("the first may rough, tool {} finishes; others are not used",
                                     operation.tool.number));
     }
-    if (operation.max_depth || !operation.layers.empty()) {
+    if (operation.levels.max_depth || !operation.levels.layers.empty()) {
         return;
     }
     const std::string why = "needs max_depth or layers: without them nothing is roughed";
-    if (operation.allowance > 0) {
+    if (operation.passes.allowance > 0) {
         refuse("allowance", why);
     }
     if (tools.front().number != operation.tool.number) {
@@ -52,7 +55,7 @@ void check_roughing(const Operation& operation, const Refuse& refuse)
 // Keys that adaptive clearing of pockets does not know are refused.
 void check_adaptive(const Operation& operation, const Refuse& refuse)
 {
-    if (!operation.max_engagement) {
+    if (!operation.passes.max_engagement) {
         return;
     }
     if (operation.tool.shape != toolpath::ToolShape::kFlat) {
@@ -64,10 +67,10 @@ void check_adaptive(const Operation& operation, const Refuse& refuse)
                "has more than the operation's tool: clearing = \"adaptive\" cuts "
                "with one; a second operation may finish");
     }
-    if (operation.allowance > 0) {
+    if (operation.passes.allowance > 0) {
         refuse("allowance", "does not go with clearing = \"adaptive\", which cuts to size");
     }
-    if (operation.min_depth) {
+    if (operation.levels.min_depth) {
         refuse("min_depth", "does not go with clearing = \"adaptive\"");
     }
 }
@@ -78,35 +81,63 @@ void need(
     bool there, const char* key, const char* what, const Operation& operation, const Refuse& refuse)
 {
     if (!there) {
-        refuse(key, fmt::format("is missing: {} needs {}", operation.strategy, what));
+        refuse(key, fmt::format("is missing: {} needs {}", operation.name(), what));
+    }
+}
+
+double flank_height(const Tool& tool)
+{
+    const double slope = 1 / std::tan(tool.tip_angle / 2);
+    return (tool.radius - tool.tip_radius) * slope;
+}
+
+void check_sideways(const Operation& operation, const Refuse& refuse)
+{
+    const Tool& tool = operation.tool;
+    if (tool.shape == toolpath::ToolShape::kDrill) {
+        refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
+                                   "sideways",
+                                   tool.number, operation.name()));
+    }
+}
+
+void check_level(const Operation& operation, const Refuse& refuse)
+{
+    const Tool& tool = operation.tool;
+    need(operation.prismatic->given_depth, "depth", "how deep it cuts", operation, refuse);
+    check_sideways(operation, refuse);
+    if (is_conical(tool)) {
+        refuse("tool", fmt::format("tool {} is {}: {} needs vertical flanks: a flat, bull or "
+                                   "ball end",
+                                   tool.number, name_of(tool.shape), operation.name()));
     }
 }
 
 void check_end(const Operation& operation, const Refuse& refuse)
 {
     if (is_conical(operation.tool)) {
-        refuse("tool", fmt::format("tool {} is {}: {} needs a ball, flat or bull end",
-                                   operation.tool.number, name_of(operation.tool.shape),
-                                   operation.strategy));
+        refuse("tool",
+               fmt::format("tool {} is {}: {} needs a ball, flat or bull end",
+                           operation.tool.number, name_of(operation.tool.shape), operation.name()));
     }
 }
 
 void check_least_depth(const Operation& operation, const Refuse& refuse)
 {
-    if (!operation.min_depth) {
+    if (!operation.levels.min_depth) {
         return;
     }
-    if (!operation.max_depth && operation.layers.empty()) {
+    if (!operation.levels.max_depth && operation.levels.layers.empty()) {
         refuse("min_depth",
-               "needs max_depth or layers: without them " + operation.strategy + " cuts no layers");
+               "needs max_depth or layers: without them " + operation.name() + " cuts no layers");
     }
     constexpr double kRounding = 1e-6;  // mm
     double above = 0;
-    for (const double depth : operation.layers) {
-        if (depth - above < *operation.min_depth - kRounding) {
+    for (const double depth : operation.levels.layers) {
+        if (depth - above < *operation.levels.min_depth - kRounding) {
             refuse("layers", fmt::format("the layer down to {:g} mm is {:g} mm deep, less "
                                          "than the min_depth of {:g} mm",
-                                         depth, depth - above, *operation.min_depth));
+                                         depth, depth - above, *operation.levels.min_depth));
         }
         above = depth;
     }
@@ -115,10 +146,10 @@ void check_least_depth(const Operation& operation, const Refuse& refuse)
 void check_pocket(const Operation& operation, const Refuse& refuse)
 {
     check_end(operation, refuse);
-    need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket", operation,
-         refuse);
-    need(operation.scallop.has_value(), "scallop", "the height of the scallops that may remain",
+    need(operation.outline.boundary.has_value(), "boundary", "the loop that bounds the pocket",
          operation, refuse);
+    need(operation.tolerance.scallop.has_value(), "scallop",
+         "the height of the scallops that may remain", operation, refuse);
     check_least_depth(operation, refuse);
     check_roughing(operation, refuse);
     check_adaptive(operation, refuse);
@@ -126,7 +157,7 @@ void check_pocket(const Operation& operation, const Refuse& refuse)
 
 void check_adaptive_roughing(const Operation& operation, const Refuse& refuse)
 {
-    if (operation.max_engagement && !operation.roughing) {
+    if (operation.passes.max_engagement && !operation.passes.roughing) {
         refuse("clearing", "\"adaptive\" needs roughing = true: without it nothing is roughed");
     }
 }

@@ -17,6 +17,13 @@ void need(bool there,
           const char* what,
           const Operation& operation,
           const Refuse& refuse);
+// mm, from the tip of a vee or a taper to its full radius.
+double flank_height(const toolpath::Tool& tool);
+
+// A drill cuts straight down only.
+void check_sideways(const Operation& operation, const Refuse& refuse);
+// The depth is given, and a tool with vertical flanks.
+void check_level(const Operation& operation, const Refuse& refuse);
 // Cones cut no surfaces.
 void check_end(const Operation& operation, const Refuse& refuse);
 // Of strategies that always finish: min_depth has no effect without layers.

@@ -19,39 +19,23 @@ const std::vector<Key>& part_keys()
         {"intersect", Kind::kFiles, "none",
          "files of more bodies: the part is what lies below the floor and below each of them"},
         {"islands", Kind::kFiles, "none", "files of closed loops that stay"},
-        {"output",
-         Kind::kChoice,
-         "lines",
-         "`\"lines\"` (G1), `\"arcs\"` (G2, G3 too), `\"nurbs\"` (G6.2 too)",
-         {},
-         {"lines", "arcs", "nurbs"}},
+        choice("output", {"lines", "arcs", "nurbs"},
+               "`\"lines\"` (G1), `\"arcs\"` (G2, G3 too), `\"nurbs\"` (G6.2 too)"),
         {"scallop", Kind::kLength, "see strategies",
          "most that may be left where the tool reaches, square to the surface, tolerance included",
-         kTolerance},
+         kToleranceRange},
         {"join_gaps", Kind::kLength, "see below",
          "largest gap between ends of curves of a drawing that is closed (Loops of a drawing, "
          "below); 0.001 mm at least",
          kNotNegative},
-        {"tolerance_side",
-         Kind::kChoice,
-         "outside",
-         "never below the surface nor through a wall; `\"both\"`: half the tolerance to either "
-         "side",
-         {},
-         {"outside", "both"}},
-        {"direction_of_cut",
-         Kind::kChoice,
-         "climb",
-         "side of the tool that is in the material",
-         {},
-         {"climb", "conventional"}},
-        {"entry",
-         Kind::kChoice,
-         "auto",
-         "into pockets; auto takes the first of helix, ramp and plunge that has room",
-         {},
-         {"auto", "helix", "ramp", "plunge"}},
-        {"traversal", Kind::kChoice, "zigzag", "of neighbouring passes", {}, {"zigzag", "one_way"}},
+        choice("tolerance_side", {"outside", "both"},
+               "never below the surface nor through a wall; `\"both\"`: half the tolerance to "
+               "either side"),
+        choice("direction_of_cut", {"climb", "conventional"},
+               "side of the tool that is in the material"),
+        choice("entry", {"auto", "helix", "ramp", "plunge"},
+               "into pockets; auto takes the first of helix, ramp and plunge that has room"),
+        choice("traversal", {"zigzag", "one_way"}, "of neighbouring passes"),
         {"allowance", Kind::kLength, "0", "what roughing leaves on the floor and the walls",
          kNotNegative},
         {"max_depth", Kind::kLength, "none",
@@ -70,12 +54,8 @@ const std::vector<Key>& pass_keys()
         {"tools", Kind::kTools, "the tool",
          "numbers or names of roughing tools; the largest first cuts what it can", kToolNumber},
         {"step_over", Kind::kLength, "the tool's", "the most between passes", kPositive},
-        {"clearing",
-         Kind::kChoice,
-         "contour",
-         "or `\"adaptive\"`: passes of bounded engagement (`docs/strategies.md`)",
-         {},
-         {"contour", "adaptive"}},
+        choice("clearing", {"contour", "adaptive"},
+               "or `\"adaptive\"`: passes of bounded engagement (`docs/strategies.md`)"),
         {"max_engagement",
          Kind::kAngle,
          "60",
@@ -88,16 +68,8 @@ const std::vector<Key>& pass_keys()
             "false",
             "the feed follows the engagement (`docs/strategies.md`); of flat ends",
         },
-        {"feed_min", Kind::kRate, "the feed", "with `chip_load`: least F word", kFeed},
-        {"feed_max", Kind::kRate, "twice the feed", "with `chip_load`: largest F word", kFeed},
-        {"iso_distance", Kind::kLength, "this or `scallop`",
-         "neighbours are at most this far apart (the paper's delta)", kPositive},
-        {"direction",
-         Kind::kChoice,
-         "u",
-         "passes run along u or v; of planes along x or y",
-         {},
-         {"u", "v"}},
+        {"feed_min", Kind::kRate, "the feed", "with `chip_load`: least F word", kFeedRange},
+        {"feed_max", Kind::kRate, "twice the feed", "with `chip_load`: largest F word", kFeedRange},
         {"roughing", Kind::kFlag, "false", "rough in levels of `max_depth` before the finish"},
         {"depth", Kind::kLength, "needed", "below `top`: of the floor, or of the tool's tip",
          kPositive},
@@ -111,6 +83,31 @@ const std::vector<Key>& pass_keys()
 
 }  // namespace
 
+Key choice(const std::string& name,
+           const std::vector<std::string>& choices,
+           const std::string& help,
+           const std::string& otherwise)
+{
+    return {name, Kind::kChoice, otherwise.empty() ? choices.front() : otherwise,
+            help, kAnyNumber,    choices};
+}
+
+Key table(const std::string& name,
+          const KeyTable& (*members)(),
+          const std::string& otherwise,
+          const std::string& help)
+{
+    return {name, Kind::kTable, otherwise, help, kAnyNumber, {}, members};
+}
+
+Key tables(const std::string& name,
+           const KeyTable& (*members)(),
+           const std::string& otherwise,
+           const std::string& help)
+{
+    return {name, Kind::kTables, otherwise, help, kAnyNumber, {}, members};
+}
+
 const std::vector<Key>& common_keys()
 {
     static const std::vector<Key> kKeys{
@@ -119,18 +116,16 @@ const std::vector<Key>& common_keys()
          "file of closed loops or curves, such as `\"plate.dxf#outline\"`"},
         {"tool", Kind::kTool, "the first", "number or name of the tool", kToolNumber},
         {"setup", Kind::kText, "the first", "name of the set-up in which it is cut"},
-        {"feed", Kind::kRate, "the tool's", "of this operation, for all its tools", kFeed},
+        {"feed", Kind::kRate, "the tool's", "of this operation, for all its tools", kFeedRange},
         {"plunge_feed", Kind::kRate, "the tool's",
-         "of this operation; a `feed` without it makes it a quarter of itself", kFeed},
+         "of this operation; a `feed` without it makes it a quarter of itself", kFeedRange},
         {"spindle", Kind::kNumber, "the tool's", "rpm, of this operation", kNotNegative},
-        {"coolant",
-         Kind::kChoice,
-         "the tool's",
-         "`\"mist\"` (M7), `\"flood\"` (M8)",
-         {},
-         {"off", "mist", "flood"}},
-        {"floor_tolerance", Kind::kLength, "0.02 mm", "of the path against the floor", kTolerance},
-        {"plan_tolerance", Kind::kLength, "0.02 mm", "across walls, seen from above", kTolerance},
+        choice("coolant", {"off", "mist", "flood"}, "`\"mist\"` (M7), `\"flood\"` (M8)",
+               "the tool's"),
+        {"floor_tolerance", Kind::kLength, "0.02 mm", "of the path against the floor",
+         kToleranceRange},
+        {"plan_tolerance", Kind::kLength, "0.02 mm", "across walls, seen from above",
+         kToleranceRange},
         {"after", Kind::kFiles, "none",
          "program, or list of programs, that were cut before this operation (Rest machining, "
          "below)"},
@@ -142,6 +137,8 @@ const std::vector<Key>& common_keys()
     };
     return kKeys;
 }
+
+const Strategy kNoStrategy{};
 
 std::vector<Key> shared_keys(const std::vector<std::string>& names)
 {
@@ -179,12 +176,8 @@ const KeyTable& tabs_table()
           kPositive},
          {"height", Kind::kLength, "needed", "over the bottom of the cut; below its depth",
           kPositive},
-         {"shape",
-          Kind::kChoice,
-          "ramp",
-          "slopes of 1 : 2 at both sides, or `\"square\"`: vertical ends",
-          {},
-          {"ramp", "square"}}}};
+         choice("shape", {"ramp", "square"},
+                "slopes of 1 : 2 at both sides, or `\"square\"`: vertical ends")}};
     return kTable;
 }
 
@@ -196,8 +189,8 @@ std::vector<Key> keys_of(const Strategy& strategy)
                      [&](const Key& key) { return find_key(keys, key.name) == nullptr; });
     };
     add(strategy.own);  // first: its defaults count
-    add(common_keys());
     add(strategy.keys);
+    add(common_keys());
     return keys;
 }
 
@@ -221,6 +214,14 @@ Strategies strategies_with(const Strategies& strategies, const std::string& key)
         strategies.begin(), strategies.end(), std::back_inserter(with),
         [&](const Strategy* strategy) { return find_key(keys_of(*strategy), key) != nullptr; });
     return with;
+}
+
+std::vector<std::string> names_of(const Strategies& strategies)
+{
+    std::vector<std::string> names;
+    std::transform(strategies.begin(), strategies.end(), std::back_inserter(names),
+                   [](const Strategy* strategy) { return strategy->name; });
+    return names;
 }
 
 const Strategy* find_strategy(const Strategies& strategies, const std::string& name)

@@ -8,6 +8,21 @@
 
 namespace cusp::job {
 
+// A key with choices; without it the first of them, or `otherwise`.
+Key choice(const std::string& name,
+           const std::vector<std::string>& choices,
+           const std::string& help,
+           const std::string& otherwise = {});
+// A key that is a table, or may be several.
+Key table(const std::string& name,
+          const KeyTable& (*members)(),
+          const std::string& otherwise,
+          const std::string& help);
+Key tables(const std::string& name,
+           const KeyTable& (*members)(),
+           const std::string& otherwise,
+           const std::string& help);
+
 // Keys that every operation has.
 const std::vector<Key>& common_keys();
 // Of the shared keys those of these names. Throws std::logic_error where there is none of a name.

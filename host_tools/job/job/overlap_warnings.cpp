@@ -56,14 +56,14 @@ std::vector<Outline> outlines_of(const Job& job)
         if (!operation.prismatic) {
             continue;
         }
-        const std::string& strategy = operation.strategy;
-        if (operation.boundary) {
-            out.push_back(outline_of(operation, loop_polyline(*operation.boundary, kChord)));
-        } else if (strategy == "profile" || strategy == "v_carve") {
+        if (operation.outline.boundary) {
+            out.push_back(
+                outline_of(operation, loop_polyline(*operation.outline.boundary, kChord)));
+        } else if (operation.cuts(Region::kOutline) || operation.cuts(Region::kValleys)) {
             for (const NestedLoop& loop : operation.prismatic->loops) {
                 out.push_back(outline_of(operation, loop_polyline(loop.loop, kChord)));
             }
-        } else if (strategy == "drill") {
+        } else if (operation.cuts(Region::kHoles)) {
             for (const Hole& hole : operation.prismatic->holes) {
                 out.push_back(outline_of(operation, circle(hole.at, operation.tool.radius)));
             }
@@ -103,7 +103,7 @@ std::vector<std::string> overlap_warnings(const Job& job)
                     "operations {} ({}) and {} ({}) overlap: their outlines cross at x {:.3f} y "
                     "{:.3f} mm; "
                     "the deeper cut counts there",
-                    one.number, one.strategy, other.number, other.strategy, at->x, at->y));
+                    one.number, one.name(), other.number, other.name(), at->x, at->y));
             }
         }
     }

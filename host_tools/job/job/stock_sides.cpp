@@ -24,12 +24,12 @@ StockSides stock_sides(const Job& job)
 bool is_open_pocket(const Job& job, const Operation& operation)
 {
     constexpr double kChord = 1e-4;  // mm
-    const bool pocket = operation.strategy == "contour_pocket" || operation.strategy == "pocket";
-    if (!pocket || !operation.max_engagement || !operation.boundary) {
+    const bool pocket = operation.strategy->traits.pocket;
+    if (!pocket || !operation.passes.max_engagement || !operation.outline.boundary) {
         return false;
     }
     const StockSides sides = stock_sides(job);
-    const std::vector<Vec2d> outline = loop_polyline(*operation.boundary, kChord);
+    const std::vector<Vec2d> outline = loop_polyline(*operation.outline.boundary, kChord);
     return std::any_of(outline.begin(), outline.end(), [&](Vec2d p) {
         return std::min({p.x - sides.x_low, sides.x_high - p.x, p.y - sides.y_low,
                          sides.y_high - p.y}) <= kOnEdge;

@@ -6,6 +6,7 @@
 //                           {}, nullptr, plan_trace};
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -34,9 +35,11 @@ enum class Region : std::uint8_t {
 // What the rest of the program may ask of a strategy.
 struct Traits {
     Region region{Region::kSurfaces};
-    bool pocket{false};         // clears what a boundary encloses, with walls
-    bool takes_mesh{false};     // plans on triangles themselves, without a height field
-    bool only_finishes{false};  // has no roughing of its own
+    bool pocket{false};             // clears what a boundary encloses, with walls
+    bool takes_mesh{false};         // plans on triangles themselves, without a height field
+    bool only_finishes{false};      // has no roughing of its own
+    bool bounds_engagement{false};  // max_engagement holds for all of its cuts
+    bool one_line{false};           // `cusp plan` may be asked for it without a job
 };
 
 // Refuses a key of the operation for a reason; it does not return.
@@ -48,6 +51,8 @@ struct Strategy {
     std::vector<Key> keys;  // that it shares with others: keys_of()
     std::vector<Key> own;   // that it alone knows
     Traits traits{};
+    // Its own parameters, of the values of its keys; null: it has none.
+    std::any (*parameters)(const KeyValues&, const Operation&, const Refuse&){nullptr};
     // Refuses an operation that it can't plan, by its keys alone; null: nothing to refuse.
     void (*check)(const Operation&, const Refuse&){nullptr};
     // Errors: InputError where the operation can't be planned.
@@ -57,8 +62,13 @@ struct Strategy {
     bool is_prismatic() const { return traits.region != Region::kSurfaces; }
 };
 
+// Of an operation that has none yet; it plans nothing.
+extern const Strategy kNoStrategy;
+
 // In the order in which errors and help name them.
 using Strategies = std::vector<const Strategy*>;
+
+std::vector<std::string> names_of(const Strategies& strategies);
 
 // The record of that name; null where there is none.
 const Strategy* find_strategy(const Strategies& strategies, const std::string& name);

@@ -54,8 +54,8 @@ Extent extent_of(const Job& job, const Program& program)
     std::vector<Surface> surfaces;
     std::vector<std::array<Vec3d, 3>> mesh;
     for (const Operation& operation : job.operations) {
-        surfaces.insert(surfaces.end(), operation.floor.begin(), operation.floor.end());
-        mesh.insert(mesh.end(), operation.mesh.begin(), operation.mesh.end());
+        surfaces.insert(surfaces.end(), operation.part.floor.begin(), operation.part.floor.end());
+        mesh.insert(mesh.end(), operation.part.mesh.begin(), operation.part.mesh.end());
     }
     PartBox box = part_box(surfaces, mesh);
     if (const auto plan = verify::prismatic_box(job)) {

@@ -98,10 +98,10 @@ std::string walls(const Job& job, const PictureFrame& frame)
         out += "\"/>\n";
     };
     for (const Operation& operation : job.operations) {
-        if (operation.boundary) {
-            add(*operation.boundary);
+        if (operation.outline.boundary) {
+            add(*operation.outline.boundary);
         }
-        std::for_each(operation.islands.begin(), operation.islands.end(), add);
+        std::for_each(operation.outline.islands.begin(), operation.outline.islands.end(), add);
     }
     return out;
 }

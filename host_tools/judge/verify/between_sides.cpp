@@ -28,8 +28,8 @@ constexpr double kCut = 1e-3;  // mm: less is rounding
 // open.
 bool is_judged(const Job& job, const Operation& operation)
 {
-    if (!operation.prismatic || operation.may_open || operation.strategy == "profile" ||
-        operation.strategy == "chamfer") {
+    if (!operation.prismatic || operation.may_open || operation.cuts(job::Region::kOutline) ||
+        operation.cuts(job::Region::kEdges)) {
         return false;
     }
     const job::Prismatic& cut = *operation.prismatic;
@@ -149,7 +149,7 @@ std::optional<FloorBetweenSides> floor_between_sides(const Job& job,
                 thinnest = {floor - *underside,
                             {x, y, floor},
                             region.operation().number,
-                            region.operation().strategy};
+                            region.operation().name()};
             }
         }
     }

@@ -39,7 +39,7 @@ double widest(const Operation& operation)
     const double radius = operation.tool.radius;
     const double lead =
         std::sqrt(2.0) * std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
-    return 2 * radius + operation.allowance + lead + cut.width;
+    return 2 * radius + operation.passes.allowance + lead + cut.width;
 }
 
 // loop_polyline() closes what it is given, by the last point.
@@ -66,7 +66,7 @@ public:
         : tip_{toolpath::tip_of(operation.tool)},
           depth_{operation.prismatic->depth},
           spacing_{spacing},
-          model_{operation.floor}
+          model_{operation.part.floor}
     {
     }
 
@@ -154,9 +154,9 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
       cap_{operation.prismatic ? widest(operation) + 2 * grid.pitch
                                : 2 * operation.tool.radius + 2 * grid.pitch}
 {
-    if (operation.boundary) {
-        walls_.emplace_back(*operation.boundary, true, cap_);
-        for (const auto& island : operation.islands) {
+    if (operation.outline.boundary) {
+        walls_.emplace_back(*operation.outline.boundary, true, cap_);
+        for (const auto& island : operation.outline.islands) {
             walls_.emplace_back(island, false, cap_);
         }
     } else if (operation.prismatic) {
@@ -167,11 +167,11 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
             walls_.emplace_back(there_and_back(chain), true, cap_);
         }
     }
-    if (operation.strategy == "engrave" && !operation.floor.empty()) {
+    if (operation.cuts(job::Region::kGrooves) && !operation.part.floor.empty()) {
         heights_ = engraved_heights(operation, grid);
     }
     if (!operation.prismatic) {
-        heights_ = part_heights(operation.floor, operation.mesh, grid).z;
+        heights_ = part_heights(operation.part.floor, operation.part.mesh, grid).z;
     }
 }
 
@@ -210,7 +210,7 @@ std::size_t CutRegion::nearest_loop(double x, double y) const
 
 double CutRegion::room(double x, double y) const
 {
-    if (operation_->boundary) {
+    if (operation_->outline.boundary) {
         double least = cap_;
         for (const WallDistance& wall : walls_) {
             least = std::min(least, wall.at(x, y));
@@ -254,10 +254,10 @@ RegionAt CutRegion::carved_at(double x, double y) const
     const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
     const double inward = into_material(x, y);
     const bool on_floor = inward * slope >= cut.depth;
-    const double beside = operation_->plan_tolerance * slope;
+    const double beside = operation_->tolerance.plan * slope;
     const double deep = std::clamp(inward * slope, 0.0, cut.depth);
     return {inward, cut.top - deep,
-            operation_->tool.tip_radius * slope + (on_floor ? *operation_->scallop : 0.0),
+            operation_->tool.tip_radius * slope + (on_floor ? *operation_->tolerance.scallop : 0.0),
             std::min(beside, cut.depth - deep), std::min(beside, deep)};
 }
 
@@ -266,7 +266,7 @@ RegionAt CutRegion::engraved_at(double x, double y) const
 {
     const Tool& tool = operation_->tool;
     const double away = from_curves(x, y);
-    const double tolerance = operation_->plan_tolerance;
+    const double tolerance = operation_->tolerance.plan;
     const auto height = [&](double distance) {
         return profile_height(tool, std::clamp(distance, 0.0, tool.radius));
     };
@@ -285,30 +285,30 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
     const Prismatic& cut = *operation_->prismatic;
     const double bottom = cut.top - cut.depth;
     const double radius = operation_->tool.radius;
-    if (operation_->strategy == "pocket") {
+    if (operation_->cuts(job::Region::kLevelPocket)) {
         return {room(x, y), bottom,
-                operation_->tool.corner_radius > 0 ? *operation_->scallop : 0.0};
+                operation_->tool.corner_radius > 0 ? *operation_->tolerance.scallop : 0.0};
     }
-    if (operation_->strategy == "v_carve") {
+    if (operation_->cuts(job::Region::kValleys)) {
         return carved_at(x, y);
     }
-    if (operation_->strategy == "profile") {
+    if (operation_->cuts(job::Region::kOutline)) {
         return profile_at(x, y);
     }
-    if (operation_->strategy == "drill") {
+    if (operation_->cuts(job::Region::kHoles)) {
         return hole_at(x, y);
     }
-    if (operation_->strategy == "engrave") {
+    if (operation_->cuts(job::Region::kGrooves)) {
         if (!heights_.empty()) {
             return {radius - from_curves(x, y), heights_[k]};
         }
         return engraved_at(x, y);
     }
-    if (operation_->strategy == "chamfer") {
+    if (operation_->cuts(job::Region::kEdges)) {
         const double inward = into_material(x, y);
         const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
         return {std::min(cut.width - inward, 2 * radius + inward),
-                cut.top - (cut.width - inward) * slope, 0.0, operation_->plan_tolerance * slope,
+                cut.top - (cut.width - inward) * slope, 0.0, operation_->tolerance.plan * slope,
                 0.0};
     }
     return {cap_, bottom};  // face
@@ -334,10 +334,10 @@ std::optional<PlanBox> prismatic_box(const Job& job)
         if (!operation.prismatic) {
             continue;
         }
-        const double around =
-            operation.strategy == "profile" && operation.prismatic->side != ProfileSide::kInside
-                ? widest(operation)
-                : operation.tool.radius;
+        const double around = operation.cuts(job::Region::kOutline) &&
+                                      operation.prismatic->side != ProfileSide::kInside
+                                  ? widest(operation)
+                                  : operation.tool.radius;
         const auto add = [&](const Chain& chain) {
             for (const Vec2d p : loop_polyline(chain, kBoxChord)) {
                 widen(p, around);
@@ -350,8 +350,8 @@ std::optional<PlanBox> prismatic_box(const Job& job)
         for (const Hole& hole : operation.prismatic->holes) {
             widen(hole.at, around);
         }
-        if (operation.boundary) {
-            add(*operation.boundary);
+        if (operation.outline.boundary) {
+            add(*operation.outline.boundary);
         }
     }
     return box.low.x < box.high.x ? std::optional{box} : std::nullopt;

@@ -106,7 +106,7 @@ std::vector<std::string> earlier_programs(const Job& job)
     };
     add(job.stock_programs);
     for (const job::Operation& operation : job.operations) {
-        add(operation.after);
+        add(operation.rest.after);
     }
     return files;
 }

@@ -42,8 +42,9 @@ std::optional<double> engagement_limit(const Job& job,
         const bool roughs = operation.tools.empty() ? is_it(operation.tool)
                                                     : std::any_of(operation.tools.begin(),
                                                                   operation.tools.end(), is_it);
-        if (!asked && operation.max_engagement && roughs) {
-            least = std::min(least.value_or(*operation.max_engagement), *operation.max_engagement);
+        if (!asked && operation.passes.max_engagement && roughs) {
+            least = std::min(least.value_or(*operation.passes.max_engagement),
+                             *operation.passes.max_engagement);
         }
     }
     return least;

@@ -108,9 +108,9 @@ private:
     std::vector<char> required(const CutRegion& region) const
     {
         const Operation& operation = region.operation();
-        const bool walled =
-            operation.strategy == "pocket" ||
-            (operation.strategy == "profile" && operation.prismatic->side != ProfileSide::kOn);
+        const bool walled = operation.cuts(job::Region::kLevelPocket) ||
+                            (operation.cuts(job::Region::kOutline) &&
+                             operation.prismatic->side != ProfileSide::kOn);
         std::vector<char> out(q_.grid.size(), 0);
         const double pitch = q_.grid.pitch;
         const double radius = operation.tool.radius;
@@ -135,7 +135,7 @@ private:
         const std::vector<double> away = distances_from(centres, q_.grid);
         const double reach = std::max(0.0, flat_radius(operation.tool) - 2 * pitch);
         // of a profile, the way of the tool along the wall; a point nearer than its radius is on it
-        const double deepest = operation.strategy == "profile" ? radius : kUnbounded;
+        const double deepest = operation.cuts(job::Region::kOutline) ? radius : kUnbounded;
         for (std::size_t k = 0; k < room.size(); ++k) {
             out[k] = room[k] > pitch && room[k] <= deepest && away[k] <= reach ? 1 : 0;
         }
@@ -145,15 +145,15 @@ private:
     bool is_inside(const CutRegion& region, std::size_t k) const
     {
         const Operation& operation = region.operation();
-        if (operation.strategy == "chamfer") {
+        if (operation.cuts(job::Region::kEdges)) {
             // corners into which the cone does not come are left to the gouge alone
             return false;
         }
-        if (operation.strategy == "face" && operation.prismatic->loops.empty()) {
+        if (operation.cuts(job::Region::kTop) && operation.prismatic->loops.empty()) {
             return (*q_.job.stock_x)[0] <= x(k) && x(k) <= (*q_.job.stock_x)[1] &&
                    (*q_.job.stock_y)[0] <= y(k) && y(k) <= (*q_.job.stock_y)[1];
         }
-        if (operation.strategy == "face") {
+        if (operation.cuts(job::Region::kTop)) {
             return region.room(x(k), y(k)) < 0;
         }
         return region.at(x(k), y(k), k).inside > q_.grid.pitch / 4;
@@ -188,7 +188,7 @@ private:
             const double left = q_.cut[k] - at.floor - at.above;
             if (!figures_.level_left || left > figures_.level_left->height) {
                 figures_.level_left =
-                    LevelLeft{left, {x(k), y(k)}, operation.number, operation.strategy};
+                    LevelLeft{left, {x(k), y(k)}, operation.number, operation.name()};
             }
         }
     }

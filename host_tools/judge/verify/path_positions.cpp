@@ -44,8 +44,9 @@ PartBox floors_box(const Job& job)
 {
     PartBox box = part_box({});
     for (const Operation& operation : job.operations) {
-        const PartBox one =
-            operation.prismatic ? part_box({}) : part_box(operation.floor, operation.mesh);
+        const PartBox one = operation.prismatic
+                                ? part_box({})
+                                : part_box(operation.part.floor, operation.part.mesh);
         box = {std::min(box.x_low, one.x_low), std::max(box.x_high, one.x_high),
                std::min(box.y_low, one.y_low), std::max(box.y_high, one.y_high),
                std::min(box.z_low, one.z_low), std::max(box.z_high, one.z_high)};

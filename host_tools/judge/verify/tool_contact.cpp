@@ -24,14 +24,15 @@ double flute_slack(const Job& job)
 {
     double slack = 0.02;
     for (const Operation& operation : job.operations) {
-        slack = std::max({slack, 2 * operation.plan_tolerance, 2 * operation.floor_tolerance});
+        slack = std::max({slack, 2 * operation.tolerance.plan, 2 * operation.tolerance.floor});
     }
     return slack;
 }
 
 bool lies_in_stock(const Operation& operation)
 {
-    return operation.prismatic ? operation.strategy != "face" : operation.boundary.has_value();
+    return operation.prismatic ? !operation.cuts(job::Region::kTop)
+                               : operation.outline.boundary.has_value();
 }
 
 }  // namespace

@@ -64,33 +64,36 @@ Scene scene_of(const Job& job)
     std::set<std::string> boundaries;
     std::set<std::pair<std::string, std::string>> islands;  // each of its boundary
     for (const Operation& operation : job.operations) {
-        scene.floor_tolerance = std::max(scene.floor_tolerance, operation.floor_tolerance);
-        scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
+        scene.floor_tolerance = std::max(scene.floor_tolerance, operation.tolerance.floor);
+        scene.plan_tolerance = std::max(scene.plan_tolerance, operation.tolerance.plan);
         if (operation.prismatic) {
             scene.has_levels = true;
             continue;
         }
-        if (!operation.mesh.empty()) {
-            if (meshes.insert(operation.floor_files).second) {
-                scene.mesh.insert(scene.mesh.end(), operation.mesh.begin(), operation.mesh.end());
+        if (!operation.part.mesh.empty()) {
+            if (meshes.insert(operation.part.floor_files).second) {
+                scene.mesh.insert(scene.mesh.end(), operation.part.mesh.begin(),
+                                  operation.part.mesh.end());
             }
-        } else if (floors.insert({operation.floor_files, operation.intersect_files}).second) {
-            scene.surfaces.insert(scene.surfaces.end(), operation.floor.begin(),
-                                  operation.floor.end());
+        } else if (floors.insert({operation.part.floor_files, operation.part.intersect_files})
+                       .second) {
+            scene.surfaces.insert(scene.surfaces.end(), operation.part.floor.begin(),
+                                  operation.part.floor.end());
         }
-        const std::string pocket = operation.boundary ? operation.boundary_file : "";
-        if (operation.boundary && boundaries.insert(pocket).second) {
-            scene.walls.push_back({pocket, *operation.boundary, true});
+        const std::string pocket =
+            operation.outline.boundary ? operation.outline.boundary_file : "";
+        if (operation.outline.boundary && boundaries.insert(pocket).second) {
+            scene.walls.push_back({pocket, *operation.outline.boundary, true});
         }
-        for (std::size_t i = 0; i < operation.islands.size(); ++i) {
-            if (islands.emplace(pocket, operation.island_files[i]).second) {
-                scene.walls.push_back({pocket, operation.islands[i], false});
+        for (std::size_t i = 0; i < operation.outline.islands.size(); ++i) {
+            if (islands.emplace(pocket, operation.outline.island_files[i]).second) {
+                scene.walls.push_back({pocket, operation.outline.islands[i], false});
             }
         }
-        if (operation.scallop) {
-            scene.scallop = operation.scallop;
+        if (operation.tolerance.scallop) {
+            scene.scallop = operation.tolerance.scallop;
             scene.path_clearance =
-                operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
+                operation.tolerance.side == ToleranceSide::kOutside ? operation.tolerance.floor : 0;
         }
     }
     return scene;
@@ -119,7 +122,7 @@ std::vector<Tool> finishing_tools(const Job& job, const std::vector<ToolPosition
         all.push_back(run.tool);
         const bool owes =
             std::any_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
-                return o.scallop.has_value() && o.tool.number == run.tool.number;
+                return o.tolerance.scallop.has_value() && o.tool.number == run.tool.number;
             });
         if (owes) {
             finishing.push_back(run.tool);

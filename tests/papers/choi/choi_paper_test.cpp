@@ -28,16 +28,17 @@ Job job_of(const std::string& name)
                        cusp::strategies::all());
     // The main path by itself, as the paper counts it.
     Operation& operation = job.operations.front();
-    operation.max_depth.reset();
-    operation.zigzag.clear();
+    operation.levels.max_depth.reset();
+    cusp::grid_pocket::grid_keys(operation).zigzag.clear();
     return job;
 }
 
 PlannedOperation rectangle(double arc_tolerance_inch, ToleranceSide side)
 {
     Job job = job_of("rectangle");
-    job.operations.front().arc_tolerance = arc_tolerance_inch * kOneInch;
-    job.operations.front().tolerance_side = side;
+    cusp::grid_pocket::grid_keys(job.operations.front()).arc_tolerance =
+        arc_tolerance_inch * kOneInch;
+    job.operations.front().tolerance.side = side;
     return plan_grid_pocket(job, job.operations.front()).front();
 }
 

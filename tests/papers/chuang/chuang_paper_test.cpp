@@ -22,7 +22,7 @@ namespace {
 PlannedOperation tap(int extra_subdivision)
 {
     Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml", cusp::strategies::all());
-    job.operations.front().extra_subdivision = extra_subdivision;
+    cusp::hull_rough::hull_keys(job.operations.front()).extra_subdivision = extra_subdivision;
     return plan_hull_rough(job, job.operations.front()).front();
 }
 
@@ -46,8 +46,8 @@ TEST(ChuangPaper, BoxesToTheirOwnTopsRemoveThreeQuartersOfWhatCanBeRemoved)
 {
     // The 33 slices before thin ones are merged, which raises tops to the layer above.
     Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml", cusp::strategies::all());
-    job.operations.front().extra_subdivision = 0;
-    job.operations.front().min_depth = 0;
+    cusp::hull_rough::hull_keys(job.operations.front()).extra_subdivision = 0;
+    job.operations.front().levels.min_depth = 0;
     const PlannedOperation plan = plan_hull_rough(job, job.operations.front()).front();
     DOUBLES_EQUAL(33, count_of(plan, "layers"), 0);
     const double removed = kStock - count_of(plan, "left_under_boxes_mm3");

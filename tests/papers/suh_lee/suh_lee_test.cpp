@@ -33,24 +33,24 @@ Job job()
 Operation replica()
 {
     Operation operation;
-    operation.strategy = "contour_pocket";
-    operation.floor_files = {part("floor")};
-    operation.floor = read_surfaces(part("floor"));
-    operation.boundary_file = part("boundary");
-    operation.boundary = read_loop(part("boundary"));
-    operation.island_files = {part("island")};
-    operation.islands = {read_loop(part("island"))};
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
+    operation.part.floor_files = {part("floor")};
+    operation.part.floor = read_surfaces(part("floor"));
+    operation.outline.boundary_file = part("boundary");
+    operation.outline.boundary = read_loop(part("boundary"));
+    operation.outline.island_files = {part("island")};
+    operation.outline.islands = {read_loop(part("island"))};
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
-    operation.scallop = 0.4;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.tolerance.scallop = 0.4;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     return operation;
 }
 
 Operation papers_way()
 {
     Operation operation = replica();
-    operation.plan_tolerance = operation.floor_tolerance = 0.5;
-    operation.tolerance_side = ToleranceSide::kBoth;
+    operation.tolerance.plan = operation.tolerance.floor = 0.5;
+    operation.tolerance.side = ToleranceSide::kBoth;
     return operation;
 }
 

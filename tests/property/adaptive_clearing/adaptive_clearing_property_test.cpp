@@ -17,6 +17,7 @@
 #include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/cam/adaptive_clearing/entry_spiral.hpp"
 #include "host_tools/cam/adaptive_clearing/steered_pass.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "host_tools/cam/contour_pocket/open_sides.hpp"
 #include "tests/property/adaptive_clearing/random_clearing.hpp"
 #include "tests/property/adaptive_clearing/raster_cutter.hpp"
@@ -216,12 +217,12 @@ bool holds(const Region2d& region,
 job::Operation pocket_of(const Region2d& region, const AdaptiveSettings& settings)
 {
     job::Operation operation;
-    operation.strategy = "contour_pocket";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
     operation.tool.radius = settings.tool_radius;
-    operation.max_engagement = settings.max_engagement / kDegrees;
-    operation.boundary.emplace();
+    operation.passes.max_engagement = settings.max_engagement / kDegrees;
+    operation.outline.boundary.emplace();
     for (const Edge& edge : region.contours.front()) {
-        operation.boundary->push_back(
+        operation.outline.boundary->push_back(
             {1,
              {0.0, 0.0, 1.0, 1.0},
              {{edge.start.x, edge.start.y, 0.0}, {edge.end.x, edge.end.y, 0.0}},

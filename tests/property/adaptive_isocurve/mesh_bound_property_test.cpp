@@ -30,7 +30,7 @@ constexpr double kExact = 1e-3;  // mm: chords of arcs, and searches
 
 // The form in which a polyhedron is given, and its finish.
 struct Way {
-    const char* strategy;
+    const cusp::job::Strategy* strategy;
     bool as_faces;
     Walls walls{Walls::kDrafted};
     ToleranceSide side{ToleranceSide::kOutside};
@@ -46,22 +46,23 @@ Job random_job(Random& random, const Way& way)
     operation.strategy = way.strategy;
     if (way.walls == Walls::kRound) {
         WalledPart part = round_walls(random);
-        operation.mesh = std::move(part.mesh);
-        operation.floor = std::move(part.faces);
+        operation.part.mesh = std::move(part.mesh);
+        operation.part.floor = std::move(part.faces);
     } else {
-        operation.mesh = random_polyhedron(random, way.walls);
+        operation.part.mesh = random_polyhedron(random, way.walls);
     }
     operation.tool = job.tools.front();
-    operation.scallop = radius * std::pow(10.0, uniform(random, -1.9, -1.0));
-    operation.floor_tolerance = operation.plan_tolerance =
-        *operation.scallop * uniform(random, 0.1, 0.4);
-    operation.tolerance_side = way.side;
-    operation.direction = whole(random, 0, 1) == 0 ? 'u' : 'v';
+    operation.tolerance.scallop = radius * std::pow(10.0, uniform(random, -1.9, -1.0));
+    operation.tolerance.floor = operation.tolerance.plan =
+        *operation.tolerance.scallop * uniform(random, 0.1, 0.4);
+    operation.tolerance.side = way.side;
+    cusp::adaptive_isocurve::isocurve_keys(operation).direction =
+        whole(random, 0, 1) == 0 ? 'u' : 'v';
     constexpr OutputForm kForms[] = {OutputForm::kLines, OutputForm::kLines, OutputForm::kArcs,
                                      OutputForm::kNurbs};
     operation.output = kForms[whole(random, 0, 3)];
     job.stock_top = -kNothing;
-    for (const auto& t : operation.mesh) {
+    for (const auto& t : operation.part.mesh) {
         job.stock_top = std::max({job.stock_top, t[0].z, t[1].z, t[2].z});
     }
     job.stock_top += uniform(random, 0.0, 2.0);
@@ -73,13 +74,12 @@ PlannedOperation planned_by(const Way& way, Job job)
 {
     Operation& operation = job.operations.front();
     if (way.as_faces) {
-        if (operation.floor.empty()) {
-            operation.floor = faces_of(operation.mesh);
+        if (operation.part.floor.empty()) {
+            operation.part.floor = faces_of(operation.part.mesh);
         }
-        operation.mesh.clear();
+        operation.part.mesh.clear();
     }
-    return operation.strategy == "parallel_planes" ? plan_parallel_planes(job, operation).front()
-                                                   : plan_adaptive_isocurve(job, operation).front();
+    return operation.strategy->plan(job, operation).front();
 }
 
 // reached  the number of places beside walls that were judged is added
@@ -89,11 +89,11 @@ bool holds(const Way& way, unsigned seed, int& reached)
     const Job job = random_job(random, way);
     const Operation& operation = job.operations.front();
     const PlannedOperation planned = planned_by(way, job);
-    const CutMoves moves{planned.path, 0.01 * operation.floor_tolerance};
+    const CutMoves moves{planned.path, 0.01 * operation.tolerance.floor};
     // Passes may keep so far off.
     const double clear_of =
-        (way.side == ToleranceSide::kBoth ? 0.5 : 1) * operation.floor_tolerance;
-    const BallFinishJudge judge{operation.mesh, moves, operation.tool.radius, clear_of};
+        (way.side == ToleranceSide::kBoth ? 0.5 : 1) * operation.tolerance.floor;
+    const BallFinishJudge judge{operation.part.mesh, moves, operation.tool.radius, clear_of};
     const double bound = planned.stats.scallop_bound_mm;
     Worst worst = way.walls != Walls::kDrafted
                       ? judge.most_left_beside_walls(random, bound + kExact)
@@ -114,8 +114,8 @@ bool holds(const Way& way, unsigned seed, int& reached)
             "polyhedron seed %u%s: %zu triangles, R %.3f, scallop %.4f, claimed %.4f; left %.4f at "
             "(%.4f %.4f %.4f), normal (%.4f %.4f %.5f); gouge %.5f, claimed %.5f; %d passes, "
             "%.2f s\n",
-            seed, good ? "" : " FAILS", operation.mesh.size(), operation.tool.radius,
-            operation.scallop.value_or(0.0), bound,
+            seed, good ? "" : " FAILS", operation.part.mesh.size(), operation.tool.radius,
+            operation.tolerance.scallop.value_or(0.0), bound,
             worst.left > 0 ? bound + kExact + worst.left : 0.0, worst.place.x, worst.place.y,
             worst.place.z, worst.normal.x, worst.normal.y, worst.normal.z, gouge,
             planned.stats.gouge_bound_mm, planned.stats.passes, planned.stats.planning_s);
@@ -159,94 +159,94 @@ void hold_all(const Way& way, int usual)
 TEST_GROUP(MeshBoundProperty){};
 
 // Nowhere that a ball reaches is more left than the plan claims.
-TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({"adaptive_isocurve", false}, 8); }
+TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({&kAdaptiveIsocurve, false}, 8); }
 
-TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({"adaptive_isocurve", true}, 2); }
+TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({&kAdaptiveIsocurve, true}, 2); }
 
 // Beside vertical walls, and those that hardly lean, wherever the side of a ball that rests on
 // something reaches them.
 TEST(MeshBoundProperty, HoldsBesideUprightWalls)
 {
-    hold_all({"adaptive_isocurve", false, Walls::kUpright}, 4);
+    hold_all({&kAdaptiveIsocurve, false, Walls::kUpright}, 4);
 }
 
 // Here the ball rests on an edge, its axis beyond the part: nothing else brings it to the wall.
 TEST(MeshBoundProperty, HoldsBesideWallsOverNarrowLedges)
 {
-    hold_seeds({"adaptive_isocurve", false, Walls::kUpright}, {1100, 1206, 1255, 1541, 1686});
+    hold_seeds({&kAdaptiveIsocurve, false, Walls::kUpright}, {1100, 1206, 1255, 1541, 1686});
 }
 
 // Pierced walls, cylinders and fins on the border of a plate.
 TEST(MeshBoundProperty, HoldsBesideStandingWalls)
 {
-    hold_all({"adaptive_isocurve", false, Walls::kStanding}, 4);
+    hold_all({&kAdaptiveIsocurve, false, Walls::kStanding}, 4);
 }
 
 TEST(MeshBoundProperty, HoldsBesideUprightFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kUpright}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kUpright}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsBesideStandingWallsOfFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kStanding}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kStanding}, 2);
 }
 
 // Four that kept 0.087 to 0.5 mm while walls of faces were not looked at.
 TEST(MeshBoundProperty, HoldsBesideFacesOnTheBorder)
 {
-    hold_seeds({"adaptive_isocurve", true, Walls::kStanding}, {6, 7, 9, 10});
+    hold_seeds({&kAdaptiveIsocurve, true, Walls::kStanding}, {6, 7, 9, 10});
 }
 
 // Two that kept 0.11 and 0.5 mm; in the third the ball reaches a wall that overhangs by 1.5e-4 mm.
 TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
 {
-    hold_seeds({"adaptive_isocurve", true, Walls::kRound}, {1, 4, 2010, 3003});
+    hold_seeds({&kAdaptiveIsocurve, true, Walls::kRound}, {1, 4, 2010, 3003});
 }
 
 // Cylinders and arched sheets, which hardly lean.
 TEST(MeshBoundProperty, HoldsBesideRoundFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kRound}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kRound}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesBesideRoundFaces)
 {
-    hold_all({"parallel_planes", true, Walls::kRound}, 2);
+    hold_all({&kParallelPlanes, true, Walls::kRound}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWallsOfFaces)
 {
-    hold_all({"parallel_planes", true, Walls::kStanding}, 2);
+    hold_all({&kParallelPlanes, true, Walls::kStanding}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWalls)
 {
-    hold_all({"parallel_planes", false, Walls::kStanding}, 2);
+    hold_all({&kParallelPlanes, false, Walls::kStanding}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsByBothSidesBesideStandingWallsOfFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kStanding, ToleranceSide::kBoth}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kStanding, ToleranceSide::kBoth}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsByBothSidesBesideRoundFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kRound, ToleranceSide::kBoth}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kRound, ToleranceSide::kBoth}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsByBothSidesForPlanesBesideStandingWallsOfFaces)
 {
-    hold_all({"parallel_planes", true, Walls::kStanding, ToleranceSide::kBoth}, 2);
+    hold_all({&kParallelPlanes, true, Walls::kStanding, ToleranceSide::kBoth}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsBesideLowFaces)
 {
-    hold_all({"adaptive_isocurve", true, Walls::kLow}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kLow}, 2);
 }
 
-TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({"parallel_planes", false}, 2); }
+TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({&kParallelPlanes, false}, 2); }
 
-TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({"parallel_planes", true}, 2); }
+TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({&kParallelPlanes, true}, 2); }
 
 }  // namespace cusp::test

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
@@ -32,8 +33,8 @@ namespace {
 Job random_model(Random& random, unsigned seed)
 {
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.roughing = true;
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.passes.roughing = true;
     operation.tool = random_tool(random);
     operation.tools = {operation.tool};
     if (seed % 2 == 0) {
@@ -54,24 +55,24 @@ Job random_model(Random& random, unsigned seed)
         const Box2d box = random_box(random, {20, 15}, 15, 30);
         const double rough = uniform(random, 1.0, 8.0);
         const double middle = uniform(random, -8.0, 0.0);
-        operation.floor.push_back(random_floor(random, box, middle, rough));
-        for (const Vec3d& p : operation.floor.back().points) {
+        operation.part.floor.push_back(random_floor(random, box, middle, rough));
+        for (const Vec3d& p : operation.part.floor.back().points) {
             top = std::max(top, p.z);
         }
     }
     const double stock_top = top + uniform(random, 0.0, 3.0);
-    operation.max_depth = uniform(random, 1.0, 4.0);
+    operation.levels.max_depth = uniform(random, 1.0, 4.0);
     if (seed % 3 == 0) {
-        operation.min_depth = uniform(random, 0.2, 1.0) * *operation.max_depth;
+        operation.levels.min_depth = uniform(random, 0.2, 1.0) * *operation.levels.max_depth;
     }
-    operation.allowance = whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.1, 0.6);
-    operation.plan_tolerance = 0.02;
-    operation.floor_tolerance = 0.02;
+    operation.passes.allowance = whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.1, 0.6);
+    operation.tolerance.plan = 0.02;
+    operation.tolerance.floor = 0.02;
     operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
     const int entry = whole(random, 0, 2);
-    operation.entry = entry == 0   ? EntryKind::kAuto
-                      : entry == 1 ? EntryKind::kHelix
-                                   : EntryKind::kRamp;
+    operation.passes.entry = entry == 0   ? EntryKind::kAuto
+                             : entry == 1 ? EntryKind::kHelix
+                                          : EntryKind::kRamp;
     Job job = job_of(operation);
     job.stock_top = stock_top;
     return job;
@@ -218,12 +219,13 @@ void check_model(unsigned seed)
     const Job job = random_model(random, seed);
     const Operation& operation = job.operations.front();
     std::printf("random model seed %u: depth %.2f, at least %.2f, allowance %.2f, tools", seed,
-                *operation.max_depth, operation.min_depth.value_or(0), operation.allowance);
+                *operation.levels.max_depth, operation.levels.min_depth.value_or(0),
+                operation.passes.allowance);
     for (const Tool& tool : operation.tools) {
         std::printf(" R%.2f/%.2f", tool.radius, tool.corner_radius);
     }
     const std::vector<PlannedOperation> plans = plan_waterline_roughing(job, operation);
-    const PartModel model{operation.floor};
+    const PartModel model{operation.part.floor};
     Block block{model, job.stock_top};
     Figures figures;
     std::size_t moves = 0;
@@ -231,7 +233,7 @@ void check_model(unsigned seed)
     double gouge = 0;
     std::size_t warnings = 0;
     for (const PlannedOperation& plan : plans) {
-        cut(block, plan, model, operation.allowance + kEnough, figures);
+        cut(block, plan, model, operation.passes.allowance + kEnough, figures);
         moves += plan.path.moves.size();
         seconds += plan.stats.planning_s;
         gouge = std::max(gouge, plan.stats.gouge_bound_mm);
@@ -240,19 +242,19 @@ void check_model(unsigned seed)
                     plan.stats.retracts);
     }
     const double left =
-        block.left(model, smallest(operation), figures.levels, operation.allowance + 0.3);
+        block.left(model, smallest(operation), figures.levels, operation.passes.allowance + 0.3);
     const double thinnest = thinnest_level(figures.levels, job.stock_top);
     std::printf(
         "\n  cut %.4f rapid %.4f clearance %.5f left %.4f, %zu levels from %.3f, %zu "
         "moves, %.2f s\n",
         figures.cut, figures.rapid, figures.clearance, left, figures.levels.size(), thinnest, moves,
         seconds);
-    CHECK(figures.cut <= *operation.max_depth + 1e-3);
+    CHECK(figures.cut <= *operation.levels.max_depth + 1e-3);
     CHECK(figures.rapid <= 1e-3);
-    CHECK(figures.clearance >= operation.allowance - 1e-6);
-    CHECK(left <= 0.3 * *operation.max_depth);
+    CHECK(figures.clearance >= operation.passes.allowance - 1e-6);
+    CHECK(left <= 0.3 * *operation.levels.max_depth);
     // Fewer levels would be deeper than max_depth, or a warning says so.
-    CHECK(thinnest >= operation.min_depth.value_or(0) - 2e-3 || warnings > 0);
+    CHECK(thinnest >= operation.levels.min_depth.value_or(0) - 2e-3 || warnings > 0);
     CHECK_EQUAL(0.0, gouge);
 }
 

@@ -117,11 +117,11 @@ Job job_for(const Surface& floor, double scallop)
     job.stock_top = 20;
     job.clearance = 5;
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.floor = {floor};
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.part.floor = {floor};
     operation.tool = job.tools.front();
-    operation.plan_tolerance = operation.floor_tolerance = kTolerance * scallop;
-    operation.scallop = scallop;
+    operation.tolerance.plan = operation.tolerance.floor = kTolerance * scallop;
+    operation.tolerance.scallop = scallop;
     job.operations = {operation};
     return job;
 }

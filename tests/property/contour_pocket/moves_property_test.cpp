@@ -79,29 +79,29 @@ RandomTask random_task(Random& random)
     task.job.feed = 1200;
     task.job.plunge_feed = 300;
     Operation& operation = task.operation;
-    operation.strategy = "contour_pocket";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
     const double depth = uniform(random, 5.0, 10.0);
     const double rough = one_of(2) * uniform(random, 0.5, 3.0);
-    operation.floor = {random_floor(random, {-80.0, -80.0, 80.0, 80.0}, -depth, rough)};
-    operation.floor_files = {"floor"};
-    operation.boundary = loop_of(task.region.contours.front());
-    operation.boundary_file = "boundary";
+    operation.part.floor = {random_floor(random, {-80.0, -80.0, 80.0, 80.0}, -depth, rough)};
+    operation.part.floor_files = {"floor"};
+    operation.outline.boundary = loop_of(task.region.contours.front());
+    operation.outline.boundary_file = "boundary";
     for (std::size_t i = 1; i < task.region.contours.size(); ++i) {
-        operation.islands.push_back(loop_of(task.region.contours[i]));
-        operation.island_files.push_back("island");
+        operation.outline.islands.push_back(loop_of(task.region.contours[i]));
+        operation.outline.island_files.push_back("island");
     }
     const double radius = uniform(random, 3.5, 6.0);
     operation.tool = random_tool(random, 1, radius);
     operation.tools = {operation.tool};
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.tolerance_side = one_of(3) == 0 ? ToleranceSide::kBoth : ToleranceSide::kOutside;
-    operation.scallop = 0.3;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.side = one_of(3) == 0 ? ToleranceSide::kBoth : ToleranceSide::kOutside;
+    operation.tolerance.scallop = 0.3;
     operation.output = one_of(2) == 0 ? OutputForm::kLines : OutputForm::kArcs;
-    operation.direction_of_cut = static_cast<CutDirection>(one_of(2));
-    operation.entry = static_cast<EntryKind>(one_of(4));
+    operation.passes.direction_of_cut = static_cast<CutDirection>(one_of(2));
+    operation.passes.entry = static_cast<EntryKind>(one_of(4));
     if (one_of(2) == 0) {
-        operation.allowance = one_of(2) * uniform(random, 0.1, 0.5);
-        operation.max_depth = uniform(random, 2.0, 5.0);
+        operation.passes.allowance = one_of(2) * uniform(random, 0.1, 0.5);
+        operation.levels.max_depth = uniform(random, 2.0, 5.0);
         if (one_of(2) == 0) {
             operation.tools = {random_tool(random, 2, radius * uniform(random, 0.8, 1.5)),
                                operation.tool};
@@ -115,11 +115,11 @@ RandomTask random_task_with_cliffs(Random& random)
 {
     RandomTask task = random_task(random);
     Operation& operation = task.operation;
-    const double low = operation.floor.front().points.front().z;
+    const double low = operation.part.floor.front().points.front().z;
     const int plates = whole(random, 2, 4);
     for (int i = 0; i < plates; ++i) {
         const double angle = uniform(random, 0.0, 3.0);
-        operation.floor.push_back(
+        operation.part.floor.push_back(
             turned_plate({uniform(random, -45.0, 45.0), uniform(random, -45.0, 45.0)},
                          {std::cos(angle), std::sin(angle)}, uniform(random, 10.0, 40.0),
                          uniform(random, 5.0, 25.0), low + uniform(random, 0.5, 4.0)));
@@ -171,16 +171,16 @@ void check_moves(const RandomTask& task,
     const OperationStats& stats = planned.stats;
     CHECK(!verdict.low_rapid);
     CHECK(verdict.rapid_cut <= 0.05);
-    if (operation.entry != EntryKind::kPlunge && !warned(planned)) {
+    if (operation.passes.entry != EntryKind::kPlunge && !warned(planned)) {
         CHECK(verdict.plunged <= 0.05);
         // If the floor is steeper than a slope down, slopes follow it.
         CHECK(verdict.entry_cut <= 0.3);
     }
     LONGS_EQUAL(stats.retracts, verdict.retracts);
-    LONGS_EQUAL(operation.islands.size(), counted(stats, "islands"));
+    LONGS_EQUAL(operation.outline.islands.size(), counted(stats, "islands"));
     check_retracts(stats);
     CHECK(verdict.wrong_side <= 0.3 * (verdict.right_side + verdict.wrong_side) + 50.0);
-    CHECK(verdict.deepest <= operation.max_depth.value_or(1e300) * 1.02 + 0.03);
+    CHECK(verdict.deepest <= operation.levels.max_depth.value_or(1e300) * 1.02 + 0.03);
 }
 
 struct LinkCount {
@@ -199,13 +199,14 @@ LinkCount judge_task(const RandomTask& task, const std::vector<PlannedOperation>
         const bool rough = one.stats.roughing;
         const Tool& tool = rough ? operation.tools.front() : operation.tool;
         LONGS_EQUAL(tool.number, one.path.tool.number);
-        const MovesVerdict verdict = judge.cut(one.path, task.job.stock_top + task.job.clearance,
-                                               operation.direction_of_cut == CutDirection::kClimb);
+        const MovesVerdict verdict =
+            judge.cut(one.path, task.job.stock_top + task.job.clearance,
+                      operation.passes.direction_of_cut == CutDirection::kClimb);
         links.all += verdict.links;
         links.turned += verdict.turned;
-        const double allowance = rough ? operation.allowance : 0.0;
-        const bool both = operation.tolerance_side == ToleranceSide::kBoth;
-        const double past = both ? operation.plan_tolerance : 0.0;
+        const double allowance = rough ? operation.passes.allowance : 0.0;
+        const bool both = operation.tolerance.side == ToleranceSide::kBoth;
+        const double past = both ? operation.tolerance.plan : 0.0;
         std::printf(
             "  tool %d: rapid %.3f plunged %.3f entry %.3f deepest %.3f retracts %d of "
             "%.0f + %.0f, wrong side %.0f of %.0f\n",
@@ -214,7 +215,7 @@ LinkCount judge_task(const RandomTask& task, const std::vector<PlannedOperation>
             verdict.wrong_side, verdict.wrong_side + verdict.right_side);
         check_moves(task, one, verdict);
         CHECK(verdict.nearest_wall >= tool.radius + allowance - past - kGrain);
-        CHECK(under(judge, operation.floor.front(), allowance) <= past + 2 * kGrain);
+        CHECK(under(judge, operation.part.floor.front(), allowance) <= past + 2 * kGrain);
     }
     return links;
 }
@@ -268,7 +269,7 @@ TEST(PocketPathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePl
         for (const PlannedOperation& one : planned) {
             const MovesVerdict verdict =
                 judge.cut(one.path, task.job.stock_top + task.job.clearance,
-                          task.operation.direction_of_cut == CutDirection::kClimb);
+                          task.operation.passes.direction_of_cut == CutDirection::kClimb);
             std::printf(
                 "seed %u cliffs %d: %.0f passes along them, retracts %d of %.0f + %.0f, "
                 "rapid %.3f, deepest %.3f, sunk %.3f\n",
@@ -283,7 +284,7 @@ TEST(PocketPathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePl
             descents += static_cast<int>(std::count_if(
                 one.path.moves.begin(), one.path.moves.end(),
                 [](const ToolMove& move) { return move.kind == MoveKind::kPlungingCut; }));
-            CHECK(verdict.deepest <= task.operation.max_depth.value_or(1e300) * 1.02 + 0.03);
+            CHECK(verdict.deepest <= task.operation.levels.max_depth.value_or(1e300) * 1.02 + 0.03);
         }
     }
     CHECK(descents > 0);

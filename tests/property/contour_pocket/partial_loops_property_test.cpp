@@ -85,7 +85,7 @@ Operation random_steep_pocket(Random& random)
     Operation operation = random_pocket(random, {floor_of(hill)}, boundary,
                                         {1, ToolShape::kBall, radius, radius}, 0.1);
     operation.output = uniform(random, 0.0, 1.0) < 0.5 ? OutputForm::kLines : OutputForm::kArcs;
-    operation.direction_of_cut =
+    operation.passes.direction_of_cut =
         uniform(random, 0.0, 1.0) < 0.5 ? CutDirection::kClimb : CutDirection::kConventional;
     return operation;
 }
@@ -117,13 +117,13 @@ TEST(PartialLoopsOnSteepHills, LeaveNothingOverTheScallop)
         const PlannedOperation planned = planned_pocket(operation);
         partial += partial_loops(planned);
         const PocketVerdict verdict =
-            judge_pocket(operation.floor, square_region(), planned.path, 1.0, 300);
+            judge_pocket(operation.part.floor, square_region(), planned.path, 1.0, 300);
         std::printf(
             "seed %u pocket %d: gouge %.4f left %.4f of %.4f, %d levels, %d partial loops\n", kSeed,
-            i, verdict.floor_gouge, verdict.most_left, *operation.scallop, planned.stats.levels,
-            partial);
+            i, verdict.floor_gouge, verdict.most_left, *operation.tolerance.scallop,
+            planned.stats.levels, partial);
         CHECK(verdict.floor_gouge <= 1e-6);
-        CHECK(verdict.most_left <= *operation.scallop + 1e-3);
+        CHECK(verdict.most_left <= *operation.tolerance.scallop + 1e-3);
         DOUBLES_EQUAL(0.0, verdict.uncut, 0.0);
         LONGS_EQUAL(1, planned.stats.retracts);
     }
@@ -142,8 +142,8 @@ TEST(PartialLoopsOnSteepHills, AreCutOnceAndNoDeeperThanAllowedAfterRoughing)
         job.clearance = 5.0;
         Operation operation = random_steep_pocket(random);
         operation.tools = {operation.tool};
-        operation.max_depth = uniform(random, 2.0, 4.0);
-        operation.allowance = i % 2 == 0 ? 0.0 : uniform(random, 0.1, 0.4);
+        operation.levels.max_depth = uniform(random, 2.0, 4.0);
+        operation.passes.allowance = i % 2 == 0 ? 0.0 : uniform(random, 0.1, 0.4);
         const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
         LONGS_EQUAL(2, planned.size());
         const Region2d region = square_region();
@@ -152,17 +152,17 @@ TEST(PartialLoopsOnSteepHills, AreCutOnceAndNoDeeperThanAllowedAfterRoughing)
         moves.cut(planned.front().path, clearance, true);
         const MovesVerdict finish = moves.cut(planned.back().path, clearance, true);
         const PocketVerdict verdict =
-            judge_pocket(operation.floor, region, planned.back().path, 1.0, 300);
+            judge_pocket(operation.part.floor, region, planned.back().path, 1.0, 300);
         partial += partial_loops(planned.back());
         std::printf(
             "seed %u layered %d: gouge %.4f left %.4f of %.4f, %d partial loops, deepest "
             "%.3f of %.3f\n",
-            kSeed, i, verdict.floor_gouge, verdict.most_left, *operation.scallop,
-            partial_loops(planned.back()), finish.deepest, *operation.max_depth);
+            kSeed, i, verdict.floor_gouge, verdict.most_left, *operation.tolerance.scallop,
+            partial_loops(planned.back()), finish.deepest, *operation.levels.max_depth);
         CHECK(verdict.floor_gouge <= 1e-6);
-        CHECK(verdict.most_left <= *operation.scallop + 1e-3);
+        CHECK(verdict.most_left <= *operation.tolerance.scallop + 1e-3);
         DOUBLES_EQUAL(0.0, verdict.uncut, 0.0);
-        CHECK(finish.deepest <= *operation.max_depth * 1.02 + 0.03);
+        CHECK(finish.deepest <= *operation.levels.max_depth * 1.02 + 0.03);
         CHECK(finish.rapid_cut <= 0.05);
         LONGS_EQUAL(1, planned.back().stats.retracts);
     }

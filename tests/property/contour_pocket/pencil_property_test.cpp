@@ -194,9 +194,9 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
         const Found found = at_foot(operation, patch);
         std::printf("seed %u cliff %d: height %.2f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
                     patch.top - kLow, radius, operation.tool.corner_radius, found.left,
-                    *operation.scallop);
+                    *operation.tolerance.scallop);
         CHECK(found.gouge <= 1e-6);
-        CHECK(found.left <= *operation.scallop + 2e-3);
+        CHECK(found.left <= *operation.tolerance.scallop + 2e-3);
         DOUBLES_EQUAL(0.0, found.gouge_bound, 1e-9);
     }
 }
@@ -213,14 +213,14 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfACliffAsHighAsTheToolIsRound)
         operation.tool.corner_radius = uniform(random, 0.5, 0.7) * radius;
         Patch patch = random_patch(random, i, 0.2, 1.0);
         patch.top = kLow + uniform(random, 0.99, 1.0) * operation.tool.corner_radius;
-        operation.floor = {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
-                           surface_of(patch)};
+        operation.part.floor = {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
+                                surface_of(patch)};
         const Found found = at_foot(operation, patch);
         std::printf("seed %u round %d: height %.4f, tool %.2f/%.4f, left %.4f of %.4f\n", kSeed, i,
                     patch.top - kLow, radius, operation.tool.corner_radius, found.left,
-                    *operation.scallop);
+                    *operation.tolerance.scallop);
         CHECK(found.gouge <= 1e-6);
-        CHECK(found.left <= *operation.scallop + 2e-3);
+        CHECK(found.left <= *operation.tolerance.scallop + 2e-3);
     }
 }
 
@@ -257,8 +257,9 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
             }
         }
         std::printf("seed %u ledge %d: width %.3f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
-                    ledge.width, radius, operation.tool.corner_radius, most, *operation.scallop);
-        CHECK(most <= *operation.scallop + 2e-3);
+                    ledge.width, radius, operation.tool.corner_radius, most,
+                    *operation.tolerance.scallop);
+        CHECK(most <= *operation.tolerance.scallop + 2e-3);
     }
 }
 
@@ -296,8 +297,8 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
             }
         }
         std::printf("seed %u wall %d: room %.3f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
-                    room, radius, operation.tool.corner_radius, most, *operation.scallop);
-        CHECK(most <= *operation.scallop + 2e-3);
+                    room, radius, operation.tool.corner_radius, most, *operation.tolerance.scallop);
+        CHECK(most <= *operation.tolerance.scallop + 2e-3);
     }
 }
 
@@ -312,7 +313,7 @@ TEST(RandomCliff, IsCutNoDeeperThanATwoSidedTolerance)
         Operation operation = random_pocket(
             random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch)},
             square_loop(20.0), {1, ToolShape::kBall, radius, 0.0}, 0.2);
-        operation.tolerance_side = ToleranceSide::kBoth;
+        operation.tolerance.side = ToleranceSide::kBoth;
         operation.output = i % 3 == 0 ? OutputForm::kLines : OutputForm::kArcs;
         const PlannedOperation planned = planned_pocket(operation);
         const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, kPitch);
@@ -322,9 +323,9 @@ TEST(RandomCliff, IsCutNoDeeperThanATwoSidedTolerance)
             deepest = std::max(deepest, patch.top - lowest_cut(operation.tool, tips, p));
         }
         std::printf("seed %u cliff %d: height %.2f, ball %.2f, cut %.5f of %.4f bound %.5f\n",
-                    kSeed, i, patch.top - kLow, radius, deepest, operation.floor_tolerance,
+                    kSeed, i, patch.top - kLow, radius, deepest, operation.tolerance.floor,
                     planned.stats.gouge_bound_mm);
-        CHECK(deepest <= operation.floor_tolerance + 1e-6);
+        CHECK(deepest <= operation.tolerance.floor + 1e-6);
         CHECK(deepest <= planned.stats.gouge_bound_mm + 1e-6);
     }
 }

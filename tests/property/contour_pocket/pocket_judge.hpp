@@ -103,18 +103,18 @@ inline job::Operation random_pocket(Random& random,
                                     double scallop)
 {
     job::Operation operation;
-    operation.strategy = "contour_pocket";
-    operation.floor = std::move(floor);
-    operation.floor_files = {"floor"};
-    operation.boundary = std::move(boundary);
-    operation.boundary_file = "boundary";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
+    operation.part.floor = std::move(floor);
+    operation.part.floor_files = {"floor"};
+    operation.outline.boundary = std::move(boundary);
+    operation.outline.boundary_file = "boundary";
     operation.tool = tool;
     operation.tool.corner_radius = tool.shape == toolpath::ToolShape::kFlat ? 0.0
                                    : tool.shape == toolpath::ToolShape::kBall
                                        ? tool.radius
                                        : uniform(random, 0.2, 0.7) * tool.radius;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = uniform(random, 0.05, scallop);
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.scallop = uniform(random, 0.05, scallop);
     return operation;
 }
 

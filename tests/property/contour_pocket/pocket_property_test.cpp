@@ -65,8 +65,8 @@ Region2d region_of(const Operation& operation)
         }
         region.contours.push_back((area(contour) > 0.0) == outer ? contour : reversed(contour));
     };
-    add(*operation.boundary, true);
-    for (const Loop& island : operation.islands) {
+    add(*operation.outline.boundary, true);
+    for (const Loop& island : operation.outline.islands) {
         add(island, false);
     }
     return region;
@@ -76,20 +76,20 @@ Operation random_operation(Random& random)
 {
     while (true) {
         Operation operation;
-        operation.strategy = "contour_pocket";
-        operation.floor = {
+        operation.strategy = &cusp::contour_pocket::kContourPocket;
+        operation.part.floor = {
             random_floor(random, {0.0, 0.0, 100.0, 100.0}, -12.0, uniform(random, 1.0, 6.0))};
-        operation.floor_files = {"floor"};
-        operation.boundary = random_loop(random, {50.0, 50.0}, 44.0, 6);
-        operation.boundary_file = "boundary";
+        operation.part.floor_files = {"floor"};
+        operation.outline.boundary = random_loop(random, {50.0, 50.0}, 44.0, 6);
+        operation.outline.boundary_file = "boundary";
         if (uniform(random, 0.0, 1.0) < 0.7) {
-            operation.islands.push_back(random_loop(random, {48.0, 53.0}, 9.0, 5));
-            operation.island_files.emplace_back("island");
+            operation.outline.islands.push_back(random_loop(random, {48.0, 53.0}, 9.0, 5));
+            operation.outline.island_files.emplace_back("island");
         }
         const double radius = uniform(random, 3.0, 5.0);
         operation.tool = {1, ToolShape::kBall, radius, radius};
-        operation.plan_tolerance = operation.floor_tolerance = 0.02;
-        operation.scallop = 0.3;
+        operation.tolerance.plan = operation.tolerance.floor = 0.02;
+        operation.tolerance.scallop = 0.3;
         operation.output = uniform(random, 0.0, 1.0) < 0.5 ? OutputForm::kLines : OutputForm::kArcs;
         if (!find_fault(region_of(operation))) {
             return operation;
@@ -110,7 +110,7 @@ TEST(RandomPocket, HasNoGougeAndNothingLeftOverTheScallop)
         job.stock_top = 2.0;
         job.clearance = 5.0;
         const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
-        const PocketVerdict verdict = judge_pocket(operation.floor, region_of(operation),
+        const PocketVerdict verdict = judge_pocket(operation.part.floor, region_of(operation),
                                                    planned.back().path, job.stock_top, 180);
         std::printf("seed %u pocket %d: floor gouge %.4f wall gouge %.4f left %.4f uncut %.4f\n",
                     kSeed, i, verdict.floor_gouge, verdict.wall_gouge, verdict.most_left,

@@ -154,7 +154,7 @@ void check_floors(ToolShape shape, unsigned seed, int count, const NextWaves& ne
                           {1, shape, radius, 0.0}, 0.3);
         const PlannedOperation planned = planned_pocket(operation);
         const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, 0.03);
-        const Section section{operation.floor.front(), operation.tool};
+        const Section section{operation.part.floor.front(), operation.tool};
         double gouge = 0.0;
         for (const Vec3d tip : tips) {
             gouge = std::max(gouge, section.tip(tip.x) - tip.z);
@@ -168,9 +168,10 @@ void check_floors(ToolShape shape, unsigned seed, int count, const NextWaves& ne
             most = std::max(most, left * section.cosine(p.x));
         }
         std::printf("seed %u valley %d: tool %.2f/%.2f, gouge %.5f, left %.4f of %.4f\n", seed, i,
-                    radius, operation.tool.corner_radius, gouge, most, *operation.scallop);
+                    radius, operation.tool.corner_radius, gouge, most,
+                    *operation.tolerance.scallop);
         CHECK(gouge <= 1e-6);
-        CHECK(most <= *operation.scallop + 2e-3);
+        CHECK(most <= *operation.tolerance.scallop + 2e-3);
         DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
     }
 }

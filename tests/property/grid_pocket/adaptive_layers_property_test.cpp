@@ -46,7 +46,7 @@ class Judge {
 public:
     Judge(const Job& job, const PocketSpace& pocket)
         : operation_{job.operations.front()},
-          limit_{*operation_.max_engagement + kRasterDegrees},
+          limit_{*operation_.passes.max_engagement + kRasterDegrees},
           raster_{box_about(pocket), job.stock_top, kRasterPitch * operation_.tool.radius}
     {
     }
@@ -78,7 +78,7 @@ public:
                 judge(places, k, layer.z + kHigher);
             }
             const double deep =
-                raster_.cut(next.tip, operation_.tool.radius, operation_.plan_tolerance);
+                raster_.cut(next.tip, operation_.tool.radius, operation_.tolerance.plan);
             double& deepest = next.kind == MoveKind::kRapid ? found.rapid : found.deepest;
             deepest = std::max(deepest, deep);
         }
@@ -161,7 +161,8 @@ void check_layers(const Job& job)
         const std::size_t first = path.moves.size();
         passes.adaptive_layer(layers, layer);
         judge.cut(path.moves, first, layer);
-        CHECK(layer.path.engagement_bound <= *operation.max_engagement / 57.29577951308232 + 1e-9);
+        CHECK(layer.path.engagement_bound <=
+              *operation.passes.max_engagement / 57.29577951308232 + 1e-9);
         for (const auto& over : layer.path.over) {
             listed += over.length;
         }
@@ -169,10 +170,10 @@ void check_layers(const Job& job)
     const Judged& found = judge.found;
     std::printf(
         "  %d layers, %.0f mm in stock, %.2f mm over %.1f degrees, %.2f listed, %.1f mm deep\n",
-        static_cast<int>(layers.layers.size()), found.way, found.over, *operation.max_engagement,
-        listed, found.deepest);
+        static_cast<int>(layers.layers.size()), found.way, found.over,
+        *operation.passes.max_engagement, listed, found.deepest);
     CHECK(found.over <= listed + 1e-3 * found.way);
-    CHECK(found.deepest <= *operation.max_depth + 0.01);
+    CHECK(found.deepest <= *operation.levels.max_depth + 0.01);
     CHECK(found.rapid <= 0.01);
 }
 

@@ -60,8 +60,8 @@ void check_pocket(const Job& job)
     CHECK(figures.wall_gouge_max.value_or(0) <= 1e-3);
     CHECK(figures.rapid_cut_max <= 0.01);
     DOUBLES_EQUAL(0, figures.uncut_share, 0);
-    if (job.operations.front().max_depth) {
-        CHECK(figures.cut_depth_max <= *job.operations.front().max_depth + 0.01);
+    if (job.operations.front().levels.max_depth) {
+        CHECK(figures.cut_depth_max <= *job.operations.front().levels.max_depth + 0.01);
     }
     // Resolution of the height map in memory.
     CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);

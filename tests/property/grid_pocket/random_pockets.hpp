@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/random_jobs.hpp"
@@ -124,37 +125,37 @@ inline offset::Box2d grown_box(const Polygon& polygon, double by)
 inline job::Job random_pocket(Random& random)
 {
     job::Operation operation;
-    operation.strategy = "grid_pocket";
+    operation.strategy = &cusp::grid_pocket::kGridPocket;
     operation.tool = random_tool(random);
     const double radius = operation.tool.radius;
     const Polygon polygon = random_polygon(random, radius);
-    operation.boundary = loop_of(polygon);
+    operation.outline.boundary = loop_of(polygon);
     constexpr double kRough[]{0.0, 0.5, 1.0, 2.0, 3.0};
     const double rough = kRough[whole(random, 0, 4)];
-    operation.floor = {random_floor(random, grown_box(polygon, 2 * radius + 1), -10, rough)};
+    operation.part.floor = {random_floor(random, grown_box(polygon, 2 * radius + 1), -10, rough)};
     if (whole(random, 0, 4) == 0) {
-        operation.floor.push_back(
+        operation.part.floor.push_back(
             random_floor(random, grown_box(polygon, 2 * radius + 1), -10, rough));
     }
     const double coarsest = 2 * radius / std::sqrt(2.0);
-    operation.grid_x = coarsest * uniform(random, 0.25, 1.0);
-    operation.grid_y = coarsest * uniform(random, 0.25, 1.0);
-    operation.plan_tolerance = operation.floor_tolerance = operation.arc_tolerance =
-        uniform(random, 0.01, 0.05);
+    cusp::grid_pocket::grid_keys(operation).grid_x = coarsest * uniform(random, 0.25, 1.0);
+    cusp::grid_pocket::grid_keys(operation).grid_y = coarsest * uniform(random, 0.25, 1.0);
+    operation.tolerance.plan = operation.tolerance.floor =
+        cusp::grid_pocket::grid_keys(operation).arc_tolerance = uniform(random, 0.01, 0.05);
     operation.output = whole(random, 0, 1) == 0 ? job::OutputForm::kLines : job::OutputForm::kArcs;
     constexpr job::EntryKind kEntries[]{job::EntryKind::kAuto, job::EntryKind::kHelix,
                                         job::EntryKind::kRamp, job::EntryKind::kPlunge};
-    operation.entry = kEntries[whole(random, 0, 3)];
+    operation.passes.entry = kEntries[whole(random, 0, 3)];
     if (whole(random, 0, 1) == 0) {
-        operation.zigzag.push_back('x');
+        cusp::grid_pocket::grid_keys(operation).zigzag.push_back('x');
     }
     if (whole(random, 0, 1) == 0) {
-        operation.zigzag.push_back('y');
+        cusp::grid_pocket::grid_keys(operation).zigzag.push_back('y');
     }
     if (whole(random, 0, 2) != 0) {
-        operation.max_depth = uniform(random, 1.5, 4.0);
+        operation.levels.max_depth = uniform(random, 1.5, 4.0);
     }
-    operation.allowance = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
+    operation.passes.allowance = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
     return job_of(operation);
 }
 
@@ -184,17 +185,17 @@ inline job::Job random_adaptive_pocket(Random& random)
 {
     job::Job job = random_pocket(random);
     job::Operation& operation = job.operations.front();
-    operation.max_engagement = uniform(random, 40.0, 100.0);
-    operation.max_depth = uniform(random, 1.5, 4.0);
+    operation.passes.max_engagement = uniform(random, 40.0, 100.0);
+    operation.levels.max_depth = uniform(random, 1.5, 4.0);
     if (whole(random, 0, 1) == 0) {
         Polygon boundary;
-        for (const nurbs::Curve& side : *operation.boundary) {
+        for (const nurbs::Curve& side : *operation.outline.boundary) {
             boundary.push_back({side.points.front().x, side.points.front().y});
         }
         const Polygon island = star_polygon(random, 2.0, 6.0, whole(random, 3, 9));
         if (island_fits(boundary, island)) {
-            operation.islands.push_back(loop_of(island));
-            operation.island_files.emplace_back("island");
+            operation.outline.islands.push_back(loop_of(island));
+            operation.outline.island_files.emplace_back("island");
         }
     }
     return job;

@@ -67,7 +67,7 @@ std::vector<Surface> random_surfaces(Random& random)
 double stock_top(const Job& job)
 {
     double top = job.stock_top;
-    std::vector<Surface> whole_surfaces = job.operations.front().floor;
+    std::vector<Surface> whole_surfaces = job.operations.front().part.floor;
     for (Surface& surface : whole_surfaces) {
         surface.trims.clear();
     }
@@ -96,28 +96,28 @@ std::vector<Tool> random_tools(Random& random)
 Job random_model(Random& random)
 {
     Operation operation;
-    operation.strategy = "hull_rough";
-    operation.floor = random_surfaces(random);
-    for (Surface& surface : operation.floor) {
+    operation.strategy = &cusp::hull_rough::kHullRough;
+    operation.part.floor = random_surfaces(random);
+    for (Surface& surface : operation.part.floor) {
         if (whole(random, 0, 3) == 0) {
             trim(random, surface);
         }
     }
     operation.tools = random_tools(random);
     operation.tool = operation.tools.front();
-    operation.max_depth = uniform(random, 1.5, 4.0);
-    operation.min_depth = *operation.max_depth * 0.4;
-    operation.extra_subdivision = whole(random, 0, 3);
-    operation.contour_clearing = whole(random, 0, 1) == 0;
-    operation.allowance = whole(random, 0, 1) == 0 ? 0.0 : 0.4;
-    operation.plan_tolerance = 0.02;
-    operation.floor_tolerance = 0.02;
+    operation.levels.max_depth = uniform(random, 1.5, 4.0);
+    operation.levels.min_depth = *operation.levels.max_depth * 0.4;
+    cusp::hull_rough::hull_keys(operation).extra_subdivision = whole(random, 0, 3);
+    cusp::hull_rough::hull_keys(operation).contour_clearing = whole(random, 0, 1) == 0;
+    operation.passes.allowance = whole(random, 0, 1) == 0 ? 0.0 : 0.4;
+    operation.tolerance.plan = 0.02;
+    operation.tolerance.floor = 0.02;
     operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
-    operation.overlap = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
-    operation.traversal = whole(random, 0, 3) == 0 ? Traversal::kOneWay : Traversal::kZigzag;
+    cusp::hull_rough::hull_keys(operation).overlap = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
+    operation.passes.traversal = whole(random, 0, 3) == 0 ? Traversal::kOneWay : Traversal::kZigzag;
     constexpr EntryKind kEntries[]{EntryKind::kAuto, EntryKind::kHelix, EntryKind::kRamp,
                                    EntryKind::kPlunge};
-    operation.entry = kEntries[whole(random, 0, 3)];
+    operation.passes.entry = kEntries[whole(random, 0, 3)];
     Job job = job_of(operation);
     // A slower feed makes more changes of cutter worthwhile.
     job.feed = whole(random, 0, 1) == 0 ? 1200 : 100;
@@ -153,7 +153,7 @@ void check_model(unsigned seed)
     DOUBLES_EQUAL(0, count_of(plan.front(), "left_mm2"), 0);
     CHECK(figures.cut_depth_max <= count_of(plan.front(), "deepest_cut_mm") + 0.01);
     CHECK(count_of(plan.front(), "deepest_cut_mm") <=
-          1.1 * *job.operations.front().max_depth + 1e-5);
+          1.1 * *job.operations.front().levels.max_depth + 1e-5);
 }
 
 // Two halls with a neck between them where only a small cutter fits, and a shallow slit beside
@@ -173,13 +173,13 @@ TEST_GROUP(HullProperty){};
 TEST(HullProperty, ALargeFlatCutterMeetsWhatASmallBallLeftAtTheFootOfWalls)
 {
     Operation operation;
-    operation.strategy = "hull_rough";
-    operation.floor = halls_and_slit();
+    operation.strategy = &cusp::hull_rough::kHullRough;
+    operation.part.floor = halls_and_slit();
     operation.tools = {{1, ToolShape::kFlat, 5, 0}, {2, ToolShape::kBall, 2, 2}};
     operation.tool = operation.tools.front();
-    operation.max_depth = 2;
-    operation.min_depth = 1;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.levels.max_depth = 2;
+    operation.levels.min_depth = 1;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     Job job = job_of(operation);
     job.feed = 100;
     const auto plan = plan_hull_rough(job, operation);

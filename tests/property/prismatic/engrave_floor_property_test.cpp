@@ -110,11 +110,11 @@ job::Chain random_curve(Draw& draw)
 Operation random_engraving(Draw& draw)
 {
     Operation operation;
-    operation.strategy = "engrave";
-    operation.floor = random_floor(draw);
+    operation.strategy = &cusp::prismatic::kEngrave;
+    operation.part.floor = random_floor(draw);
     operation.tool = random_tool(draw);
-    operation.floor_tolerance = std::exp(draw.uniform(std::log(0.002), std::log(0.05)));
-    operation.plan_tolerance = 0.02;
+    operation.tolerance.floor = std::exp(draw.uniform(std::log(0.002), std::log(0.05)));
+    operation.tolerance.plan = 0.02;
     operation.prismatic = Prismatic{};
     operation.prismatic->depth = kDepth;
     operation.prismatic->chains = {random_curve(draw)};
@@ -126,7 +126,7 @@ double by_samples(const Operation& operation, const Tool& tip, Vec2d at)
 {
     constexpr int kSamples = 60;
     double highest = -kUnbounded;
-    for (const nurbs::Surface& sheet : operation.floor) {
+    for (const nurbs::Surface& sheet : operation.part.floor) {
         const double u = (sheet.u_end() - sheet.u_begin()) / kSamples;
         const double v = (sheet.v_end() - sheet.v_begin()) / kSamples;
         for (int i = 0; i <= kSamples; ++i) {
@@ -160,7 +160,7 @@ TEST(EngraveFloorProperty, TheTipKeepsItsDepthWithinTheToleranceEverywhere)
         Job job = plain_job();
         job.stock_top = 20;
         const PlannedOperation planned = plan_engrave(job, operation).front();
-        const part_model::PartModel floor{operation.floor};
+        const part_model::PartModel floor{operation.part.floor};
         const Tool tip = toolpath::tip_of(operation.tool);
         Vec3d at{0, 0, 100};
         for (const toolpath::ToolMove& move : planned.path.moves) {
@@ -173,7 +173,7 @@ TEST(EngraveFloorProperty, TheTipKeepsItsDepthWithinTheToleranceEverywhere)
                     const Vec3d p = at + (end - at) * (k / static_cast<double>(parts));
                     const auto z = floor.drop_height(tip, p.x, p.y, p.z + kDepth);
                     CHECK(z.has_value());
-                    const double off = std::abs(*z - kDepth - p.z) / operation.floor_tolerance;
+                    const double off = std::abs(*z - kDepth - p.z) / operation.tolerance.floor;
                     if (off > 1) {
                         std::printf("case %d: %g of the tolerance at %.4f %.4f\n", n, off, p.x,
                                     p.y);

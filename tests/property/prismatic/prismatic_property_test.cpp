@@ -88,12 +88,12 @@ std::vector<Vec2d> random_outline(Draw& draw, double uneven)
     return corners;
 }
 
-Operation cut_of(const char* strategy, double depth)
+Operation cut_of(const job::Strategy& strategy, double depth)
 {
     Operation operation;
-    operation.strategy = strategy;
+    operation.strategy = &strategy;
     operation.tool = {1, ToolShape::kFlat, 3.0, 0.0};
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     operation.output = job::OutputForm::kArcs;
     operation.prismatic.emplace();
     operation.prismatic->depth = depth;
@@ -102,7 +102,7 @@ Operation cut_of(const char* strategy, double depth)
 
 Operation profile_of(const std::vector<Vec2d>& corners, double radius)
 {
-    Operation operation = cut_of("profile", 4.0);
+    Operation operation = cut_of(cusp::prismatic::kProfile, 4.0);
     operation.tool.radius = radius;
     operation.prismatic->loops = {{loop_of(corners), "outline", false}};
     return operation;
@@ -140,13 +140,13 @@ void check_profile(Draw& draw, bool with_leads)
     const bool outside = draw.whole(0, 1) == 0;
     operation.prismatic->side = outside ? ProfileSide::kOutside : ProfileSide::kInside;
     operation.output = draw.whole(0, 1) == 0 ? job::OutputForm::kArcs : job::OutputForm::kLines;
-    operation.direction_of_cut =
+    operation.passes.direction_of_cut =
         draw.whole(0, 1) == 0 ? job::CutDirection::kClimb : job::CutDirection::kConventional;
     if (!with_leads) {
         operation.prismatic->lead_in = 0.0;
     }
     const double allowed =
-        kExact + (operation.output == job::OutputForm::kLines ? operation.plan_tolerance : 0.0);
+        kExact + (operation.output == job::OutputForm::kLines ? operation.tolerance.plan : 0.0);
     std::vector<Place> places;
     try {
         places = places_of(plan_profile(plain_job(), operation).front(), 1e-4, 0.2);
@@ -167,7 +167,7 @@ void check_profile(Draw& draw, bool with_leads)
             CHECK(is_inside(p, corners) != outside);
             CHECK(away >= radius - kExact);
             // a ramp goes along lines in place of arcs
-            const double ramp = place.kind == MoveKind::kPlunge ? operation.plan_tolerance : 0.0;
+            const double ramp = place.kind == MoveKind::kPlunge ? operation.tolerance.plan : 0.0;
             CHECK(with_leads || away <= radius + allowed + ramp);
             cut.push_back(p);
         }
@@ -211,8 +211,8 @@ TEST(PrismaticProperty, TabsStandAsManyAsHighAndAsWideAsAskedFor)
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.0);
         Operation operation = profile_of(corners, draw.uniform(0.5, 3.0));
-        operation.max_depth = draw.uniform(0.7, 5.0);
-        operation.allowance = draw.whole(0, 1) * 0.2;
+        operation.levels.max_depth = draw.uniform(0.7, 5.0);
+        operation.passes.allowance = draw.whole(0, 1) * 0.2;
         job::Tabs tabs{draw.whole(1, 4),
                        {},
                        draw.uniform(2, 6),
@@ -279,7 +279,7 @@ TEST(PrismaticProperty, HolesAreDrilledWhereTheyAreAndOnce)
     const int cases = property_cases(2000);
     Draw draw = seeded("holes", 83, cases);
     for (int i = 0; i < cases; ++i) {
-        Operation operation = cut_of("drill", draw.uniform(0.5, 20));
+        Operation operation = cut_of(cusp::prismatic::kDrill, draw.uniform(0.5, 20));
         const int count = draw.whole(1, 30);
         for (int k = 0; k < count; ++k) {
             operation.prismatic->holes.push_back(
@@ -352,9 +352,9 @@ TEST(PrismaticProperty, FacesLeaveNoPlaceOfTheStock)
     const int cases = property_cases(1000);
     Draw draw = seeded("faces", 9, cases);
     for (int i = 0; i < cases; ++i) {
-        Operation operation = cut_of("face", draw.uniform(0.1, 3));
+        Operation operation = cut_of(cusp::prismatic::kFace, draw.uniform(0.1, 3));
         operation.tool.radius = draw.uniform(1, 12);
-        operation.traversal =
+        operation.passes.traversal =
             draw.whole(0, 1) == 0 ? job::Traversal::kZigzag : job::Traversal::kOneWay;
         Job job = plain_job();
         job.stock_x = {draw.uniform(-50, 0), draw.uniform(10, 80)};
@@ -386,7 +386,7 @@ TEST(PrismaticProperty, EngravingFollowsItsLines)
     Draw draw = seeded("engraving", 5, cases);
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.8);
-        Operation operation = cut_of("engrave", 0.3);
+        Operation operation = cut_of(cusp::prismatic::kEngrave, 0.3);
         operation.prismatic->chains = {loop_of(corners)};
         std::vector<Vec2d> cut;
         for (const Place& place :
@@ -414,7 +414,7 @@ TEST(PrismaticProperty, ChamfersHaveTheirWidthAndSlope)
     Draw draw = seeded("chamfers", 45, cases);
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.0);
-        Operation operation = cut_of("chamfer", 1.0);
+        Operation operation = cut_of(cusp::prismatic::kChamfer, 1.0);
         operation.tool = {1,   ToolShape::kVee,        5.0,
                           0.0, draw.uniform(0.5, 2.0), draw.whole(0, 1) * 0.3};
         operation.prismatic->width = draw.uniform(0.2, 2.0);

@@ -168,11 +168,11 @@ void check_axis(Draw& draw, const Region2d& region)
 Operation carving_of(Draw& draw, const std::vector<Corners>& outlines)
 {
     Operation operation;
-    operation.strategy = "v_carve";
+    operation.strategy = &cusp::prismatic::kVCarve;
     operation.tool = {1,   ToolShape::kVee,        draw.uniform(2, 25),
                       0.0, draw.uniform(0.4, 2.2), draw.whole(0, 1) * 0.1};
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = draw.uniform(0.1, 0.5);
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.scallop = draw.uniform(0.1, 0.5);
     operation.prismatic.emplace();
     for (const Corners& corners : outlines) {
         const bool hole = !operation.prismatic->loops.empty();
@@ -184,7 +184,7 @@ Operation carving_of(Draw& draw, const std::vector<Corners>& outlines)
     operation.prismatic->depth =
         operation.prismatic->given_depth ? draw.uniform(0.1, 1) * flank : flank;
     if (draw.whole(0, 2) == 0) {
-        operation.max_depth = draw.uniform(0.3, 1) * operation.prismatic->depth;
+        operation.levels.max_depth = draw.uniform(0.3, 1) * operation.prismatic->depth;
     }
     return operation;
 }
@@ -220,7 +220,7 @@ void check_carving(Draw& draw, const std::vector<Corners>& outlines)
     const PlannedOperation planned = plan_v_carve(plain_job(), operation).front();
     const double depth = operation.prismatic->depth;
     // chords of the loops around corners stray by half of the tolerance, away from the wall
-    const double exact = 3 * kAxisTolerance * slope + operation.floor_tolerance / 2;
+    const double exact = 3 * kAxisTolerance * slope + operation.tolerance.floor / 2;
     for (int i = 0; i < 40; ++i) {
         const Vec2d q = random_point(draw);
         const double away = distance_to(region, q);
@@ -228,8 +228,8 @@ void check_carving(Draw& draw, const std::vector<Corners>& outlines)
         const double lowest = lowest_over(planned, q);
         CHECK(lowest >= wanted - 1e-4 * slope - 1e-6);
         const bool on_floor = away * slope >= depth - exact;
-        const double left =
-            exact + operation.tool.tip_radius * slope + (on_floor ? *operation.scallop : 0.0);
+        const double left = exact + operation.tool.tip_radius * slope +
+                            (on_floor ? *operation.tolerance.scallop : 0.0);
         CHECK(wanted == 0 || lowest <= wanted + left);
     }
 }

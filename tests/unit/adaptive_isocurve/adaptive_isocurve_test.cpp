@@ -91,7 +91,7 @@ TEST_GROUP(AdaptiveIsocurve)
 {
     std::mt19937 random{5};
     std::vector<Surface> floor{bumps(random, 6), wall(9, 9)};
-    Job job = job_for(floor, "adaptive_isocurve");
+    Job job = job_for(floor, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     Operation& operation = job.operations.front();
 };
 
@@ -106,7 +106,7 @@ TEST(AdaptiveIsocurve, NeverEntersAModelOfSeveralSurfaces)
 TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
 {
     // Otherwise a sliver as thick as the one-sided tolerance would remain up to the stock's top.
-    const Job made = job_for({upright_rim()}, "adaptive_isocurve");
+    const Job made = job_for({upright_rim()}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     const auto volume = swept_by(planned.front().path);
     const SweptVolume& swept = *volume;
@@ -115,14 +115,14 @@ TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
             CHECK(swept.lowest(5 - in, y).height < 0.025);
         }
     }
-    DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
+    DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().part.floor), 1e-6);
 }
 
 TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
 {
-    Job valley = job_for({trough()}, "adaptive_isocurve");
-    valley.operations[0].tolerance_side = ToleranceSide::kBoth;
-    valley.operations[0].scallop = 0.1;
+    Job valley = job_for({trough()}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
+    valley.operations[0].tolerance.side = ToleranceSide::kBoth;
+    valley.operations[0].tolerance.scallop = 0.1;
     const OperationStats stats = plan_adaptive_isocurve(valley, valley.operations[0]).front().stats;
     DOUBLES_EQUAL(0.1, stats.scallop_bound_mm, 1e-9);
     CHECK(stats.counts.back().first == "left_beside_edges_mm");
@@ -132,11 +132,11 @@ TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
 TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
 {
     // The ball is beyond the rims, the lower one along x and those along y, where it touches them.
-    Job made = job_for({}, "adaptive_isocurve");
+    Job made = job_for({}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     Operation& slope = made.operations.front();
     const Vec3d a{0, 0, 0}, b{10, 0, 10};
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
-    slope.mesh = {{a, b, c}, {a, c, d}};
+    slope.part.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = plan_adaptive_isocurve(made, slope).front();
     const auto volume = swept_by(planned.path);
     const SweptVolume& swept = *volume;
@@ -154,10 +154,10 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
 {
     // A curve along the pole followed the rounding of its normals, ten times the length of the
     // bowl.
-    Job made = job_for({bowl()}, "adaptive_isocurve");
+    Job made = job_for({bowl()}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
-    made.operations.front().floor_tolerance = 0.1;
-    made.operations.front().scallop = 0.2;
+    made.operations.front().tolerance.floor = 0.1;
+    made.operations.front().tolerance.scallop = 0.2;
     const test::RecordedProgress progress{made};
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
@@ -170,18 +170,18 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
 
 TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
 {
-    Job bowl = job_for({half_bowl()}, "adaptive_isocurve");
+    Job bowl = job_for({half_bowl()}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     Operation& finish = bowl.operations.front();
     finish.tool.radius = finish.tool.corner_radius = 3;
-    finish.scallop = 0.1;
-    finish.floor_tolerance = 0.005;
-    finish.direction = 'v';
+    finish.tolerance.scallop = 0.1;
+    finish.tolerance.floor = 0.005;
+    cusp::adaptive_isocurve::isocurve_keys(finish).direction = 'v';
     const auto planned = plan_adaptive_isocurve(bowl, finish).front();
     CHECK(planned.stats.scallop_bound_mm <= 0.1);
     // The reach of a ball on the passes' floor beyond the bowl's open side.
-    const PartModel model{finish.floor};
+    const PartModel model{finish.part.floor};
     Tool lifted = finish.tool;
-    lifted.radius += 0.6 * finish.floor_tolerance;
+    lifted.radius += 0.6 * finish.tolerance.floor;
     lifted.corner_radius = lifted.radius;
     const auto volume = swept_by(planned.path);
     const SweptVolume& swept = *volume;
@@ -209,12 +209,12 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
 
 TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
 {
-    Job roof = job_for(open_roof(), "adaptive_isocurve");
+    Job roof = job_for(open_roof(), cusp::adaptive_isocurve::kAdaptiveIsocurve);
     Operation& finish = roof.operations.front();
     finish.tool.radius = finish.tool.corner_radius = 3;
-    finish.scallop = 0.1;
+    finish.tolerance.scallop = 0.1;
     for (const char direction : {'u', 'v'}) {
-        finish.direction = direction;
+        cusp::adaptive_isocurve::isocurve_keys(finish).direction = direction;
         const auto planned = plan_adaptive_isocurve(roof, finish).front();
         CHECK(planned.stats.scallop_bound_mm <= 0.1);
         // A ball on both rims drops between them: it may be no higher than level with them.
@@ -229,9 +229,9 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
 {
     // Two walls that meet in an edge below which no isocurve of either ends.
-    Job made = job_for({wall(0, -1), wall(1.05, 3)}, "adaptive_isocurve");
-    made.operations.front().scallop.reset();
-    made.operations.front().iso_distance = 0.5;
+    Job made = job_for({wall(0, -1), wall(1.05, 3)}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
+    made.operations.front().tolerance.scallop.reset();
+    cusp::adaptive_isocurve::isocurve_keys(made.operations.front()).iso_distance = 0.5;
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     CHECK(std::isfinite(planned.front().stats.scallop_bound_mm));
     CHECK(planned.front().stats.scallop_bound_mm < 2);
@@ -243,16 +243,16 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
     for (unsigned seed = 200; seed < 206; ++seed) {
         std::printf("seed %u ", seed);
         std::mt19937 other{seed};
-        Job made = job_for({bumps(other, 2)}, "adaptive_isocurve");
+        Job made = job_for({bumps(other, 2)}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
         Operation& at_distance = made.operations.front();
-        at_distance.scallop.reset();
-        at_distance.iso_distance = 1.2;
-        at_distance.even_steps = seed % 3 == 0;
-        at_distance.direction = seed % 2 == 0 ? 'u' : 'v';
-        const Surface& surface = at_distance.floor.front();
+        at_distance.tolerance.scallop.reset();
+        cusp::adaptive_isocurve::isocurve_keys(at_distance).iso_distance = 1.2;
+        cusp::adaptive_isocurve::isocurve_keys(at_distance).even_steps = seed % 3 == 0;
+        cusp::adaptive_isocurve::isocurve_keys(at_distance).direction = seed % 2 == 0 ? 'u' : 'v';
+        const Surface& surface = at_distance.part.floor.front();
         const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
         const double bound = planned.stats.scallop_bound_mm;
-        const PartModel model{at_distance.floor};
+        const PartModel model{at_distance.part.floor};
         const auto volume = swept_by(planned.path);
         const SweptVolume& swept = *volume;
         double most = 0;
@@ -278,19 +278,19 @@ TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
     for (unsigned seed = 100; seed < 102; ++seed) {
         std::printf("seed %u ", seed);
         std::mt19937 other{seed};
-        operation.floor = {bumps(other, 12)};
-        operation.direction = seed % 2 == 0 ? 'u' : 'v';
+        operation.part.floor = {bumps(other, 12)};
+        cusp::adaptive_isocurve::isocurve_keys(operation).direction = seed % 2 == 0 ? 'u' : 'v';
         const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
-        CHECK(deepest_cut(planned.path, operation.floor) <= 1e-6);
+        CHECK(deepest_cut(planned.path, operation.part.floor) <= 1e-6);
     }
 }
 
 TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
 {
-    operation.floor.pop_back();
+    operation.part.floor.pop_back();
     operation.output = OutputForm::kNurbs;
-    operation.scallop.reset();
-    operation.iso_distance = 1.0;
+    operation.tolerance.scallop.reset();
+    cusp::adaptive_isocurve::isocurve_keys(operation).iso_distance = 1.0;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     double exact = 0;
     double bound = 1;
@@ -299,9 +299,9 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
         bound = name == "offset_bound_mm" ? value : bound;
     }
     CHECK_EQUAL(planned.stats.passes, static_cast<int>(exact));
-    CHECK(bound <= 0.4 * operation.floor_tolerance);
+    CHECK(bound <= 0.4 * operation.tolerance.floor);
     // The ball is 0.6 tolerances above the surface, within the bound.
-    const PartModel model{operation.floor};
+    const PartModel model{operation.part.floor};
     for (const ToolMove& move : planned.path.moves) {
         if (const NurbsTo* nurbs = std::get_if<NurbsTo>(&move.shape)) {
             const Curve& curve = nurbs->curve;
@@ -310,7 +310,7 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
                     curve.domain_begin() + (curve.domain_end() - curve.domain_begin()) * k / 300;
                 const double apart =
                     model.distance(planned.path.tool, point_at(curve, u), 1).distance;
-                DOUBLES_EQUAL(0.6 * operation.floor_tolerance, apart, bound + 1e-6);
+                DOUBLES_EQUAL(0.6 * operation.tolerance.floor, apart, bound + 1e-6);
             }
         }
     }
@@ -318,17 +318,17 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
 
 TEST(AdaptiveIsocurve, WritesOneNurbsForAPassThatNeverEntersTheModel)
 {
-    operation.floor.pop_back();
+    operation.part.floor.pop_back();
     operation.output = OutputForm::kNurbs;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     const MoveCounts moves = measure(planned.path, {}).moves;
     CHECK(moves.nurbs >= planned.stats.passes - 2);
-    CHECK(deepest_cut(planned.path, operation.floor) <= 1e-6);
+    CHECK(deepest_cut(planned.path, operation.part.floor) <= 1e-6);
 }
 
 TEST(AdaptiveIsocurve, CutsNoDeeperThanHalfTheToleranceWhenBothSidesAreAllowed)
 {
-    operation.tolerance_side = ToleranceSide::kBoth;
+    operation.tolerance.side = ToleranceSide::kBoth;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     CHECK(planned.stats.gouge_bound_mm <= 0.01 + 1e-9);
     CHECK(deepest_cut(planned.path, floor) <= planned.stats.gouge_bound_mm + 1e-6);
@@ -336,15 +336,15 @@ TEST(AdaptiveIsocurve, CutsNoDeeperThanHalfTheToleranceWhenBothSidesAreAllowed)
 
 TEST(AdaptiveIsocurve, FewerRetractsThanPassesByStayingDown)
 {
-    operation.floor.pop_back();
+    operation.part.floor.pop_back();
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     CHECK(planned.stats.retracts * 10 <= planned.stats.passes);
 }
 
 TEST(AdaptiveIsocurve, RetractsAfterEachPassOneWay)
 {
-    operation.floor.pop_back();
-    operation.traversal = Traversal::kOneWay;
+    operation.part.floor.pop_back();
+    operation.passes.traversal = Traversal::kOneWay;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     CHECK(planned.stats.retracts >= planned.stats.passes / 2);
 }
@@ -353,12 +353,12 @@ TEST(AdaptiveIsocurve, RetractsAfterEachPassOneWay)
 // the one before.
 TEST(AdaptiveIsocurve, CutsOneWayInTheDirectionAskedFor)
 {
-    operation.floor.pop_back();
-    operation.traversal = Traversal::kOneWay;
+    operation.part.floor.pop_back();
+    operation.passes.traversal = Traversal::kOneWay;
     for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
-        operation.direction_of_cut = direction;
+        operation.passes.direction_of_cut = direction;
         for (const char parameter : {'u', 'v'}) {
-            operation.direction = parameter;
+            cusp::adaptive_isocurve::isocurve_keys(operation).direction = parameter;
             const std::vector<Vec3d> mids =
                 pass_middles(plan_adaptive_isocurve(job, operation).front().path);
             int right = 0;
@@ -374,9 +374,9 @@ TEST(AdaptiveIsocurve, CutsOneWayInTheDirectionAskedFor)
 
 TEST(AdaptiveIsocurve, IsShorterThanParallelPlanesAtTheSameScallop)
 {
-    operation.floor.pop_back();
+    operation.part.floor.pop_back();
     const auto isocurves = plan_adaptive_isocurve(job, operation).front();
     const auto planes = plan_parallel_planes(job, operation).front();
     CHECK(measure(isocurves.path, {}).cut_length_mm < measure(planes.path, {}).cut_length_mm);
-    CHECK(deepest_cut(planes.path, operation.floor) <= 1e-6);
+    CHECK(deepest_cut(planes.path, operation.part.floor) <= 1e-6);
 }

@@ -8,6 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/finishing/swept_volume.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/refusal.hpp"
@@ -85,14 +86,14 @@ Surface steep() { return plane({0, 0, -kSteepRise}, {0, 6, -kSteepRise}, {1, 0, 
 // A job along y: the planes are a step apart where the ground is steepest.
 Job steep_job(bool as_mesh)
 {
-    Job job = job_for({steep()}, "parallel_planes");
+    Job job = job_for({steep()}, cusp::adaptive_isocurve::kParallelPlanes);
     Operation& operation = job.operations.front();
-    operation.direction = 'v';
-    operation.scallop = 0.05;
+    cusp::adaptive_isocurve::isocurve_keys(operation).direction = 'v';
+    operation.tolerance.scallop = 0.05;
     if (as_mesh) {
-        const std::vector<Vec3d> at = operation.floor.front().points;
-        operation.mesh = {{at[0], at[2], at[3]}, {at[0], at[3], at[1]}};
-        operation.floor.clear();
+        const std::vector<Vec3d> at = operation.part.floor.front().points;
+        operation.part.mesh = {{at[0], at[2], at[3]}, {at[0], at[3], at[1]}};
+        operation.part.floor.clear();
     }
     return job;
 }
@@ -136,8 +137,8 @@ TEST_GROUP(ParallelPlanes){};
 TEST(ParallelPlanes, KeepTheScallopInAHollow)
 {
     // Centres are five times closer than contacts.
-    Job job = job_for({hollow()}, "parallel_planes");
-    job.operations.front().scallop = 0.05;
+    Job job = job_for({hollow()}, cusp::adaptive_isocurve::kParallelPlanes);
+    job.operations.front().tolerance.scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
     DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
     CHECK(most_over(*cut_by(planned.path), hollow()) <= 0.05 / std::cos(std::acos(-1.0) / 6));
@@ -159,7 +160,7 @@ TEST(ParallelPlanes, KeepAProvedBoundWhereTheDistanceIsGiven)
 {
     for (const bool as_mesh : {false, true}) {
         Job job = steep_job(as_mesh);
-        job.operations.front().step_over = 0.3;
+        job.operations.front().passes.step_over = 0.3;
         const PlannedOperation planned = planes_over(job);
         const double left = most_over_steep(planned);
         CHECK(left > 0.05);
@@ -171,10 +172,10 @@ TEST(ParallelPlanes, KeepAProvedBoundWhereTheDistanceIsGiven)
 // Over the ground itself hardly a tenth of that is left.
 TEST(ParallelPlanes, ClaimWhatStaysBesideAWallWhereTheDistanceIsGiven)
 {
-    Job job = job_for(wall_beside_ground(), "parallel_planes");
+    Job job = job_for(wall_beside_ground(), cusp::adaptive_isocurve::kParallelPlanes);
     Operation& operation = job.operations.front();
-    operation.step_over = 0.8;
-    operation.scallop.reset();
+    operation.passes.step_over = 0.8;
+    operation.tolerance.scallop.reset();
     const PlannedOperation planned = planes_over(job);
     const double left = left_beside_wall(planned.path);
     CHECK(left > 0.2);
@@ -185,8 +186,8 @@ TEST(ParallelPlanes, ClaimWhatStaysBesideAWallWhereTheDistanceIsGiven)
 // With a scallop there is a pass along the wall.
 TEST(ParallelPlanes, CutBesideAWallWhereTheScallopIsGiven)
 {
-    Job job = job_for(wall_beside_ground(), "parallel_planes");
-    job.operations.front().scallop = 0.05;
+    Job job = job_for(wall_beside_ground(), cusp::adaptive_isocurve::kParallelPlanes);
+    job.operations.front().tolerance.scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
     CHECK(left_beside_wall(planned.path) <= 0.05);
     DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
@@ -202,8 +203,8 @@ TEST(ParallelPlanes, ReachTheRimsOfASlope)
         p.z += 0.1 * p.y;
     }
     for (const char direction : {'u', 'v'}) {
-        Job job = job_for({flat}, "parallel_planes");
-        job.operations.front().direction = direction;
+        Job job = job_for({flat}, cusp::adaptive_isocurve::kParallelPlanes);
+        cusp::adaptive_isocurve::isocurve_keys(job.operations.front()).direction = direction;
         const PlannedOperation planned = planes_over(job);
         DOUBLES_EQUAL(0.2, planned.stats.scallop_bound_mm, 1e-12);
         CHECK(most_over(*cut_by(planned.path), flat) <= 0.2 * std::sqrt(1 + 0.25 + 0.01));
@@ -213,8 +214,8 @@ TEST(ParallelPlanes, ReachTheRimsOfASlope)
 TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
 {
     // The curvature at a pole is rounding: from none to infinite.
-    Job job = job_for({bowl()}, "parallel_planes");
-    job.operations.front().scallop = 0.1;
+    Job job = job_for({bowl()}, cusp::adaptive_isocurve::kParallelPlanes);
+    job.operations.front().tolerance.scallop = 0.1;
     const PlannedOperation planned = planes_over(job);
     CHECK(planned.stats.passes > 10);
     CHECK(planned.stats.passes < 200);
@@ -223,11 +224,11 @@ TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
 
 TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
 {
-    Job job = job_for({}, "parallel_planes");
+    Job job = job_for({}, cusp::adaptive_isocurve::kParallelPlanes);
     Operation& operation = job.operations.front();
     const Vec3d a{0, 0, 0}, b{10, 0, 10};
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
-    operation.mesh = {{a, b, c}, {a, c, d}};
+    operation.part.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = planes_over(job);
     const auto volume = cut_by(planned.path);
     const SweptVolume& swept = *volume;
@@ -248,14 +249,14 @@ TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
         for (Vec3d& p : s.points) {
             p = p * scale;
         }
-        Job job = job_for({s}, "parallel_planes");
+        Job job = job_for({s}, cusp::adaptive_isocurve::kParallelPlanes);
         job.clearance *= scale;
         Operation& operation = job.operations.front();
         operation.tool.radius *= scale;
         operation.tool.corner_radius *= scale;
-        operation.scallop = *operation.scallop * scale;
-        operation.floor_tolerance *= scale;
-        operation.plan_tolerance *= scale;
+        operation.tolerance.scallop = *operation.tolerance.scallop * scale;
+        operation.tolerance.floor *= scale;
+        operation.tolerance.plan *= scale;
         return planes_over(job);
     };
     const PlannedOperation usual = planned_at(1);
@@ -272,8 +273,9 @@ TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
 TEST(ParallelPlanes, OverASpeckAreFew)
 {
     // Beyond its rims they are a step apart, not as far as over it.
-    Job job = job_for({}, "parallel_planes");
-    job.operations.front().mesh.push_back({Vec3d{0, 0, 0}, Vec3d{1e-5, 0, 0}, Vec3d{0, 1e-5, 0}});
+    Job job = job_for({}, cusp::adaptive_isocurve::kParallelPlanes);
+    job.operations.front().part.mesh.push_back(
+        {Vec3d{0, 0, 0}, Vec3d{1e-5, 0, 0}, Vec3d{0, 1e-5, 0}});
     try {
         CHECK(planes_over(job).stats.passes < 20);
     } catch (const InputError&) {
@@ -283,10 +285,10 @@ TEST(ParallelPlanes, OverASpeckAreFew)
 
 TEST(ParallelPlanes, TooManyOrTooFarApartAreRefused)
 {
-    Job job = job_for({wall(9, 0)}, "parallel_planes");
-    job.operations.front().step_over = 4;
+    Job job = job_for({wall(9, 0)}, cusp::adaptive_isocurve::kParallelPlanes);
+    job.operations.front().passes.step_over = 4;
     STRCMP_CONTAINS("step_over is 4 mm", refusal([&] { planes_over(job); }).c_str());
-    job.operations.front().step_over = 5e-4;
+    job.operations.front().passes.step_over = 5e-4;
     const std::string said = refusal([&] { planes_over(job); });
     STRCMP_CONTAINS("step_over", said.c_str());
     STRCMP_CONTAINS("over a part of 20 mm", said.c_str());

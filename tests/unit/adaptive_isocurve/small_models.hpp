@@ -141,17 +141,17 @@ inline std::vector<nurbs::Surface> open_roof()
             plane({1.4, 0.5, -6}, {1.4, 3.5, -6}, {9.4, 0.5, -6}, {9.4, 3.5, -6})};
 }
 
-inline job::Job job_for(std::vector<nurbs::Surface> floor, const std::string& strategy)
+inline job::Job job_for(std::vector<nurbs::Surface> floor, const job::Strategy& strategy)
 {
     job::Job job = plain_job();
     job.tools = {{1, toolpath::ToolShape::kBall, 2, 2}};
     job.stock_top = 20;
     job::Operation operation;
-    operation.strategy = strategy;
-    operation.floor = std::move(floor);
+    operation.strategy = &strategy;
+    operation.part.floor = std::move(floor);
     operation.tool = job.tools.front();
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = 0.2;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.scallop = 0.2;
     job.operations = {operation};
     return job;
 }

@@ -26,7 +26,7 @@ void refused(const Job& job, const char* word)
 TEST_GROUP(SurfaceOperation)
 {
     std::mt19937 random{5};
-    Job job = job_for({bumps(random, 6), wall(9, 9)}, "adaptive_isocurve");
+    Job job = job_for({bumps(random, 6), wall(9, 9)}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     Operation& operation = job.operations.front();
 };
 
@@ -38,7 +38,7 @@ TEST(SurfaceOperation, RefusesAToolThatIsNoBall)
 
 TEST(SurfaceOperation, RefusesASurfaceWithoutArea)
 {
-    for (Vec3d& p : operation.floor.front().points) {
+    for (Vec3d& p : operation.part.floor.front().points) {
         p = {1, 1, 1};
     }
     refused(job, "degenerate");
@@ -52,16 +52,16 @@ TEST(SurfaceOperation, RefusesAPartOverTheClearanceHeight)
 
 TEST(SurfaceOperation, RefusesToGuessASpacing)
 {
-    operation.scallop.reset();
+    operation.tolerance.scallop.reset();
     refused(job, "iso_distance or scallop");
 }
 
 TEST(SurfaceOperation, RefusesMorePassesThanAnyoneWouldWaitFor)
 {
-    for (Vec3d& p : operation.floor.front().points) {
+    for (Vec3d& p : operation.part.floor.front().points) {
         p = p * 2000.0;
     }
-    operation.scallop = 0.03;
+    operation.tolerance.scallop = 0.03;
     refused(job, "scallop is 0.03 mm, that is passes 0.69");
     refused(job, "over a part of 40000 mm these would be");
     refused(job, "at most 20000 are made");
@@ -69,21 +69,21 @@ TEST(SurfaceOperation, RefusesMorePassesThanAnyoneWouldWaitFor)
 
 TEST(SurfaceOperation, RefusesKeysOfRoughingWithoutIt)
 {
-    operation.allowance = 0.3;
+    operation.passes.allowance = 0.3;
     refused(job, "allowance is 0.3 mm");
-    operation.allowance = 0;
-    operation.max_depth = 2.0;
+    operation.passes.allowance = 0;
+    operation.levels.max_depth = 2.0;
     refused(job, "max_depth");
-    operation.max_depth.reset();
+    operation.levels.max_depth.reset();
     operation.tools = {{2, ToolShape::kFlat, 3, 0}};
     refused(job, "tools names the tools that rough");
-    operation.roughing = true;
-    operation.max_depth = 1e-4;
+    operation.passes.roughing = true;
+    operation.levels.max_depth = 1e-4;
     refused(job, "max_depth is 0.0001 mm");
-    operation.max_depth = 2.0;
-    operation.layers = {4.0, 4.5};
+    operation.levels.max_depth = 2.0;
+    operation.levels.layers = {4.0, 4.5};
     refused(job, "deep, more than max_depth, 2 mm");
-    operation.max_depth = 20.0;
-    operation.min_depth = 1.0;
+    operation.levels.max_depth = 20.0;
+    operation.levels.min_depth = 1.0;
     refused(job, "is 0.5 mm deep, less than min_depth, 1 mm");
 }

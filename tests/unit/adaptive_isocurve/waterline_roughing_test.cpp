@@ -33,12 +33,13 @@ constexpr Tool kBall6{3, ToolShape::kBall, 3, 3};
 Job channel_job()
 {
     Operation operation;
-    operation.strategy = "adaptive_isocurve";
-    operation.roughing = true;
-    operation.floor = {plate(0, 0, 41, 30, -6), plate(25, 0, 30, 30, 0), plate(36, 0, 41, 30, 0)};
+    operation.strategy = &cusp::adaptive_isocurve::kAdaptiveIsocurve;
+    operation.passes.roughing = true;
+    operation.part.floor = {plate(0, 0, 41, 30, -6), plate(25, 0, 30, 30, 0),
+                            plate(36, 0, 41, 30, 0)};
     operation.tools = {kFlat10};
-    operation.max_depth = 2.5;
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.levels.max_depth = 2.5;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
     return job_of(operation);
 }
 
@@ -64,7 +65,7 @@ void finish_says(const char* why, Job job)
 {
     Operation& operation = job.operations.front();
     operation.tool = {3, ToolShape::kBall, 2, 2};
-    operation.scallop = 0.3;
+    operation.tolerance.scallop = 0.3;
     const auto planned = plan_adaptive_isocurve(job, operation);
     CHECK_EQUAL(1U, planned.size());
     CHECK_EQUAL(3, planned.front().path.tool.number);
@@ -100,7 +101,7 @@ TEST(WaterlineRoughing, ACutterThatFindsNothingIsNamedAndLeftOut)
 {
     Job job = channel_job();
     Operation& operation = job.operations.front();
-    operation.floor = {plate(0, 0, 40, 30, -6)};
+    operation.part.floor = {plate(0, 0, 40, 30, -6)};
     operation.tools = {kFlat10, kFlat3};
     const auto planned = plan_waterline_roughing(job, operation);
     CHECK_EQUAL(1U, planned.size());
@@ -112,9 +113,9 @@ TEST(WaterlineRoughing, ACutterThatFitsNowhereLeavesAllToTheSmallerOne)
     Job job = channel_job();
     Operation& operation = job.operations.front();
     job.stock_x = {{0, 41}};
-    operation.floor = {plate(-20, -20, 60, 20, -6), plate(-20, -20, -2.5, 20, 0),
-                       plate(2.5, -20, 60, 20, 0), plate(-3, -20, 3, -10, 0),
-                       plate(-3, 10, 3, 20, 0)};
+    operation.part.floor = {plate(-20, -20, 60, 20, -6), plate(-20, -20, -2.5, 20, 0),
+                            plate(2.5, -20, 60, 20, 0), plate(-3, -20, 3, -10, 0),
+                            plate(-3, 10, 3, 20, 0)};
     operation.tools = {{1, ToolShape::kFlat, 12, 0}, kFlat3};
     const auto planned = plan_waterline_roughing(job, operation);
     CHECK_EQUAL(2, planned.back().path.tool.number);
@@ -144,7 +145,7 @@ TEST(WaterlineRoughing, MinDepthLowersRidgesWhereLevelsWouldElseBeThinner)
     const Job job = channel_job();
     Operation operation = job.operations.front();
     CHECK_EQUAL(3U, rough_depths(job, operation, {kBall6}, 0, -4.8).heights.size());
-    operation.min_depth = 2.2;
+    operation.levels.min_depth = 2.2;
     const RoughDepths depths = rough_depths(job, operation, {kBall6}, 0, -4.8);
     CHECK_EQUAL(2U, depths.heights.size());
     CHECK(depths.scallop_height > 0.04);
@@ -157,8 +158,8 @@ TEST(WaterlineRoughing, TellsWhereMinDepthCanNotBeKept)
 {
     Job job = channel_job();
     Operation& operation = job.operations.front();
-    operation.max_depth = 4.0;
-    operation.min_depth = 3.5;
+    operation.levels.max_depth = 4.0;
+    operation.levels.min_depth = 3.5;
     const auto planned = plan_waterline_roughing(job, operation);
     STRCMP_CONTAINS("less than min_depth, 3.5 mm", planned.front().stats.warnings.front().c_str());
 }
@@ -188,8 +189,8 @@ TEST(WaterlineRoughing, WhereTheStockIsLowerThanTheAllowanceOnlyTheFinishIsPlann
 {
     Job job = channel_job();
     Operation& operation = job.operations.front();
-    operation.floor = {plate(0, 0, 41, 30, -0.2)};
-    operation.allowance = 0.3;
+    operation.part.floor = {plate(0, 0, 41, 30, -0.2)};
+    operation.passes.allowance = 0.3;
     job.stock_top = 0;
     CHECK(plan_waterline_roughing(job, operation).front().path.moves.empty());
     finish_says("the lowest level is at z = 0.1 mm, the stock's top at 0 mm", job);
@@ -200,10 +201,11 @@ TEST(WaterlineRoughing, WhereNoCutterFitsOnlyTheFinishIsPlanned)
 {
     Job job = channel_job();
     Operation& operation = job.operations.front();
-    operation.floor = {plate(0, 0, 41, 30, -6), plate(0, 0, 20, 30, 0), plate(26, 0, 41, 30, 0),
-                       plate(19, 0, 27, 8, 0), plate(19, 22, 27, 30, 0)};
+    operation.part.floor = {plate(0, 0, 41, 30, -6), plate(0, 0, 20, 30, 0),
+                            plate(26, 0, 41, 30, 0), plate(19, 0, 27, 8, 0),
+                            plate(19, 22, 27, 30, 0)};
     job.stock_top = 0;
-    operation.allowance = 0.3;
+    operation.passes.allowance = 0.3;
     CHECK(plan_waterline_roughing(job, operation).front().path.moves.empty());
     finish_says("no roughing tool fits into the stock with an allowance of 0.3 mm", job);
 }

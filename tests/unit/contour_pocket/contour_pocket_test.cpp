@@ -56,14 +56,14 @@ Job job()
 Operation pocket()
 {
     Operation operation;
-    operation.strategy = "contour_pocket";
-    operation.floor = {plane(60.0, -8.0)};
-    operation.floor_files = {"floor.json"};
-    operation.boundary = square_loop(30.0, 30.0, 25.0);
-    operation.boundary_file = "boundary.json";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
+    operation.part.floor = {plane(60.0, -8.0)};
+    operation.part.floor_files = {"floor.json"};
+    operation.outline.boundary = square_loop(30.0, 30.0, 25.0);
+    operation.outline.boundary_file = "boundary.json";
     operation.tool = {1, ToolShape::kBall, 4.0, 4.0};
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = 0.3;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.scallop = 0.3;
     return operation;
 }
 
@@ -117,8 +117,8 @@ TEST(ContourPocket, StartsAndEndsAtClearance)
 TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
 {
     Operation operation = pocket();
-    operation.max_depth = 2.0;
-    operation.allowance = 0.2;
+    operation.levels.max_depth = 2.0;
+    operation.passes.allowance = 0.2;
     const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(2, planned.size());
     double layers = 0.0;
@@ -132,10 +132,10 @@ TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
 TEST(ContourPocket, ClearsAdaptivelyInLayersDownToALevelFloor)
 {
     Operation operation = pocket();
-    operation.boundary = square_loop(30.0, 30.0, 11.0);
+    operation.outline.boundary = square_loop(30.0, 30.0, 11.0);
     operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-    operation.max_engagement = 60.0;
-    operation.max_depth = 4.0;
+    operation.passes.max_engagement = 60.0;
+    operation.levels.max_depth = 4.0;
     const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(1, planned.size());
     LONGS_EQUAL(2, planned.front().stats.levels);
@@ -152,8 +152,8 @@ TEST(ContourPocket, RefusesAdaptiveClearingOnASlope)
 {
     const std::string text = refusal([](Operation& operation) {
         operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-        operation.max_engagement = 60.0;
-        operation.floor.front().points[3].z = -9.0;
+        operation.passes.max_engagement = 60.0;
+        operation.part.floor.front().points[3].z = -9.0;
     });
     CHECK(says(text, "floor.json: clearing \"adaptive\" needs a level floor"));
 }
@@ -161,8 +161,8 @@ TEST(ContourPocket, RefusesAdaptiveClearingOnASlope)
 TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
 {
     Operation operation = pocket();
-    operation.max_depth = 2.0;
-    operation.allowance = 0.2;
+    operation.levels.max_depth = 2.0;
+    operation.passes.allowance = 0.2;
     Job planned = job();
     const test::RecordedProgress progress{planned};
     plan_contour_pocket(planned, operation);
@@ -197,8 +197,8 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
 {
     for (const ToleranceSide side : {ToleranceSide::kOutside, ToleranceSide::kBoth}) {
         Operation operation = pocket();
-        operation.tolerance_side = side;
-        operation.max_depth = 3.0;
+        operation.tolerance.side = side;
+        operation.levels.max_depth = 3.0;
         const ToleranceSplit whole = split_tolerances(job(), operation);
         const auto [rough, finish] = split_between_rough_and_finish(operation, whole);
         CHECK(rough.plan_tolerance > 1e-4);
@@ -208,7 +208,7 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
                       rough.wall_clearance - rough.plan_tolerance, 1e-12);
         DOUBLES_EQUAL(whole.wall_clearance + whole.plan_tolerance,
                       finish.wall_clearance + finish.plan_tolerance, 1e-12);
-        operation.allowance = 0.3;
+        operation.passes.allowance = 0.3;
         DOUBLES_EQUAL(whole.wall_clearance,
                       split_between_rough_and_finish(operation, whole).rough.wall_clearance, 0);
         DOUBLES_EQUAL(whole.plan_tolerance,
@@ -219,7 +219,7 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
 TEST(ContourPocket, CutsInLayersWhereTheRoughingToolDoesNotFit)
 {
     Operation operation = pocket();
-    operation.max_depth = 2.0;
+    operation.levels.max_depth = 2.0;
     operation.tools = {{2, ToolShape::kFlat, 30.0, 0.0}, operation.tool};
     const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(1, planned.size());
@@ -233,9 +233,9 @@ TEST(ContourPocket, CutsValleysThatRoughingDoesNotReachInLayers)
     Surface right = left;
     left.points = {{0.0, 0.0, -4.0}, {0.0, 60.0, -4.0}, {30.0, 0.0, -16.0}, {30.0, 60.0, -16.0}};
     right.points = {{30.0, 0.0, -16.0}, {30.0, 60.0, -16.0}, {60.0, 0.0, -4.0}, {60.0, 60.0, -4.0}};
-    operation.floor = {left, right};
-    operation.max_depth = 2.0;
-    operation.allowance = 0.2;
+    operation.part.floor = {left, right};
+    operation.levels.max_depth = 2.0;
+    operation.passes.allowance = 0.2;
     operation.tool = {1, ToolShape::kBall, 1.5, 1.5};
     operation.tools = {{2, ToolShape::kFlat, 10.0, 0.0}, operation.tool};
     CHECK(deepest_first_cut(plan_contour_pocket(job(), operation), 0.0) <= 2.0 + 0.4);
@@ -245,15 +245,15 @@ TEST(ContourPocket, CutsValleysThatRoughingDoesNotReachInLayers)
 TEST(ContourPocket, CutsTheTerracesThatRoughingLeavesInLayers)
 {
     Operation operation = pocket();
-    operation.floor = {plane(60.0, -24.0)};
-    for (Vec3d& p : operation.floor.front().points) {
+    operation.part.floor = {plane(60.0, -24.0)};
+    for (Vec3d& p : operation.part.floor.front().points) {
         p.z += 0.9 * (p.x - 30.0);
     }
     operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-    operation.plan_tolerance = operation.floor_tolerance = 0.05;
-    operation.scallop = 0.6;
-    operation.max_depth = 2.0;
-    operation.allowance = 0.3;
+    operation.tolerance.plan = operation.tolerance.floor = 0.05;
+    operation.tolerance.scallop = 0.6;
+    operation.levels.max_depth = 2.0;
+    operation.passes.allowance = 0.3;
     Job stock = job();
     stock.stock_top = 4.0;
     const auto plan = plan_contour_pocket(stock, operation);
@@ -270,8 +270,8 @@ TEST(ContourPocket, LayersAreNoThinnerThanMinDepthAsFarAsMaxDepthLets)
 {
     Operation operation = pocket();
     operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-    operation.max_depth = 3.0;
-    operation.min_depth = 2.5;
+    operation.levels.max_depth = 3.0;
+    operation.levels.min_depth = 2.5;
     auto plan = plan_contour_pocket(job(), operation);
     const auto layers = [](const PlannedOperation& planned) {
         return planned.stats.counts.front().second;
@@ -279,7 +279,7 @@ TEST(ContourPocket, LayersAreNoThinnerThanMinDepthAsFarAsMaxDepthLets)
     // Three layers of 2.7 mm.
     DOUBLES_EQUAL(3.0, layers(plan.front()), 0.0);
     LONGS_EQUAL(0, plan.front().stats.warnings.size());
-    operation.min_depth = 2.9;
+    operation.levels.min_depth = 2.9;
     plan = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(1, plan.front().stats.warnings.size());
     STRCMP_CONTAINS("less than min_depth, 2.9 mm", plan.front().stats.warnings.front().c_str());
@@ -305,8 +305,8 @@ TEST(ContourPocket, SaysWhichValleyItDoesNotReach)
     left.points = {{0.0, 0.0, -4.0}, {0.0, 60.0, -4.0}, {60.0, 0.0, -52.0}, {60.0, 60.0, -52.0}};
     Surface right = left;
     right.points = {{0.0, 0.0, -52.0}, {0.0, 60.0, -52.0}, {60.0, 0.0, -4.0}, {60.0, 60.0, -4.0}};
-    operation.floor = {left, right};
-    operation.scallop = 0.1;
+    operation.part.floor = {left, right};
+    operation.tolerance.scallop = 0.1;
     const PlannedOperation planned = plan_contour_pocket(job(), operation).back();
     CHECK(std::any_of(planned.stats.warnings.begin(), planned.stats.warnings.end(),
                       [](const std::string& text) { return says(text, "a valley at ("); }));
@@ -315,48 +315,50 @@ TEST(ContourPocket, SaysWhichValleyItDoesNotReach)
 
 TEST(ContourPocket, RefusesWhatIsMissing)
 {
-    CHECK(says(refusal([](Operation& o) { o.floor.clear(); }), "floor is missing"));
-    CHECK(says(refusal([](Operation& o) { o.boundary.reset(); }), "boundary is missing"));
-    CHECK(says(refusal([](Operation& o) { o.scallop.reset(); }), "scallop is missing"));
+    CHECK(says(refusal([](Operation& o) { o.part.floor.clear(); }), "floor is missing"));
+    CHECK(says(refusal([](Operation& o) { o.outline.boundary.reset(); }), "boundary is missing"));
+    CHECK(says(refusal([](Operation& o) { o.tolerance.scallop.reset(); }), "scallop is missing"));
 }
 
 TEST(ContourPocket, RefusesTolerancesOutOfRange)
 {
-    CHECK(says(refusal([](Operation& o) { o.plan_tolerance = 0.0; }), "plan_tolerance 0 mm"));
-    CHECK(says(refusal([](Operation& o) { o.floor_tolerance = -1.0; }), "floor_tolerance -1 mm"));
-    CHECK(says(refusal([](Operation& o) { o.scallop = 5.0; }), "scallop 5 mm"));
+    CHECK(says(refusal([](Operation& o) { o.tolerance.plan = 0.0; }), "plan_tolerance 0 mm"));
+    CHECK(says(refusal([](Operation& o) { o.tolerance.floor = -1.0; }), "floor_tolerance -1 mm"));
+    CHECK(says(refusal([](Operation& o) { o.tolerance.scallop = 5.0; }), "scallop 5 mm"));
     CHECK(says(
-        refusal([](Operation& o) { o.plan_tolerance = 1.5; }),
+        refusal([](Operation& o) { o.tolerance.plan = 1.5; }),
         "job.toml: operation 1: contour_pocket: plan_tolerance 1.5 mm is not in the range above 0 "
         "to 1 mm, 0.25 of the radius of tool 1"));
-    CHECK(says(refusal([](Operation& o) { o.floor_tolerance = 3.0; }),
+    CHECK(says(refusal([](Operation& o) { o.tolerance.floor = 3.0; }),
                "floor_tolerance 3 mm is not in the range above 0 to 1 mm"));
-    CHECK(says(refusal([](Operation& o) { o.allowance = 4.5; }), "allowance 4.5 mm"));
-    CHECK(says(refusal([](Operation& o) { o.scallop = 0.02; }), "not above floor_tolerance"));
+    CHECK(says(refusal([](Operation& o) { o.passes.allowance = 4.5; }), "allowance 4.5 mm"));
+    CHECK(says(refusal([](Operation& o) { o.tolerance.scallop = 0.02; }),
+               "not above floor_tolerance"));
 }
 
 TEST(ContourPocket, RefusesWhatMakesNoSenseForTheTool)
 {
-    CHECK(says(refusal([](Operation& o) { o.floor = {plane(60.0, -4001.0)}; }),
+    CHECK(says(refusal([](Operation& o) { o.part.floor = {plane(60.0, -4001.0)}; }),
                "floor.json: the floor lies 4001 mm below stock.top, the limit is 4000 mm for the "
                "tool of radius 4 mm"));
     CHECK(says(refusal([](Operation& o) {
-                   o.boundary = square_loop(5e4, 5e4, 4e4);
-                   o.floor = {plane(1e5, -8.0)};
+                   o.outline.boundary = square_loop(5e4, 5e4, 4e4);
+                   o.part.floor = {plane(1e5, -8.0)};
                }),
                "boundary.json: the pocket of 6.4e+09 mm^2 takes"));
-    CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-3; }),
+    CHECK(says(refusal([](Operation& o) { o.levels.max_depth = 1e-3; }),
                "operation 1: contour_pocket: max_depth 0.001 mm makes"));
-    CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-9; }), "layers of 8 mm, the limit is"));
+    CHECK(says(refusal([](Operation& o) { o.levels.max_depth = 1e-9; }),
+               "layers of 8 mm, the limit is"));
 }
 
 TEST(ContourPocket, EntersByAHelixWhereTheInnermostLoopIsTooShortForARamp)
 {
     for (int i = 0; i < 60; ++i) {
         Operation operation = pocket();
-        operation.boundary = square_loop(30.0, 30.0, 12.0 + 0.1 * i);
+        operation.outline.boundary = square_loop(30.0, 30.0, 12.0 + 0.1 * i);
         operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-        operation.entry = EntryKind::kRamp;
+        operation.passes.entry = EntryKind::kRamp;
         const OperationStats stats = plan_contour_pocket(job(), operation).back().stats;
         for (const std::string& text : stats.warnings) {
             CHECK(!says(text, "no room for a slope"));
@@ -368,9 +370,9 @@ TEST(ContourPocket, EntersByASmallHelixWhereThereIsNoRoomForAWideOne)
 {
     for (int i = 0; i < 60; ++i) {
         Operation operation = pocket();
-        operation.boundary = square_loop(30.0, 30.0, 4.4 + 0.005 * i);
-        operation.plan_tolerance = operation.floor_tolerance = 0.001;
-        operation.scallop = 0.004;
+        operation.outline.boundary = square_loop(30.0, 30.0, 4.4 + 0.005 * i);
+        operation.tolerance.plan = operation.tolerance.floor = 0.001;
+        operation.tolerance.scallop = 0.004;
         const OperationStats stats = plan_contour_pocket(job(), operation).back().stats;
         for (const std::string& text : stats.warnings) {
             CHECK(!says(text, "no room for a slope"));
@@ -381,7 +383,7 @@ TEST(ContourPocket, EntersByASmallHelixWhereThereIsNoRoomForAWideOne)
 TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
 {
     Operation operation = pocket();
-    operation.max_depth = 3.0;
+    operation.levels.max_depth = 3.0;
     operation.tools = {{2, ToolShape::kFlat, 30.0, 0.0}, operation.tool};
     const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(1, planned.size());
@@ -391,9 +393,9 @@ TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
 TEST(ContourPocket, OnlyFinishesWhatIsNoHigherThanTheAllowance)
 {
     Operation operation = pocket();
-    operation.floor = {plane(60.0, -0.2)};
-    operation.max_depth = 3.0;
-    operation.allowance = 0.3;
+    operation.part.floor = {plane(60.0, -0.2)};
+    operation.levels.max_depth = 3.0;
+    operation.passes.allowance = 0.3;
     const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
     LONGS_EQUAL(1, planned.size());
     CHECK(says(planned.back().stats.warnings.back(), "no higher than the allowance, 0.3 mm"));
@@ -402,7 +404,7 @@ TEST(ContourPocket, OnlyFinishesWhatIsNoHigherThanTheAllowance)
 TEST(ContourPocket, WarnsThatItCutsAir)
 {
     Operation operation = pocket();
-    operation.floor = {plane(60.0, 8.0)};
+    operation.part.floor = {plane(60.0, 8.0)};
     const auto warnings = plan_contour_pocket(job(), operation).back().stats.warnings;
     CHECK(!warnings.empty() && says(warnings.front(), "lies below stock.top, 0 mm"));
 }
@@ -411,16 +413,16 @@ TEST(ContourPocket, RefusesLoopsThatCross)
 {
     const auto island = [](double x, double half) {
         return [=](Operation& o) {
-            o.islands = {square_loop(x, 30.0, half)};
-            o.island_files = {"island.json"};
+            o.outline.islands = {square_loop(x, 30.0, half)};
+            o.outline.island_files = {"island.json"};
         };
     };
     CHECK(says(refusal(island(52.0, 6.0)), "boundary.json: crosses island.json"));
     CHECK(says(refusal(island(90.0, 6.0)), "island.json: the island lies outside"));
     CHECK(says(refusal([](Operation& o) {
                    const Vec2d p[] = {{5, 5}, {55, 55}, {55, 5}, {5, 55}};
-                   o.boundary = Loop{line_curve(p[0], p[1]), line_curve(p[1], p[2]),
-                                     line_curve(p[2], p[3]), line_curve(p[3], p[0])};
+                   o.outline.boundary = Loop{line_curve(p[0], p[1]), line_curve(p[1], p[2]),
+                                             line_curve(p[2], p[3]), line_curve(p[3], p[0])};
                }),
                "crosses itself"));
 }
@@ -435,7 +437,7 @@ TEST(ContourPocket, RefusesAToolThatFitsNowhere)
 
 TEST(ContourPocket, RefusesAFloorThatDoesNotCoverThePocket)
 {
-    CHECK(says(refusal([](Operation& o) { o.floor = {plane(40.0, -8.0)}; }),
+    CHECK(says(refusal([](Operation& o) { o.part.floor = {plane(40.0, -8.0)}; }),
                "floor.json: the floor does not cover the pocket at"));
 }
 
@@ -452,7 +454,7 @@ Surface strip(double z, double from, double to)
 TEST(ContourPocket, CutsToTheHigherOfTrimmedFacesOnlyWhereItIs)
 {
     Operation operation = pocket();
-    operation.floor = {strip(-8.0, 0.0, 40.0), strip(-6.0, 40.0, 60.0)};
+    operation.part.floor = {strip(-8.0, 0.0, 40.0), strip(-6.0, 40.0, 60.0)};
     const PlannedOperation planned = plan_contour_pocket(job(), operation).back();
     DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
     double left = 1e300;
@@ -471,7 +473,7 @@ TEST(ContourPocket, CutsToTheHigherOfTrimmedFacesOnlyWhereItIs)
 TEST(ContourPocket, RefusesAGapBetweenTrimmedFaces)
 {
     const std::string text = refusal([](Operation& operation) {
-        operation.floor = {strip(-8.0, 0.0, 38.0), strip(-6.0, 40.0, 60.0)};
+        operation.part.floor = {strip(-8.0, 0.0, 38.0), strip(-6.0, 40.0, 60.0)};
     });
     CHECK(says(text, "floor.json"));
     CHECK(says(text, "does not cover the pocket"));
@@ -480,7 +482,7 @@ TEST(ContourPocket, RefusesAGapBetweenTrimmedFaces)
 TEST(ContourPocket, RefusesAHoleInATrimmedFloor)
 {
     const std::string text = refusal([](Operation& operation) {
-        Surface& floor = operation.floor.front();
+        Surface& floor = operation.part.floor.front();
         floor = strip(-8.0, 0.0, 60.0);
         const Loop hole = square_loop(0.5, 0.6, 0.04);
         floor.trims.push_back({hole[3], hole[2], hole[1], hole[0]});

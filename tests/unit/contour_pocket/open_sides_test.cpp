@@ -49,22 +49,22 @@ Job plate()
 Operation pocket(const Loop& outline)
 {
     Operation operation;
-    operation.strategy = "contour_pocket";
-    operation.boundary = outline;
-    operation.boundary_file = "plate.dxf#pocket";
-    operation.floor_files = {"floor.json"};
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
+    operation.outline.boundary = outline;
+    operation.outline.boundary_file = "plate.dxf#pocket";
+    operation.part.floor_files = {"floor.json"};
     nurbs::Surface floor;
     floor.degree_u = floor.degree_v = 1;
     floor.size_u = floor.size_v = 2;
     floor.knots_u = floor.knots_v = {0.0, 0.0, 1.0, 1.0};
     floor.points = {{-5, -5, -8}, {-5, 85, -8}, {85, -5, -8}, {85, 85, -8}};
     floor.weights = {1.0, 1.0, 1.0, 1.0};
-    operation.floor = {floor};
+    operation.part.floor = {floor};
     operation.tool = {1, ToolShape::kFlat, kRadius, 0.0};
     operation.tools = {operation.tool};
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = 0.05;
-    operation.max_engagement = 60.0;
+    operation.tolerance.plan = operation.tolerance.floor = 0.02;
+    operation.tolerance.scallop = 0.05;
+    operation.passes.max_engagement = 60.0;
     return operation;
 }
 
@@ -129,8 +129,8 @@ TEST(OpenSides, StartsMeetNeitherStockNorWalls)
 TEST(OpenSides, AnIslandAndTwoSidesKeepTheirWalls)
 {
     Operation operation = pocket(loop(-2, 40, 82, 55));  // through the stock
-    operation.islands = {loop(30, 45, 36, 50)};
-    operation.island_files = {"plate.dxf#island"};
+    operation.outline.islands = {loop(30, 45, 36, 50)};
+    operation.outline.island_files = {"plate.dxf#island"};
     const auto open = open_sides(plate(), operation, make_region(operation, 0.001), kClearance);
     CHECK(open.has_value());
     LONGS_EQUAL(2, open->region.contours.size());

@@ -36,13 +36,13 @@ Surface level(const Box2d& box, double z)
 Operation beside_a_cliff()
 {
     Operation operation;
-    operation.floor = {level({-10, -10, 40, 40}, -9), level({11, 11, 19, 19}, -2)};
-    operation.boundary = loop_of({{0, 0}, {30, 0}, {30, 30}, {0, 30}});
+    operation.part.floor = {level({-10, -10, 40, 40}, -9), level({11, 11, 19, 19}, -2)};
+    operation.outline.boundary = loop_of({{0, 0}, {30, 0}, {30, 30}, {0, 30}});
     operation.tool = kBall;
-    operation.grid_x = 2;
-    operation.grid_y = 1.5;
-    operation.floor_tolerance = operation.plan_tolerance = 0.02;
-    operation.max_depth = 1.5;
+    cusp::grid_pocket::grid_keys(operation).grid_x = 2;
+    cusp::grid_pocket::grid_keys(operation).grid_y = 1.5;
+    operation.tolerance.floor = operation.tolerance.plan = 0.02;
+    operation.levels.max_depth = 1.5;
     return operation;
 }
 
@@ -65,7 +65,7 @@ TEST(DepthLimiter, StockIsMetAtTheToolsLowerSide)
 TEST(DepthLimiter, HoldsBesideACliffWithAnAllowance)
 {
     Operation operation = beside_a_cliff();
-    operation.allowance = 0.3;
+    operation.passes.allowance = 0.3;
     const auto plan = plan_grid_pocket(plain_job(), operation);
     CHECK(count_of(plan[0], "deepest_cut_mm") <= 1.5);
     CHECK(count_of(plan[0], "depth_passes") > 0);
@@ -77,8 +77,9 @@ TEST(DepthLimiter, HoldsBesideACliffWithAnAllowance)
 TEST(DepthLimiter, HoldsWhereTheFloorFallsByMoreThanALayerFromCellToCell)
 {
     Operation operation = beside_a_cliff();
-    operation.grid_x = operation.grid_y = 4.2;
-    operation.max_depth = 1.0;
+    cusp::grid_pocket::grid_keys(operation).grid_x =
+        cusp::grid_pocket::grid_keys(operation).grid_y = 4.2;
+    operation.levels.max_depth = 1.0;
     const auto plan = plan_grid_pocket(plain_job(), operation);
     CHECK(count_of(plan[0], "deepest_cut_mm") <= 1.0);
 }
@@ -86,8 +87,8 @@ TEST(DepthLimiter, HoldsWhereTheFloorFallsByMoreThanALayerFromCellToCell)
 TEST(DepthLimiter, IsNoneForLayersOfTheJobButTheDepthIsReported)
 {
     Operation operation = beside_a_cliff();
-    operation.max_depth.reset();
-    operation.layers = {4};
+    operation.levels.max_depth.reset();
+    operation.levels.layers = {4};
     const auto plan = plan_grid_pocket(plain_job(), operation);
     DOUBLES_EQUAL(5, count_of(plan[0], "deepest_cut_mm"), 0.1);
 }
@@ -95,8 +96,8 @@ TEST(DepthLimiter, IsNoneForLayersOfTheJobButTheDepthIsReported)
 TEST(DepthLimiter, LayersThatTheFloorKeepsTheToolFromAreNamed)
 {
     Operation operation = beside_a_cliff();
-    operation.max_depth.reset();
-    operation.layers = {4, 9.5, 12};
+    operation.levels.max_depth.reset();
+    operation.levels.layers = {4, 9.5, 12};
     const auto plan = plan_grid_pocket(plain_job(), operation);
     LONGS_EQUAL(1, static_cast<int>(count_of(plan[0], "layers")));
     LONGS_EQUAL(2, plan[0].stats.warnings.size());

@@ -52,17 +52,18 @@ Operation operation_of(unsigned seed, OutputForm output)
 {
     std::mt19937 random{seed};
     Operation operation;
-    operation.strategy = "grid_pocket";
-    operation.floor = {hills(40, 30, random)};
-    operation.boundary = loop_of({{1, 1}, {39, 2}, {36, 15}, {39, 29}, {20, 24}, {2, 28}, {5, 14}});
+    operation.strategy = &cusp::grid_pocket::kGridPocket;
+    operation.part.floor = {hills(40, 30, random)};
+    operation.outline.boundary =
+        loop_of({{1, 1}, {39, 2}, {36, 15}, {39, 29}, {20, 24}, {2, 28}, {5, 14}});
     operation.tool = {1, ToolShape::kBall, 3, 3};
-    operation.grid_x = 1.5;
-    operation.grid_y = 1.2;
+    cusp::grid_pocket::grid_keys(operation).grid_x = 1.5;
+    cusp::grid_pocket::grid_keys(operation).grid_y = 1.2;
     operation.output = output;
-    operation.floor_tolerance = 0.02;
-    operation.plan_tolerance = 0.02;
-    operation.arc_tolerance = 0.02;
-    operation.max_arc_radius = 500;
+    operation.tolerance.floor = 0.02;
+    operation.tolerance.plan = 0.02;
+    cusp::grid_pocket::grid_keys(operation).arc_tolerance = 0.02;
+    cusp::grid_pocket::grid_keys(operation).max_arc_radius = 500;
     return operation;
 }
 
@@ -86,7 +87,7 @@ std::vector<Vec3d> along(const ToolMove& move, Vec3d from)
 
 double least_clearance(const PlannedOperation& plan, const Operation& operation)
 {
-    const PartModel model{operation.floor};
+    const PartModel model{operation.part.floor};
     double least = 1e300;
     Vec3d at = end_of(plan.path.moves.front());
     for (const ToolMove& move : plan.path.moves) {
@@ -122,9 +123,9 @@ TEST(GridPlan, NeverCutsIntoRandomFloors)
 TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
 {
     Operation operation = operation_of(9, OutputForm::kArcs);
-    operation.max_depth = 3;
-    operation.allowance = 0.3;
-    operation.zigzag = {'x', 'y'};
+    operation.levels.max_depth = 3;
+    operation.passes.allowance = 0.3;
+    cusp::grid_pocket::grid_keys(operation).zigzag = {'x', 'y'};
     const auto plan = plan_grid_pocket(plain_job(), operation);
     CHECK(count_of(plan[0], "layers") >= 2);
     CHECK(least_clearance(plan[0], operation) >= -2e-6);
@@ -133,11 +134,11 @@ TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
 TEST(GridPlan, LayersOfBoundedEngagementNeverCutInNorDeeperThanAllowed)
 {
     Operation operation = operation_of(9, OutputForm::kArcs);
-    operation.max_depth = 3;
-    operation.max_engagement = 60;
-    operation.boundary = loop_of({{10, 8}, {28, 8}, {30, 22}, {10, 20}});
-    operation.islands = {loop_of({{19, 13}, {20, 13}, {20, 14}, {19, 14}})};
-    operation.island_files = {"island"};
+    operation.levels.max_depth = 3;
+    operation.passes.max_engagement = 60;
+    operation.outline.boundary = loop_of({{10, 8}, {28, 8}, {30, 22}, {10, 20}});
+    operation.outline.islands = {loop_of({{19, 13}, {20, 13}, {20, 14}, {19, 14}})};
+    operation.outline.island_files = {"island"};
     for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0},
                              Tool{1, ToolShape::kBull, 3, 1}}) {
         operation.tool = tool;
@@ -155,11 +156,11 @@ TEST(GridPlan, TakesLayersOfBoundedEngagementAtTheDepthsOfTheJobAndAtTheFloor)
 {
     Operation operation = operation_of(9, OutputForm::kLines);
     operation.tool = {1, ToolShape::kFlat, 3, 0};
-    for (Vec3d& point : operation.floor.front().points) {
+    for (Vec3d& point : operation.part.floor.front().points) {
         point.z = -4;
     }
-    operation.layers = {1.5};
-    operation.max_engagement = 60;
+    operation.levels.layers = {1.5};
+    operation.passes.max_engagement = 60;
     const auto plan = plan_grid_pocket(plain_job(), operation);
     LONGS_EQUAL(2, count_of(plan[0], "layers"));
     double least = 0;
@@ -172,7 +173,7 @@ TEST(GridPlan, TakesLayersOfBoundedEngagementAtTheDepthsOfTheJobAndAtTheFloor)
 TEST(GridPlan, TurnsAroundWallsInArcsWhereTheFloorIsLevel)
 {
     Operation operation = operation_of(1, OutputForm::kArcs);
-    for (Vec3d& point : operation.floor.front().points) {
+    for (Vec3d& point : operation.part.floor.front().points) {
         point.z = -4;
     }
     for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0}}) {
@@ -193,7 +194,7 @@ TEST(GridPlan, ReportsHowDeepATwoSidedToleranceCutsIn)
 {
     for (const OutputForm form : {OutputForm::kLines, OutputForm::kArcs}) {
         Operation operation = operation_of(6, form);
-        operation.tolerance_side = ToleranceSide::kBoth;
+        operation.tolerance.side = ToleranceSide::kBoth;
         const auto plan = plan_grid_pocket(plain_job(), operation);
         CHECK(plan[0].stats.gouge_bound_mm <= 0.02 + 2e-6);
         CHECK(least_clearance(plan[0], operation) >= -plan[0].stats.gouge_bound_mm - 2e-6);
@@ -203,7 +204,7 @@ TEST(GridPlan, ReportsHowDeepATwoSidedToleranceCutsIn)
 TEST(GridPlan, LayersVisitOnlyCellsThatTheFloorLeaves)
 {
     Operation operation = operation_of(9, OutputForm::kLines);
-    operation.layers = {2.0, 6.0, 7.0};
+    operation.levels.layers = {2.0, 6.0, 7.0};
     const auto plan = plan_grid_pocket(plain_job(), operation);
     CHECK(count_of(plan[0], "steps") < 4 * count_of(plan[0], "cells"));
 }
@@ -214,7 +215,7 @@ TEST(GridPlan, KeepsTheRadiusFromTheWalls)
     const auto plan = plan_grid_pocket(plain_job(), operation);
     Region2d region;
     Contour contour;
-    for (const Curve& c : *operation.boundary) {
+    for (const Curve& c : *operation.outline.boundary) {
         contour.push_back(
             line_edge({c.points[0].x, c.points[0].y}, {c.points[1].x, c.points[1].y}));
     }
@@ -232,13 +233,14 @@ TEST(GridPlan, KeepsTheRadiusFromTheWalls)
 TEST(GridPlan, NamesAGridThatKeepsTheRoughness)
 {
     Operation operation = operation_of(3, OutputForm::kLines);
-    operation.boundary = kSmall;
-    operation.max_roughness = 0.02;
+    operation.outline.boundary = kSmall;
+    cusp::grid_pocket::grid_keys(operation).max_roughness = 0.02;
     const std::string text = refusal(operation);
     CHECK(text.find("suffices") != std::string::npos);
     const std::size_t from = text.find("; grid ") + 7;
-    operation.grid_x = std::stod(text.substr(from));
-    operation.grid_y = std::stod(text.substr(text.find(" x ", from) + 3));
+    cusp::grid_pocket::grid_keys(operation).grid_x = std::stod(text.substr(from));
+    cusp::grid_pocket::grid_keys(operation).grid_y =
+        std::stod(text.substr(text.find(" x ", from) + 3));
     STRCMP_EQUAL("", refusal(operation).c_str());
 }
 
@@ -250,41 +252,44 @@ TEST(GridPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
         change(operation);
         STRCMP_CONTAINS(part, refusal(operation).c_str());
     };
-    says("floor names no surface", [](Operation& o) { o.floor.clear(); });
-    says("boundary is missing", [](Operation& o) { o.boundary.reset(); });
-    says("grid 0.00000 mm must be above 0", [](Operation& o) { o.grid_x = 0; });
-    says("grid nan", [&](Operation& o) { o.grid_x = nothing; });
+    says("floor names no surface", [](Operation& o) { o.part.floor.clear(); });
+    says("boundary is missing", [](Operation& o) { o.outline.boundary.reset(); });
+    says("grid 0.00000 mm must be above 0",
+         [](Operation& o) { cusp::grid_pocket::grid_keys(o).grid_x = 0; });
+    says("grid nan", [&](Operation& o) { cusp::grid_pocket::grid_keys(o).grid_x = nothing; });
     says("grid inf mm is over the diameter / sqrt 2, 4.24264 mm",
-         [](Operation& o) { o.grid_x = HUGE_VAL; });
+         [](Operation& o) { cusp::grid_pocket::grid_keys(o).grid_x = HUGE_VAL; });
     says("grid 4.30000 mm is over the diameter / sqrt 2, 4.24264 mm",
-         [](Operation& o) { o.grid_y = 4.3; });
-    says("cells; at most 4000000", [](Operation& o) { o.grid_x = 1e-4; });
+         [](Operation& o) { cusp::grid_pocket::grid_keys(o).grid_y = 4.3; });
+    says("cells; at most 4000000",
+         [](Operation& o) { cusp::grid_pocket::grid_keys(o).grid_x = 1e-4; });
     says("tool 1 has radius 0.00000 mm", [](Operation& o) { o.tool.radius = 0; });
     says("no place in the pocket is 30.00000 mm from its walls", [](Operation& o) {
         o.tool = {1, ToolShape::kBall, 30, 30};
     });
     says("output \"nurbs\"", [](Operation& o) { o.output = OutputForm::kNurbs; });
-    says("max_depth 0.00000 mm must be above 0", [](Operation& o) { o.max_depth = 0.0; });
+    says("max_depth 0.00000 mm must be above 0", [](Operation& o) { o.levels.max_depth = 0.0; });
     says("max_depth 1e-06 mm makes more than 10000 layers",
-         [](Operation& o) { o.max_depth = 1e-6; });
+         [](Operation& o) { o.levels.max_depth = 1e-6; });
     says("depth 2.00000 mm is not below the one before, 3.00000 mm", [](Operation& o) {
-        o.layers = {3, 2};
+        o.levels.layers = {3, 2};
     });
-    says("max_roughness 0.00000 mm must be above 0", [](Operation& o) { o.max_roughness = 0.0; });
+    says("max_roughness 0.00000 mm must be above 0",
+         [](Operation& o) { cusp::grid_pocket::grid_keys(o).max_roughness = 0.0; });
     says("over max_roughness 0.01000 mm; grid", [](Operation& o) {
-        o.boundary = kSmall;
-        o.max_roughness = 0.01;
+        o.outline.boundary = kSmall;
+        cusp::grid_pocket::grid_keys(o).max_roughness = 0.01;
     });
-    says("tolerance or radius nan", [&](Operation& o) { o.floor_tolerance = nothing; });
-    says("tolerance or radius -0.10000 mm", [](Operation& o) { o.allowance = -0.1; });
+    says("tolerance or radius nan", [&](Operation& o) { o.tolerance.floor = nothing; });
+    says("tolerance or radius -0.10000 mm", [](Operation& o) { o.passes.allowance = -0.1; });
     says("crosses itself at x 15.00000 mm, y 15.00000 mm", [](Operation& o) {
-        o.boundary = loop_of({{0, 0}, {30, 30}, {30, 0}, {0, 30}});
+        o.outline.boundary = loop_of({{0, 0}, {30, 30}, {30, 0}, {0, 30}});
     });
     says("the floor does not cover the pocket at x 100.00000 mm", [](Operation& o) {
-        o.boundary = loop_of({{100, 0}, {130, 0}, {130, 30}});
+        o.outline.boundary = loop_of({{100, 0}, {130, 0}, {130, 30}});
     });
     says("the floor does not cover the pocket at x", [](Operation& o) {
-        o.floor.front().trims = {loop_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}),
-                                 loop_of({{0.5, 0.4}, {0.4, 0.5}, {0.5, 0.6}, {0.6, 0.5}})};
+        o.part.floor.front().trims = {loop_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}),
+                                      loop_of({{0.5, 0.4}, {0.4, 0.5}, {0.5, 0.6}, {0.6, 0.5}})};
     });
 }

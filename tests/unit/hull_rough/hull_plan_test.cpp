@@ -28,13 +28,13 @@ namespace {
 Operation tap_operation(int extra_subdivision)
 {
     Operation operation;
-    operation.strategy = "hull_rough";
-    operation.floor = {tap()};
+    operation.strategy = &cusp::hull_rough::kHullRough;
+    operation.part.floor = {tap()};
     operation.tool = {1, ToolShape::kFlat, 6, 0};
-    operation.max_depth = 2;
-    operation.min_depth = 1;
-    operation.plan_tolerance = 0.02;
-    operation.extra_subdivision = extra_subdivision;
+    operation.levels.max_depth = 2;
+    operation.levels.min_depth = 1;
+    operation.tolerance.plan = 0.02;
+    cusp::hull_rough::hull_keys(operation).extra_subdivision = extra_subdivision;
     return operation;
 }
 
@@ -199,40 +199,41 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
             cusp::test::refusal([&] { plan_hull_rough(plain_job(), operation); });
         STRCMP_CONTAINS(part, text.c_str());
     };
-    says("floor names no surface", [](Operation& o) { o.floor.clear(); });
-    says("max_depth 0.0 mm must be above 0", [](Operation& o) { o.max_depth = 0.0; });
-    says("max_depth nan mm must be above 0", [&](Operation& o) { o.max_depth = nothing; });
+    says("floor names no surface", [](Operation& o) { o.part.floor.clear(); });
+    says("max_depth 0.0 mm must be above 0", [](Operation& o) { o.levels.max_depth = 0.0; });
+    says("max_depth nan mm must be above 0", [&](Operation& o) { o.levels.max_depth = nothing; });
     says("min_depth 3.0 mm lies outside 0 to max_depth 2.0 mm",
-         [](Operation& o) { o.min_depth = 3.0; });
-    says("min_depth nan", [&](Operation& o) { o.min_depth = nothing; });
+         [](Operation& o) { o.levels.min_depth = 3.0; });
+    says("min_depth nan", [&](Operation& o) { o.levels.min_depth = nothing; });
     says("makes more than 10000 layers of a stock 18.66", [](Operation& o) {
-        o.max_depth = 1e-5;
-        o.min_depth = 0.0;
+        o.levels.max_depth = 1e-5;
+        o.levels.min_depth = 0.0;
     });
     says("overlap 12.0 mm lies outside 0 to the diameter 12.0 mm of tool 1",
-         [](Operation& o) { o.overlap = 12; });
-    says("overlap -1.0 mm", [](Operation& o) { o.overlap = -1; });
-    says("overlap nan", [&](Operation& o) { o.overlap = nothing; });
+         [](Operation& o) { cusp::hull_rough::hull_keys(o).overlap = 12; });
+    says("overlap -1.0 mm", [](Operation& o) { cusp::hull_rough::hull_keys(o).overlap = -1; });
+    says("overlap nan", [&](Operation& o) { cusp::hull_rough::hull_keys(o).overlap = nothing; });
     says("allowance or tolerance -0.5 mm must be at least 0",
-         [](Operation& o) { o.allowance = -0.5; });
-    says("extra_subdivision 9 lies outside 0 to 8", [](Operation& o) { o.extra_subdivision = 9; });
+         [](Operation& o) { o.passes.allowance = -0.5; });
+    says("extra_subdivision 9 lies outside 0 to 8",
+         [](Operation& o) { cusp::hull_rough::hull_keys(o).extra_subdivision = 9; });
     says("output \"nurbs\"", [](Operation& o) { o.output = OutputForm::kNurbs; });
     says("layers: depth 2.0 mm is not below the one before", [](Operation& o) {
-        o.layers = {2, 1};
+        o.levels.layers = {2, 1};
     });
-    says("bottom at z 0.0 mm", [](Operation& o) { o.layers = {2, 100}; });
+    says("bottom at z 0.0 mm", [](Operation& o) { o.levels.layers = {2, 100}; });
     says("tool 1 has radius 0.0 mm", [](Operation& o) { o.tool.radius = 0; });
     says("max_depth 1e-05 mm makes more", [](Operation& o) {
-        o.max_depth = 1e-5;
-        o.min_depth = 0.0;
+        o.levels.max_depth = 1e-5;
+        o.levels.min_depth = 0.0;
     });
     says("boundary and islands are not used", [](Operation& o) {
-        o.boundary = loop_of({{0, 0}, {9, 0}, {9, 9}});
+        o.outline.boundary = loop_of({{0, 0}, {9, 0}, {9, 9}});
     });
     says("max_depth inf mm must be above 0",
-         [](Operation& o) { o.max_depth = std::numeric_limits<double>::infinity(); });
+         [](Operation& o) { o.levels.max_depth = std::numeric_limits<double>::infinity(); });
     says("leave nothing of it", [](Operation& o) {
-        o.floor.front().trims = {loop_of({{2, 2}, {3, 2}, {3, 3}, {2, 3}})};
+        o.part.floor.front().trims = {loop_of({{2, 2}, {3, 2}, {3, 3}, {2, 3}})};
     });
 }
 
@@ -247,9 +248,9 @@ TEST(HullPlan, WhereNothingIsToBeRoughedItSaysWhyAndHasNoMoves)
         STRCMP_CONTAINS(part, planned.front().stats.warnings.front().c_str());
     };
     says("the smallest has radius 6.0 mm, with an allowance of 100.0 mm",
-         [](Operation& o) { o.allowance = 100; });
+         [](Operation& o) { o.passes.allowance = 100; });
     says("the part is flat: its hull is 0.0 mm high", [](Operation& o) {
-        for (Vec3d& p : o.floor.front().points) {
+        for (Vec3d& p : o.part.floor.front().points) {
             p.z = 0;
         }
     });

@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
+#include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "host_tools/job/import/drawn_shapes.hpp"
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
@@ -313,19 +314,20 @@ TEST(DxfCurves, BoundPocketsByTheirNesting)
                          square(20, 20, 5) + square(200, 0, 50) + square(210, 10, 6, "keep")));
     std::vector<std::string> notes;
     Operation operation;
-    operation.strategy = "contour_pocket";
+    operation.strategy = &cusp::contour_pocket::kContourPocket;
     const auto pockets = pockets_of(operation, read_loops(file + "#0", 1, {0.02, {}}, notes),
                                     read_loops(file + "#keep", 1, {0.02, {}}, notes));
     CHECK(notes.empty());
     CHECK_EQUAL(3U, pockets.size());
     const double bounds[] = {10000, 2500, 25};
     for (std::size_t k = 0; k < 3; ++k) {
-        DOUBLES_EQUAL(bounds[k], areas_of({*pockets[k].boundary})[0], 1e-6);
+        DOUBLES_EQUAL(bounds[k], areas_of({*pockets[k].outline.boundary})[0], 1e-6);
     }
-    CHECK((areas_of(pockets[0].islands) == std::vector<double>{900, 100}));
-    CHECK((areas_of(pockets[1].islands) == std::vector<double>{36}));
-    CHECK(pockets[2].islands.empty());
-    STRCMP_CONTAINS("d.dxf#0: loop 2 of 5, at x 200 y 0 mm", pockets[1].boundary_file.c_str());
+    CHECK((areas_of(pockets[0].outline.islands) == std::vector<double>{900, 100}));
+    CHECK((areas_of(pockets[1].outline.islands) == std::vector<double>{36}));
+    CHECK(pockets[2].outline.islands.empty());
+    STRCMP_CONTAINS("d.dxf#0: loop 2 of 5, at x 200 y 0 mm",
+                    pockets[1].outline.boundary_file.c_str());
     const std::string outside = cusp::test::refusal([&] {
         pockets_of(
             operation, read_loops(file + "#0", 1, {0.02, {}}, notes),

@@ -5,6 +5,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
@@ -75,11 +76,11 @@ TEST(JobReader, IsocurvesAndPlanesTakeAMeshItselfOtherStrategiesTheSurfacesOverI
                     "\"\nfloor = \"plate.stl\"\nscallop = 0.4\n")
             .operations.front();
     };
-    LONGS_EQUAL(1, operation("adaptive_isocurve").mesh.size());
-    LONGS_EQUAL(0, operation("adaptive_isocurve").floor.size());
-    LONGS_EQUAL(1, operation("parallel_planes").mesh.size());
-    LONGS_EQUAL(0, operation("complete_isocurves").mesh.size());
-    LONGS_EQUAL(1, operation("complete_isocurves").floor.size());
+    LONGS_EQUAL(1, operation("adaptive_isocurve").part.mesh.size());
+    LONGS_EQUAL(0, operation("adaptive_isocurve").part.floor.size());
+    LONGS_EQUAL(1, operation("parallel_planes").part.mesh.size());
+    LONGS_EQUAL(0, operation("complete_isocurves").part.mesh.size());
+    LONGS_EQUAL(1, operation("complete_isocurves").part.floor.size());
 }
 
 TEST(JobReader, IntersectsTheFloor)
@@ -91,16 +92,16 @@ TEST(JobReader, IntersectsTheFloor)
     const Operation whole = read(kHead + hills).operations[0];
     const Operation cut =
         read(kHead + hills + "intersect = \"" + kExampleParts + "dome-lid.json\"\n").operations[0];
-    CHECK(whole.intersect_files.empty());
-    LONGS_EQUAL(1, cut.intersect_files.size());
+    CHECK(whole.part.intersect_files.empty());
+    LONGS_EQUAL(1, cut.part.intersect_files.size());
     // the lid comes last, and something is cut off it
-    CHECK(!cut.floor.back().trims.empty());
-    LONGS_EQUAL(2, cut.floor.back().degree_u);
+    CHECK(!cut.part.floor.back().trims.empty());
+    LONGS_EQUAL(2, cut.part.floor.back().degree_u);
     const auto is_trimmed = [](const Surface& s) {
         return !s.trims.empty();
     };
-    CHECK(std::count_if(cut.floor.begin(), cut.floor.end(), is_trimmed) >
-          std::count_if(whole.floor.begin(), whole.floor.end(), is_trimmed));
+    CHECK(std::count_if(cut.part.floor.begin(), cut.part.floor.end(), is_trimmed) >
+          std::count_if(whole.part.floor.begin(), whole.part.floor.end(), is_trimmed));
 }
 
 TEST(JobReader, RefusesAnIntersectionThatLeavesNothing)
@@ -124,13 +125,13 @@ TEST(JobReader, ReadsTheDemo)
     DOUBLES_EQUAL(6.0, job.tools[0].corner_radius, 0);
     DOUBLES_EQUAL(1200, job.feed, 0);
     const Operation& operation = job.operations.at(0);
-    STRCMP_EQUAL("contour_pocket", operation.strategy.c_str());
-    LONGS_EQUAL(1, operation.floor.size());
-    LONGS_EQUAL(1, operation.islands.size());
-    DOUBLES_EQUAL(0.4, *operation.scallop, 0);
-    DOUBLES_EQUAL(0.01, operation.floor_tolerance, 0);
+    STRCMP_EQUAL("contour_pocket", operation.name().c_str());
+    LONGS_EQUAL(1, operation.part.floor.size());
+    LONGS_EQUAL(1, operation.outline.islands.size());
+    DOUBLES_EQUAL(0.4, *operation.tolerance.scallop, 0);
+    DOUBLES_EQUAL(0.01, operation.tolerance.floor, 0);
     CHECK(operation.output == OutputForm::kArcs);
-    CHECK(operation.tolerance_side == ToleranceSide::kOutside);
+    CHECK(operation.tolerance.side == ToleranceSide::kOutside);
     LONGS_EQUAL(3, operation.tool.number);
 }
 
@@ -159,15 +160,15 @@ TEST(JobReader, TurnsInchesIntoMillimetresEverywhere)
     DOUBLES_EQUAL(101.6, (*job.stock_x)[1], 1e-12);
     DOUBLES_EQUAL(-25.4, (*job.stock_y)[0], 1e-12);
     const Operation& operation = job.operations.at(0);
-    DOUBLES_EQUAL(3.175, operation.grid_x, 1e-12);
-    DOUBLES_EQUAL(1.5875, operation.grid_y, 1e-12);
-    DOUBLES_EQUAL(254, operation.max_arc_radius, 1e-9);
-    DOUBLES_EQUAL(25.4, operation.layers[1], 1e-9);
-    DOUBLES_EQUAL(12.7, *operation.max_depth, 1e-9);
-    DOUBLES_EQUAL(0.254, operation.allowance, 1e-9);
-    DOUBLES_EQUAL(0.02, operation.floor_tolerance, 0);
-    LONGS_EQUAL('y', operation.zigzag[1]);
-    DOUBLES_EQUAL(2.5 * 25.4, (*operation.boundary)[0].points.back().x, 1e-9);
+    DOUBLES_EQUAL(3.175, cusp::grid_pocket::grid_keys(operation).grid_x, 1e-12);
+    DOUBLES_EQUAL(1.5875, cusp::grid_pocket::grid_keys(operation).grid_y, 1e-12);
+    DOUBLES_EQUAL(254, cusp::grid_pocket::grid_keys(operation).max_arc_radius, 1e-9);
+    DOUBLES_EQUAL(25.4, operation.levels.layers[1], 1e-9);
+    DOUBLES_EQUAL(12.7, *operation.levels.max_depth, 1e-9);
+    DOUBLES_EQUAL(0.254, operation.passes.allowance, 1e-9);
+    DOUBLES_EQUAL(0.02, operation.tolerance.floor, 0);
+    LONGS_EQUAL('y', cusp::grid_pocket::grid_keys(operation).zigzag[1]);
+    DOUBLES_EQUAL(2.5 * 25.4, (*operation.outline.boundary)[0].points.back().x, 1e-9);
 }
 
 TEST(JobReader, ReadsTheChoiceOfTools)

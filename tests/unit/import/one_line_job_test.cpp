@@ -87,26 +87,26 @@ TEST(OneLineJob, RoughsADeepPartWithItsOnlyTool)
 {
     const Job job = job_of(request(-10, 5));
     const Operation& operation = job.operations.front();
-    STRCMP_EQUAL("adaptive_isocurve", operation.strategy.c_str());
-    CHECK(operation.roughing);
+    STRCMP_EQUAL("adaptive_isocurve", operation.name().c_str());
+    CHECK(operation.passes.roughing);
     CHECK_EQUAL(1U, operation.tools.size());
     CHECK_EQUAL(1, operation.tool.number);
-    DOUBLES_EQUAL(3, operation.max_depth.value(), 0);
-    DOUBLES_EQUAL(0.3, operation.allowance, 0);
-    DOUBLES_EQUAL(0.02, operation.scallop.value(), 0);
-    DOUBLES_EQUAL(0.01, operation.floor_tolerance, 0);
+    DOUBLES_EQUAL(3, operation.levels.max_depth.value(), 0);
+    DOUBLES_EQUAL(0.3, operation.passes.allowance, 0);
+    DOUBLES_EQUAL(0.02, operation.tolerance.scallop.value(), 0);
+    DOUBLES_EQUAL(0.01, operation.tolerance.floor, 0);
     CHECK(says(request(-10, 5), "roughing: ball 6 mm, layers of at most 3 mm (half the diameter"));
 }
 
 TEST(OneLineJob, LeavesOutRoughingOfWhatOneCutTakes)
 {
-    CHECK_FALSE(job_of(request(0, 2.9)).operations.front().roughing);
-    CHECK(job_of(request(0, 3.1)).operations.front().roughing);
-    CHECK_FALSE(job_of(request(7, 7)).operations.front().roughing);
+    CHECK_FALSE(job_of(request(0, 2.9)).operations.front().passes.roughing);
+    CHECK(job_of(request(0, 3.1)).operations.front().passes.roughing);
+    CHECK_FALSE(job_of(request(7, 7)).operations.front().passes.roughing);
     CHECK(says(request(7, 7), "roughing: none"));
     OneLineRequest asked = request(0, 20);
     asked.roughing = false;
-    CHECK_FALSE(job_of(asked).operations.front().roughing);
+    CHECK_FALSE(job_of(asked).operations.front().passes.roughing);
 }
 
 TEST(OneLineJob, RoughsWithAllToolsButTheLast)
@@ -115,14 +115,14 @@ TEST(OneLineJob, RoughsWithAllToolsButTheLast)
     asked.tools = {"flat:10", "bull:8:1", "ball:3"};
     const Job job = job_of(asked);
     const Operation& operation = job.operations.front();
-    CHECK(operation.roughing);
+    CHECK(operation.passes.roughing);
     CHECK_EQUAL(2U, operation.tools.size());
     CHECK_EQUAL(3, operation.tool.number);
     DOUBLES_EQUAL(1.0, job.tools[1].corner_radius, 0);
-    DOUBLES_EQUAL(4, operation.max_depth.value(), 0);  // of the smaller one
+    DOUBLES_EQUAL(4, operation.levels.max_depth.value(), 0);  // of the smaller one
     // a plate within the allowance: nothing to rough, and no error
     asked.parts = {folder.with("plate.json", ramp(0, 0.2))};
-    CHECK_FALSE(job_of(asked).operations.front().roughing);
+    CHECK_FALSE(job_of(asked).operations.front().passes.roughing);
 }
 
 TEST(OneLineJob, ChoosesTheToleranceByTheScallopAndTheFeedByTheTool)
@@ -131,14 +131,14 @@ TEST(OneLineJob, ChoosesTheToleranceByTheScallopAndTheFeedByTheTool)
     asked.scallop = 0.004;
     asked.tools = {"ball:1"};
     Job job = job_of(asked);
-    DOUBLES_EQUAL(0.002, job.operations.front().floor_tolerance, 0);
+    DOUBLES_EQUAL(0.002, job.operations.front().tolerance.floor, 0);
     DOUBLES_EQUAL(200, job.feed, 1e-9);
     DOUBLES_EQUAL(50, job.plunge_feed, 1e-9);
     CHECK(says(asked, "feed 200 mm/min, plunge feed 50, spindle 12000 rpm: defaults"));
     asked.scallop = 0.5;
     asked.tools = {"ball:20"};
     job = job_of(asked);
-    DOUBLES_EQUAL(0.01, job.operations.front().floor_tolerance, 0);
+    DOUBLES_EQUAL(0.01, job.operations.front().tolerance.floor, 0);
     DOUBLES_EQUAL(1200, job.feed, 1e-9);
 }
 
@@ -159,9 +159,9 @@ TEST(OneLineJob, TakesWhatIsAskedFor)
     DOUBLES_EQUAL(900, job.feed, 0);
     DOUBLES_EQUAL(111, job.plunge_feed, 0);
     DOUBLES_EQUAL(5000, job.spindle, 0);
-    DOUBLES_EQUAL(2.5, operation.max_depth.value(), 0);
-    DOUBLES_EQUAL(0.1, operation.allowance, 0);
-    DOUBLES_EQUAL(0.005, operation.floor_tolerance, 0);
+    DOUBLES_EQUAL(2.5, operation.levels.max_depth.value(), 0);
+    DOUBLES_EQUAL(0.1, operation.passes.allowance, 0);
+    DOUBLES_EQUAL(0.005, operation.tolerance.floor, 0);
     DOUBLES_EQUAL(22, job.stock_top, 0);
     DOUBLES_EQUAL(9, job.clearance, 0);
     CHECK(operation.output == OutputForm::kArcs);
@@ -180,7 +180,7 @@ TEST(OneLineJob, InInchesHasRoundNumbersOfInches)
     DOUBLES_EQUAL(2 * 25.4, job.stock_top, 1e-9);
     DOUBLES_EQUAL(3.175, job.operations.front().tool.radius, 1e-9);
     DOUBLES_EQUAL(47 * 25.4, job.feed, 1e-9);
-    DOUBLES_EQUAL(0.0004 * 25.4, job.operations.front().floor_tolerance, 1e-12);
+    DOUBLES_EQUAL(0.0004 * 25.4, job.operations.front().tolerance.floor, 1e-12);
     CHECK(says(asked, "part: 60 x 40 inch from above, 2 deep"));
 }
 
@@ -194,19 +194,19 @@ TEST(OneLineJob, WithABoundaryIsAPocket)
     asked.scallop = 0.4;
     const Job job = job_of(asked);
     const Operation& operation = job.operations.front();
-    STRCMP_EQUAL("contour_pocket", operation.strategy.c_str());
+    STRCMP_EQUAL("contour_pocket", operation.name().c_str());
     DOUBLES_EQUAL(0, job.stock_top, 0);
-    CHECK_EQUAL(1U, operation.islands.size());
+    CHECK_EQUAL(1U, operation.outline.islands.size());
     CHECK_EQUAL(1, operation.tools.front().number);
     CHECK_EQUAL(2, operation.tool.number);
-    DOUBLES_EQUAL(5, operation.max_depth.value(), 0);
+    DOUBLES_EQUAL(5, operation.levels.max_depth.value(), 0);
 }
 
 TEST(OneLineJob, WritesAnyNameOfAFile)
 {
     OneLineRequest asked = request(0, 2);
     asked.parts = {folder.with("a \"b\\c'\t d\xC3\xA9.json", ramp(0, 2))};
-    CHECK_EQUAL(1U, job_of(asked).operations.front().floor.size());
+    CHECK_EQUAL(1U, job_of(asked).operations.front().part.floor.size());
 }
 
 TEST(OneLineJob, ReadsAPartOnce)
@@ -217,7 +217,7 @@ TEST(OneLineJob, ReadsAPartOnce)
     folder.with("ramp.json", "gone");
     CHECK_EQUAL(1U, read_job({job.toml, "the call", ""}, cusp::strategies::all(), parts)
                         .operations.front()
-                        .floor.size());
+                        .part.floor.size());
 }
 
 TEST(OneLineJob, RefusesPartsThatAreNone)

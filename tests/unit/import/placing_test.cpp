@@ -44,7 +44,7 @@ TEST_GROUP(Placing)
     }
     PartExtent box(const std::string& keys)
     {
-        return extent_of_triangles(read(keys).operations[0].mesh);
+        return extent_of_triangles(read(keys).operations[0].part.mesh);
     }
     std::string refused(const std::string& keys)
     {
@@ -125,7 +125,7 @@ TEST(Placing, KeepsTheFilesOfOnePlacingTogether)
     const auto mesh = [&](const std::string& keys) {
         return read_job(folder.with("job.toml", job + keys), cusp::strategies::all())
             .operations[0]
-            .mesh;
+            .part.mesh;
     };
     const auto together = mesh("[placing]\norigin = \"centre\"\n");
     check_at({-15, -5, -4}, together[0][0]);
@@ -155,7 +155,7 @@ TEST(Placing, TakesDrawingsAlong)
                     "boundary = \"edge.dxf#cut\"\nscallop = 0.1\n"),
         cusp::strategies::all());
     // the floor's corner (60, 0) was turned to (0, 60): its box was x -40 to 0, y 0 to 60
-    check_at({140, 0, 0}, job.operations[0].floor[0].points[0]);
+    check_at({140, 0, 0}, job.operations[0].part.floor[0].points[0]);
     DOUBLES_EQUAL(105 - 1, (*job.stock_x)[0], 1e-3);
     DOUBLES_EQUAL(135 + 1, (*job.stock_x)[1], 1e-3);
     DOUBLES_EQUAL(15 - 2, (*job.stock_y)[0], 1e-3);

@@ -81,17 +81,17 @@ std::vector<PlannedOperation> plan(const Job& job)
         const auto add = [&](std::vector<PlannedOperation> planned) {
             all.insert(all.end(), planned.begin(), planned.end());
         };
-        if (operation.strategy == "profile") {
+        if (operation.cuts(job::Region::kOutline)) {
             add(plan_profile(job, operation));
-        } else if (operation.strategy == "drill") {
+        } else if (operation.cuts(job::Region::kHoles)) {
             add(plan_drill(job, operation));
-        } else if (operation.strategy == "face") {
+        } else if (operation.cuts(job::Region::kTop)) {
             add(plan_face(job, operation));
-        } else if (operation.strategy == "engrave") {
+        } else if (operation.cuts(job::Region::kGrooves)) {
             add(plan_engrave(job, operation));
-        } else if (operation.strategy == "chamfer") {
+        } else if (operation.cuts(job::Region::kEdges)) {
             add(plan_chamfer(job, operation));
-        } else if (operation.strategy == "v_carve") {
+        } else if (operation.cuts(job::Region::kValleys)) {
             add(plan_v_carve(job, operation));
         }
     }
@@ -272,7 +272,7 @@ TEST(Prismatic, WhatFollowsAFaceBeginsWhereItEnds)
         "top = -1\nboundary = \"plate.dxf#window\"\n");
     DOUBLES_EQUAL(-0.5, job.operations[1].prismatic->top, 0);
     DOUBLES_EQUAL(-1.0, job.operations[2].prismatic->top, 0);
-    DOUBLES_EQUAL(-3.0, job.operations[2].floor.front().points.front().z, 0);
+    DOUBLES_EQUAL(-3.0, job.operations[2].part.floor.front().points.front().z, 0);
 }
 
 TEST(Prismatic, AProfileOfNestedLoopsCutsTheHolesFromInside)

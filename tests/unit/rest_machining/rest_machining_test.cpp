@@ -153,15 +153,15 @@ TEST(RestMachining, leaves_out_holes_as_a_whole)
 TEST(RestMachining, tolerates_a_twentieth_of_a_scallop_and_no_more_than_the_tolerances)
 {
     Operation operation;
-    operation.plan_tolerance = 0.02;
-    operation.floor_tolerance = 0.01;
+    operation.tolerance.plan = 0.02;
+    operation.tolerance.floor = 0.01;
     DOUBLES_EQUAL(0.01, rest_tolerance(operation).surface, 1e-12);
-    operation.scallop = 0.1;
+    operation.tolerance.scallop = 0.1;
     DOUBLES_EQUAL(0.005, rest_tolerance(operation).surface, 1e-12);
-    operation.scallop = 0.011;
+    operation.tolerance.scallop = 0.011;
     DOUBLES_EQUAL(0.001, rest_tolerance(operation).surface, 1e-12);
     operation.prismatic.emplace();
     DOUBLES_EQUAL(0.02, rest_tolerance(operation).wall, 1e-12);
-    operation.rest_tolerance = 0.05;
+    operation.rest.tolerance = 0.05;
     DOUBLES_EQUAL(0.05, rest_tolerance(operation).wall, 1e-12);
 }

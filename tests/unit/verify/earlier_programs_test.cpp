@@ -187,8 +187,8 @@ TEST(EarlierPrograms, are_those_of_the_stock_then_of_the_operations)
 {
     job.stock_programs = {"a", "b"};
     job.operations.resize(2);
-    job.operations[0].after = {"c", "a"};
-    job.operations[1].after = {"c", "d"};
+    job.operations[0].rest.after = {"c", "a"};
+    job.operations[1].rest.after = {"c", "d"};
     const std::vector<std::string> wanted{"a", "b", "c", "d"};
     CHECK(wanted == earlier_programs(job));
 }

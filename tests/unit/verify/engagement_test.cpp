@@ -233,9 +233,9 @@ TEST(Engagement, LimitIsThatOfTheToolsOperations)
     job::Job job;
     job::Operation wide;
     wide.tool.number = 1;
-    wide.max_engagement = 90;
+    wide.passes.max_engagement = 90;
     job::Operation narrow = wide;
-    narrow.max_engagement = 45;
+    narrow.passes.max_engagement = 45;
     job::Operation other;
     other.tool.number = 2;
     job.operations = {wide, narrow, other};

@@ -239,7 +239,7 @@ TEST(ToolContact, ThereIsStockAroundAPocketUnlessTheJobGivesItsExtent)
 {
     const HeightGrid grid{0, 0, 1, 20, 20, false};
     job::Operation pocket;
-    pocket.boundary.emplace();
+    pocket.outline.boundary.emplace();
     job.operations = {pocket};
     DOUBLES_EQUAL(-0.5, stock_around(job, grid).x[0], 1e-12);
     DOUBLES_EQUAL(20.5, stock_around(job, grid).y[1], 1e-12);
