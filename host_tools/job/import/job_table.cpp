@@ -405,7 +405,6 @@ void JobTable::check_values()
 // No value where the key is absent and has no default, or where it is a table or a tool.
 std::optional<job::KeyValues::Value> JobTable::value(const job::Key& key, double millimetres)
 {
-    using Kind = job::KeyKind;
     using Value = std::optional<job::KeyValues::Value>;
     const char* const name = key.name.c_str();
     const auto list = [](std::optional<std::vector<double>> numbers, double unit) -> Value {
@@ -421,40 +420,40 @@ std::optional<job::KeyValues::Value> JobTable::value(const job::Key& key, double
                                             : std::nullopt;
     };
     switch (key.kind) {
-        case Kind::kLength:
-        case Kind::kRate:
+        case job::KeyKind::kLength:
+        case job::KeyKind::kRate:
             return number_or_none(millimetres);
-        case Kind::kCount:
+        case job::KeyKind::kCount:
             whole_number(name);
             return number_or_none(1.0);
-        case Kind::kNumber:
-        case Kind::kAngle:
+        case job::KeyKind::kNumber:
+        case job::KeyKind::kAngle:
             return number_or_none(1.0);
-        case Kind::kFlag:
+        case job::KeyKind::kFlag:
             return flag_or_default(name);
-        case Kind::kText: {
+        case job::KeyKind::kText: {
             auto given = text(name);
             return given ? Value{std::move(*given)} : std::nullopt;
         }
-        case Kind::kChoice:
+        case job::KeyKind::kChoice:
             return choice_or_default(name);
-        case Kind::kFiles:
-        case Kind::kTexts: {
+        case job::KeyKind::kFiles:
+        case job::KeyKind::kTexts: {
             auto given = texts(name);
             return given ? Value{std::move(*given)} : std::nullopt;
         }
-        case Kind::kLengths:
-        case Kind::kMargin:
-        case Kind::kInterval:
-        case Kind::kExtent:
+        case job::KeyKind::kLengths:
+        case job::KeyKind::kMargin:
+        case job::KeyKind::kInterval:
+        case job::KeyKind::kExtent:
             return list(one_or_more(name), millimetres);
-        case Kind::kNumbers:
+        case job::KeyKind::kNumbers:
             return list(one_or_more(name), 1.0);
-        case Kind::kPairs:
-        case Kind::kTool:
-        case Kind::kTools:
-        case Kind::kTable:
-        case Kind::kTables:
+        case job::KeyKind::kPairs:
+        case job::KeyKind::kTool:
+        case job::KeyKind::kTools:
+        case job::KeyKind::kTable:
+        case job::KeyKind::kTables:
             break;
     }
     return std::nullopt;
