@@ -261,7 +261,11 @@ void add_stream_command(CLI::App& app, Work& work)
 {
     CLI::App* command = app.add_subcommand("stream", "send a program to a controller");
     const auto arguments = std::make_shared<StreamArguments>();
-    command->add_option("port", arguments->port, "Serial device, pseudo-terminal, or tcp:HOST:PORT")
+    command
+        ->add_option(
+            "port", arguments->port,
+            "Serial device, pseudo-terminal, tcp:HOST:PORT, or usb:NAME: a board on USB by a part\n"
+            "of its name, its serial number or VID:PID; usb: alone is the only one there")
         ->required();
     command->add_option("program", arguments->program, "G-code to send")->required();
     command->add_option("--baud", arguments->baud, "Baud rate of a serial device")

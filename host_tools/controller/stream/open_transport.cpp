@@ -7,11 +7,13 @@
 #include "host_tools/controller/stream/descriptor_transport.hpp"
 #include "host_tools/controller/stream/serial_transport.hpp"
 #include "host_tools/controller/stream/transport.hpp"
+#include "host_tools/controller/stream/usb_ports.hpp"
 
 namespace cusp::stream {
 namespace {
 
 constexpr std::string_view kTcp = "tcp:";
+constexpr std::string_view kUsb = "usb:";
 
 bool is_pseudo_terminal(const std::string& port)
 {
@@ -36,6 +38,10 @@ std::unique_ptr<Transport> open_transport(const std::string& port, int baud)
     try {
         if (port.rfind(kTcp, 0) == 0) {
             return std::make_unique<DescriptorTransport>(open_tcp(port));
+        }
+        if (port.rfind(kUsb, 0) == 0) {
+            return std::make_unique<SerialTransport>(
+                pick_usb_port(list_usb_ports(), port.substr(kUsb.size())), baud);
         }
         std::error_code failed;
         if (!std::filesystem::exists(port, failed)) {

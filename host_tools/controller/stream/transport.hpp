@@ -32,7 +32,8 @@ public:
 
 // Opens a port exclusively.
 //
-// port  "tcp:HOST:PORT"; a pseudo-terminal or a link to one; or a serial device
+// port  "tcp:HOST:PORT"; "usb:NAME", as pick_usb_port() has it; a pseudo-terminal or a link to one;
+//       or a serial device
 // baud  of a serial device
 //
 // Errors: InputError if it cannot be opened.
