@@ -1,5 +1,5 @@
-// PillTable: a small controller with an STM32F411 at 100 MHz, on a board of the kind called Black Pill.
-// It has no timer 8, so timer 1 asks for the pulses.
+// PillTable: a small controller with an STM32F411 at 96 MHz, on a board of the kind called Black Pill.
+// It has no timer 8, so timer 1 asks for the pulses. At its 100 MHz there would be no 48 MHz for USB.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
 #include "hal/stm32f4/step_ports.hpp"
+#include "hal/stm32f4/usb_endpoints.hpp"
 
 namespace cusp::boards {
 
@@ -31,9 +32,11 @@ struct PillTable {
     using Pace = hal::stm32f4::Timer1Pace<Chip>;
     template <class Chip>
     using SerialPort = hal::stm32f4::Usart1Port<Chip>;
-    static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2, 3};
+    static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 96000000, 3, 1, 2, 3};
     static constexpr std::uint32_t kBaud = 115200;
-    static constexpr std::uint32_t kMostStepsPerSecond = 170000;
+    static constexpr hal::stm32f4::UsbIdentity kUsb{0x1209, 0x0001, "cusp black_pill_f411"};
+    static constexpr auto kUsbSession = hal::stm32f4::UsbSession::kNotSensed;
+    static constexpr std::uint32_t kMostStepsPerSecond = 163000;
 };
 
 }  // namespace cusp::boards

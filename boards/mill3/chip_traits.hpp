@@ -7,6 +7,8 @@
 //   SerialPort          hal/stm32f4/serial_ports.hpp: which USART is the line
 //   kClocks             crystal and rates
 //   kBaud               of the line
+//   kUsb, kUsbSession   hal/stm32f4/usb_descriptors.hpp, usb_endpoints.hpp: of a plug on PA11 and PA12; a
+//                       board without has neither
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
 // The traits type of a board defines its parts (Chip, PulsePlayer, ByteLink, Panel,
@@ -15,8 +17,10 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/two_links.hpp"
 #include "firmware/machine/accessories.hpp"
 #include "firmware/machine/stored_state.hpp"
 #include "hal/stm32f4/chip.hpp"
@@ -27,9 +31,19 @@
 #include "hal/stm32f4/peripheral_clocks.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/reset_reason.hpp"
+#include "hal/stm32f4/usb_link.hpp"
 #include "hal/stm32f4/watchdog.hpp"
 
 namespace cusp::boards {
+
+namespace detail {
+
+template <class Table, class = void>
+inline constexpr bool has_usb = false;
+template <class Table>
+inline constexpr bool has_usb<Table, std::void_t<decltype(Table::kUsb)>> = true;
+
+}  // namespace detail
 
 template <class Table>
 struct ChipTraits {
@@ -37,13 +51,17 @@ struct ChipTraits {
     using Pace = typename Table::template Pace<Chip>;
     using SerialPort = typename Table::template SerialPort<Chip>;
     using PulsePlayer = hal::stm32f4::DmaPulsePlayer<Chip, Table, Pace>;
-    using ByteLink = hal::stm32f4::DmaLink<Chip, SerialPort>;
+    using SerialLink = hal::stm32f4::DmaLink<Chip, SerialPort>;
+    static constexpr bool kUsb = detail::has_usb<Table>;
+    using ByteLink = std::
+        conditional_t<kUsb, TwoLinks<SerialLink, hal::stm32f4::UsbLink<Chip, Table>>, SerialLink>;
     using Panel = MillPanel<Chip, ChipTraits>;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
 
     // start_clocks() sets no others.
     static_assert(Table::kClocks.fast_bus_divisor == 1 || Table::kClocks.fast_bus_divisor == 2);
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
+    static_assert(!kUsb || Table::kClocks.has_usb(), "no 48 MHz from this core_hz");
 
     // Members that MillPanel needs.
     static constexpr bool kSpindleTimer = true;
@@ -92,9 +110,15 @@ struct ChipTraits {
         }
         enable_interrupt<Chip>(serial_interrupt(), kSerialPriority);
         enable_interrupt<Chip>(send_interrupt(), kSerialPriority);
-        board.byte_link.start(
+        serial_link(board).start(
             SerialPort::kOnFastBus ? Table::kClocks.fast_bus_hz() : Table::kClocks.slow_bus_hz(),
             Table::kBaud);
+        if constexpr (kUsb) {
+            // The chip's own oscillator is not accurate enough for it.
+            if (clock_source_ == ClockSource::kCrystal) {
+                start_usb(board.byte_link.usb);
+            }
+        }
         set_field(Chip::system().shpr3, 16, 8, kServoTickPriority);
     }
 
@@ -137,6 +161,29 @@ struct ChipTraits {
     }
 
 private:
+    template <class Board>
+    static SerialLink& serial_link(Board& board) noexcept
+    {
+        if constexpr (kUsb) {
+            return board.byte_link.serial;
+        } else {
+            return board.byte_link;
+        }
+    }
+    template <class Usb>
+    static void start_usb(Usb& usb) noexcept
+    {
+        using namespace hal::stm32f4;
+        constexpr unsigned kUsbOnPin = 10;
+        constexpr std::uint32_t kUsbClock = 1U << 7U;
+        set_bits(Chip::rcc().ahb2enr, kUsbClock);
+        static_cast<void>(Chip::rcc().ahb2enr.read());
+        for (const unsigned pin : {kUsbMinus.number, kUsbPlus.number}) {
+            set_pin_function(Chip::port(kUsbMinus.port), pin, kUsbOnPin, Pull::kNone);
+        }
+        usb.start(Table::kUsbSession);
+        enable_interrupt<Chip>(kUsbInterrupt, kUsbPriority);
+    }
     static constexpr std::uint32_t clocks_of_ports() noexcept
     {
         std::uint32_t ports = clock_bits(kPanelPins) | clock_bit(SerialPort::kTransmit) |

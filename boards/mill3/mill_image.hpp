@@ -38,14 +38,22 @@ public:
         board_.byte_link.on_interrupt();
         finish_stores();
     }
+    void usb_interrupt() noexcept
+    {
+        if constexpr (Traits::kUsb) {
+            board_.byte_link.usb.on_interrupt();
+        }
+        finish_stores();
+    }
     [[noreturn]] void run() noexcept { Traits::run(board_, application_); }
 
     static constexpr hal::stm32f4::VectorTable vectors() noexcept
     {
-        const std::array<hal::stm32f4::InterruptEntry, 3> interrupts{{
+        const std::array<hal::stm32f4::InterruptEntry, 4> interrupts{{
             {Traits::player_interrupt(), cusp_player_interrupt},
             {Traits::serial_interrupt(), cusp_serial_interrupt},
             {Traits::send_interrupt(), cusp_serial_interrupt},
+            {hal::stm32f4::kUsbInterrupt, Traits::kUsb ? cusp_usb_interrupt : cusp_exception},
         }};
         return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,
                                           cusp_servo_tick, interrupts);

@@ -8,6 +8,7 @@
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
 #include "hal/stm32f4/step_ports.hpp"
+#include "hal/stm32f4/usb_endpoints.hpp"
 
 namespace cusp::boards {
 
@@ -32,6 +33,8 @@ struct MillTable {
     using SerialPort = hal::stm32f4::Usart1Port<Chip>;
     static constexpr hal::stm32f4::ClockPlan kClocks{8000000, 168000000, 5, 2, 4, 1};
     static constexpr std::uint32_t kBaud = 115200;
+    static constexpr hal::stm32f4::UsbIdentity kUsb{0x1209, 0x0001, "cusp mill3_f405"};
+    static constexpr auto kUsbSession = hal::stm32f4::UsbSession::kNotSensed;
     static constexpr std::uint32_t kMostStepsPerSecond = 250000;
 };
 

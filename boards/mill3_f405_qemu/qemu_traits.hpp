@@ -96,6 +96,7 @@ struct QemuTraits {
         hal::qemu::exit_qemu(kFaultStatus);
     }
 
+    static constexpr bool kUsb = false;
     // True if the player's interrupt calls for the servo tick; a program's run makes its own.
     static bool live() noexcept { return live_; }
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }

@@ -9,6 +9,7 @@
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
 #include "hal/stm32f4/step_ports.hpp"
+#include "hal/stm32f4/usb_endpoints.hpp"
 
 namespace cusp::boards {
 
@@ -35,6 +36,8 @@ struct OctopusTable {
     using SerialPort = hal::stm32f4::Usart1Port<Chip>;
     static constexpr hal::stm32f4::ClockPlan kClocks{12000000, 168000000, 5, 2, 4, 3};
     static constexpr std::uint32_t kBaud = 115200;
+    static constexpr hal::stm32f4::UsbIdentity kUsb{0x1209, 0x0001, "cusp octopus_f446"};
+    static constexpr auto kUsbSession = hal::stm32f4::UsbSession::kOverridden;
     static constexpr std::uint32_t kMostStepsPerSecond = 250000;
 };
 

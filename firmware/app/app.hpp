@@ -132,6 +132,14 @@ template <class Board>
 bool App<Board>::read_bytes() noexcept
 {
     constexpr unsigned kBytesPerSlice = 64;
+    constexpr bool kFollows = hal::follows_lines<decltype(Board::byte_link)>;
+    if constexpr (kFollows) {
+        if (board_.byte_link.sender_left()) {
+            machine_.sender_left();
+        }
+        board_.byte_link.follow({machine_.all_answered(), machine_.replies().pending().empty(),
+                                 machine_.room(), machine_.motion().ticks()});
+    }
     if (board_.byte_link.overrun()) {
         machine_.bytes_lost();
     }
@@ -141,7 +149,8 @@ bool App<Board>::read_bytes() noexcept
         machine_.receive(byte);
         ++count;
     }
-    if (count < kBytesPerSlice) {
+    // A sender that is held back has more.
+    if (count < kBytesPerSlice && (!kFollows || machine_.room() > 0)) {
         machine_.link_empty();
     }
     return count > 0;

@@ -53,7 +53,14 @@ public:
     // A byte from the sender.
     void receive(std::uint8_t byte) noexcept;
     // Bytes were lost on their way to receive().
-    void bytes_lost() noexcept { link_lost_bytes_ = true; }
+    void bytes_lost() noexcept { received_.put(kLossMark); }
+
+    // The sender's plug was pulled, or its program has ended: $796.
+    void sender_left() noexcept;
+    // Every line that was received is answered, and every query; a line may have begun.
+    bool all_answered() const noexcept;
+    // Bytes of text that receive() takes without a loss.
+    std::uint32_t room() const noexcept { return received_.room(); }
 
     // One slice of work. Returns whether anything was done.
     bool poll() noexcept;
@@ -99,6 +106,9 @@ public:
     bool idle() const noexcept;
 
 private:
+    // Among the text, which has no such byte: here some were lost.
+    static constexpr std::uint8_t kLossMark = 0x80;
+
     // The event that the executed line waits for.
     enum class Task : std::uint8_t {
         kNone,
@@ -254,7 +264,6 @@ private:
     bool door_wanted_{false};
     bool cancel_wanted_{false};
     bool spindle_stop_wanted_{false};
-    bool link_lost_bytes_{false};
     bool frame_missed_{false};
     std::uint32_t stop_bytes_{0};
 

@@ -11,13 +11,18 @@ constexpr unsigned kBytesPerSlice = 64;
 
 bool Machine::read_lines() noexcept
 {
-    if (lost_answers_ > 0 || link_lost_bytes_ || received_.lost()) {
+    if (lost_answers_ > 0 || received_.lost()) {
         return report_lost_bytes();
     }
     unsigned taken = 0;
     std::uint8_t byte = 0;
     while (taken < kBytesPerSlice && received_.take(byte)) {
         ++taken;
+        if (byte == kLossMark) {
+            message("Serial overrun: bytes lost");
+            line_.mark_overflow();
+            return true;
+        }
         if (!line_.started()) {
             line_start_ = received_.taken() - 1;
         }
@@ -35,12 +40,6 @@ bool Machine::report_lost_bytes() noexcept
     if (lost_answers_ > 0) {
         --lost_answers_;
         answer(Error::kOverflow);
-        return true;
-    }
-    if (link_lost_bytes_) {
-        link_lost_bytes_ = false;
-        message("Serial overrun: bytes lost");
-        line_.mark_overflow();
         return true;
     }
     message("Receive buffer overflow: bytes lost");

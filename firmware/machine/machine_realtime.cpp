@@ -199,6 +199,23 @@ bool Machine::watch_link() noexcept
     return true;
 }
 
+void Machine::sender_left() noexcept
+{
+    const bool may_hold = state_ == State::kIdle || state_ == State::kRun ||
+                          state_ == State::kJog || state_ == State::kHome;
+    if (may_hold && !idle() && stored_.settings.on(Setting::kHoldWhenLeft)) {
+        message("Link lost: holding");
+        hold_wanted_ = true;
+    }
+}
+
+bool Machine::all_answered() const noexcept
+{
+    const bool lines = received_.empty() && lost_answers_ == 0 && task_ == Task::kNone;
+    const bool startup = startup_next_ == kStartupLineCount && !answer_after_startup_;
+    return lines && startup && !status_wanted_ && !reset_wanted_;
+}
+
 void Machine::feed_hold() noexcept
 {
     if (state_ == State::kJog) {

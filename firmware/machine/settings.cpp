@@ -74,6 +74,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {793, 0, 0, 0, 3, 3},
     {794, 0, 0, 0, 1, 3},
     {795, 0, 0, 0, 1, 5},
+    {796, 0, 1, 0, 1, 6},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},

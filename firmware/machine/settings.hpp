@@ -67,6 +67,7 @@ enum class Setting : std::uint8_t {
     kSecondMotor,             // $793: axis with a second motor, 1 to 3; 0: none
     kSquaring,                // $794: the second motor has a switch of its own
     kOptionalStop,            // $795: M1 stops
+    kHoldWhenLeft,            // $796: a sender that leaves while something moves
     kJerk,                    // $800 mm/s^3
     kShaperType = kJerk + 3,  // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz
@@ -92,7 +93,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 5;
+inline constexpr std::uint8_t kSettingsLayout = 6;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.

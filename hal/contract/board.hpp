@@ -40,9 +40,31 @@ constexpr bool is_pulse_player()
 //   overrun()        whether received bytes were lost since the last call; clears the mark.
 //   write_room()     bytes that write() takes now.
 //   write(bytes)     precondition: bytes.size() <= write_room().
+//
+// A link with more than one sender, or one that can hold a sender back, also has
+//
+//   follow(lines)    the state of the lines that were read, before the next are. A sender is held
+//                    back while there is no room.
+//   sender_left()    whether the sender whose lines are read has left since the last call: its plug,
+//                    or the program that held its port.
+struct LineState {
+    bool answered;       // every line, and every query
+    bool silent;         // no answer waits to be written
+    std::uint32_t room;  // bytes of text that may be read
+    std::uint32_t tick;  // of the servo; wraps
+};
+template <class T, class = void>
+inline constexpr bool follows_lines = false;
+template <class T>
+inline constexpr bool follows_lines<T, std::void_t<decltype(&T::follow)>> = true;
+
 template <class T>
 constexpr bool is_byte_link()
 {
+    if constexpr (follows_lines<T>) {
+        static_assert(std::is_same_v<decltype(&T::follow), void (T::*)(const LineState&) noexcept>);
+        static_assert(std::is_same_v<decltype(&T::sender_left), bool (T::*)() noexcept>);
+    }
     static_assert(std::is_same_v<decltype(&T::try_read), bool (T::*)(std::uint8_t&) noexcept>);
     static_assert(std::is_same_v<decltype(&T::try_scan), bool (T::*)(std::uint8_t&) noexcept>);
     static_assert(std::is_same_v<decltype(&T::overrun), bool (T::*)() noexcept>);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/stm32f4/registers.hpp"
+#include "hal/stm32f4/usb_registers.hpp"
 
 namespace cusp::hal::stm32f4 {
 
@@ -35,6 +36,7 @@ struct Chip {
     static Timer<Word>& timer11() noexcept { return block_at<Timer<Word>>(0x40014800); }
     static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
     static Usart<Word>& usart2() noexcept { return block_at<Usart<Word>>(0x40004400); }
+    static UsbCore<Word>& usb() noexcept { return block_at<UsbCore<Word>>(0x50000000); }
     static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
     static Debug<Word>& debug() noexcept { return block_at<Debug<Word>>(0xE0042000); }
     static InterruptController<Word>& interrupts() noexcept
@@ -63,12 +65,14 @@ struct Chip {
 
 inline constexpr unsigned kTimer2Interrupt = 28;
 inline constexpr unsigned kUsart1Interrupt = 37;
+inline constexpr unsigned kUsbInterrupt = 67;
 inline constexpr unsigned kInterruptCount = 82;
 
 // Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.
 inline constexpr std::uint32_t kPlayerPriority = 0x00;
 inline constexpr std::uint32_t kSerialPriority = 0x40;
 inline constexpr std::uint32_t kServoTickPriority = 0xC0;
+inline constexpr std::uint32_t kUsbPriority = 0xE0;
 
 template <class Chip>
 void enable_interrupt(unsigned number, std::uint32_t priority) noexcept

@@ -8,6 +8,7 @@
 namespace cusp::hal::stm32f4 {
 
 // The clock rates of a chip of the family. The crystal is divided to 1 MHz, multiplied and halved.
+// USB has its 48 MHz from the same multiplier where twice core_hz is a multiple of it.
 struct ClockPlan {
     std::uint32_t crystal_hz;        // a whole number of MHz
     std::uint32_t core_hz;           // a whole number of MHz, 50 to 216
@@ -17,6 +18,9 @@ struct ClockPlan {
     std::uint32_t regulator_scale;  // VOS of PWR_CR that allows this rate: 1 (F405), 3 (F411, F446)
     bool external{false};           // a clock from outside drives OSC_IN instead of a crystal
 
+    constexpr bool has_usb() const { return 2 * core_hz % kUsbHz == 0; }
+    // Of the multiplier's other output, PLLQ; one that nothing uses where there is no USB.
+    constexpr std::uint32_t usb_divisor() const { return has_usb() ? 2 * core_hz / kUsbHz : 7; }
     constexpr std::uint32_t fast_bus_hz() const { return core_hz / fast_bus_divisor; }
     constexpr std::uint32_t slow_bus_hz() const { return core_hz / slow_bus_divisor; }
     // Timers count twice their bus's rate where that is divided.
@@ -25,6 +29,8 @@ struct ClockPlan {
         return fast_bus_divisor == 1 ? core_hz : 2 * fast_bus_hz();
     }
     constexpr std::uint32_t slow_timer_hz() const { return 2 * slow_bus_hz(); }
+
+    static constexpr std::uint32_t kUsbHz = 48000000;
 };
 
 enum class ClockSource : std::uint8_t {
@@ -147,8 +153,8 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     constexpr std::uint32_t kFromCrystal = 1U << 22U;
     constexpr std::uint32_t kOscillatorHz = 16000000;
     constexpr std::uint32_t kInputHz = 1000000;
-    // The divisors that nothing here uses; the second is the F446's, reserved with this value elsewhere.
-    constexpr std::uint32_t kUnusedDivisors = 7U << 24U | 2U << 28U;
+    // Used by nothing here: the F446's, reserved with this value elsewhere.
+    constexpr std::uint32_t kUnusedDivisor = 2U << 28U;
     constexpr std::uint32_t kRegulatorReady = 1U << 14U;
     auto& rcc = Chip::rcc();
     if (!detail::stop_multiplier<Chip>()) {
@@ -166,7 +172,8 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     }
     const std::uint32_t divisor = (crystal ? plan.crystal_hz : kOscillatorHz) / kInputHz;
     const std::uint32_t multiplier = 2 * plan.core_hz / kInputHz;
-    rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisors);
+    rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) |
+                      plan.usb_divisor() << 24U | kUnusedDivisor);
     set_bits(rcc.cr, kMultiplierOn);
     if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady) ||
         !detail::wait_for(Chip::power().csr, kRegulatorReady, kRegulatorReady)) {

@@ -31,10 +31,13 @@ void set_pin(Gpio<Word>& port, unsigned pin, PinMode mode, Pull pull = Pull::kNo
 
 // Gives the pin to a peripheral: `function` as in the data sheet's table of alternate functions.
 template <class Word>
-void set_pin_function(Gpio<Word>& port, unsigned pin, unsigned function) noexcept
+void set_pin_function(Gpio<Word>& port,
+                      unsigned pin,
+                      unsigned function,
+                      Pull pull = Pull::kUp) noexcept
 {
     set_field(pin < 8 ? port.afrl : port.afrh, pin % 8 * 4, 4, function);
-    set_pin(port, pin, PinMode::kAlternate, Pull::kUp);
+    set_pin(port, pin, PinMode::kAlternate, pull);
 }
 
 // Sets an output to a level. One store: no interrupt can come between.

@@ -62,4 +62,6 @@ void cusp_rest();
 void cusp_servo_tick();
 void cusp_player_interrupt();
 void cusp_serial_interrupt();
+// Only of a board with USB.
+void cusp_usb_interrupt();
 }

@@ -18,7 +18,8 @@ import sys
 from disassembly import Unreadable, add_calls_by_pointer, add_compiler_sizes, read_functions, run
 
 # From the least to the most urgent: each may be interrupted by those after it.
-CONTEXTS = ("cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
+CONTEXTS = ("cusp_reset", "cusp_usb_interrupt", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
+NOT_EVERYWHERE = "cusp_usb_interrupt"  # kept by the vectors of a board that has it
 # Words that the core saves at an interrupt: 26 words with the float registers, and one to align.
 EXCEPTION_FRAME = 27 * 4
 FORBIDDEN = re.compile(
@@ -30,6 +31,10 @@ DOUBLE = re.compile(
     r"|float\w+df|extendsfdf2|truncdfsf2)$|^(sqrt|floor|fabs|sin|cos|atan2)$")
 STACK_LEFT = 1024
 RAM_LIMIT = 96 * 1024  # unless the call says otherwise
+
+
+def contexts(functions):
+    return [name for name in CONTEXTS if name in functions or name != NOT_EVERYWHERE]
 
 
 def reached(functions, root):
@@ -101,7 +106,7 @@ def check_symbols(table):
 
 
 def check_real_time(functions):
-    for root in CONTEXTS[1:]:
+    for root in contexts(functions)[1:]:
         found = reached(functions, root)
         for name in sorted(found):
             if DOUBLE.match(name):
@@ -113,7 +118,7 @@ def check_real_time(functions):
 
 
 def check_calls(functions):
-    for root in CONTEXTS[1:]:
+    for root in contexts(functions)[1:]:
         found = reached(functions, root)
         for name in sorted(found):
             for line in functions[name].indirect[:1]:
@@ -122,7 +127,7 @@ def check_calls(functions):
 
 def check_stack(functions, table):
     total = 0
-    for root in CONTEXTS:
+    for root in contexts(functions):
         size, chain, complaints = depth(functions, root)
         yield from (f"stack: {complaint}" for complaint in complaints)
         frame = 0 if root == CONTEXTS[0] else EXCEPTION_FRAME
@@ -161,7 +166,7 @@ def main(arguments):
     try:
         functions, table = read_functions(image), symbols(image)
         add_compiler_sizes(functions, folder)
-        missing = [name for name in CONTEXTS if name not in functions]
+        missing = [name for name in contexts(functions) if name not in functions]
         if missing or "cusp_stack_size" not in table:
             raise Unreadable(f"{image}: no {', '.join(missing) or 'cusp_stack_size'}")
         found = [*check_symbols(table), *check_real_time(functions), *check_calls(functions),

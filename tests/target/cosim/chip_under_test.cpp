@@ -9,6 +9,9 @@
 namespace cusp::cosim {
 namespace {
 
+constexpr std::uint32_t kUsb = 0x50000000;
+bool is_usb(std::uint32_t address) { return address >= kUsb && address < kUsb + 0x5000; }
+
 constexpr unsigned kPulseInterrupts[] = {57, 68};  // DMA2 streams 1 and 5
 
 }  // namespace
@@ -31,6 +34,7 @@ ChipUnderTest::ChipUnderTest(const ChipKind& kind, const std::vector<std::uint8_
     make_blocks();
     make_timers();
     make_serial();
+    make_usb();
     core_ = std::make_unique<CoreModel>(
         circuit_, flash_->bytes(),
         CoreModel::Outside{
@@ -88,11 +92,29 @@ auto ChipUnderTest::block_of(std::uint32_t address, unsigned size, const char* w
     return &found->second;
 }
 
+bool ChipUnderTest::usb_on(std::uint32_t address, unsigned size)
+{
+    constexpr unsigned kUsbClock = 7;
+    const bool on = clocks_->ahb2_on(kUsbClock);
+    if (size != 4 || !on) {
+        circuit_.violate("USB: access of " + std::to_string(size) + " bytes, its clock is " +
+                         (on ? "on, " : "off, ") + hexadecimal(address));
+    }
+    return on;
+}
+
 std::uint32_t ChipUnderTest::read(std::uint32_t address, unsigned size)
 {
     constexpr std::uint32_t kDebug = 0xE0042000;
     if (address >= kDebug && address < kDebug + 0x10) {
         return address == kDebug + 8 ? freeze_1_ : address == kDebug + 12 ? freeze_2_ : 0;
+    }
+    if (is_usb(address)) {
+        return usb_on(address, size) ? usb_->read(address - kUsb) : 0;
+    }
+    constexpr std::uint32_t kNumber = 0x1FFF7A10;  // the chip's own
+    if (address >= kNumber && address < kNumber + 12) {
+        return 0x10203040 + address;
     }
     Block* const block = block_of(address, size, "read");
     const bool core = address >= 0xE0000000;
@@ -103,6 +125,12 @@ void ChipUnderTest::write(std::uint32_t address, unsigned size, std::uint32_t va
 {
     if (address == 0xE0042008 || address == 0xE004200C) {
         (address == 0xE0042008 ? freeze_1_ : freeze_2_) = value;
+        return;
+    }
+    if (is_usb(address)) {
+        if (usb_on(address, size)) {
+            usb_->write(address - kUsb, value);
+        }
         return;
     }
     Block* const block = block_of(address, size, "write");
@@ -248,6 +276,7 @@ void ChipUnderTest::reset(ClockModel::ResetCause cause)
     for (const auto& usart : usarts_) {
         usart->reset();
     }
+    usb_->reset();
     for (const auto& timer : timers_) {
         timer.second->reset();
     }

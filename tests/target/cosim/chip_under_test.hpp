@@ -11,6 +11,7 @@
 #include "tests/target/cosim/port_model.hpp"
 #include "tests/target/cosim/timer_model.hpp"
 #include "tests/target/cosim/usart_model.hpp"
+#include "tests/target/cosim/usb_host.hpp"
 #include "tests/target/cosim/watchdog_model.hpp"
 
 namespace cusp::cosim {
@@ -23,6 +24,7 @@ struct ChipKind {
     bool has_timer8;
     std::string ports;
     unsigned serial{1};  // which USART is the board's line
+    bool overrides_usb_session{false};
 };
 // stm32f405, stm32f407, stm32f411, stm32f446. Throws std::runtime_error for another.
 ChipKind chip_kind(const std::string& name);
@@ -47,6 +49,10 @@ public:
     FlashModel& flash() { return *flash_; }
     ClockModel& clocks() { return *clocks_; }
     UsartModel& serial() { return *usarts_.at(kind_.serial - 1); }
+    UsbHost& usb() { return *host_; }
+    // The one that is spoken to: the serial port, or USB.
+    LineModel& line() { return usb_is_line_ ? static_cast<LineModel&>(*host_) : serial(); }
+    void make_usb_the_line(bool on) { usb_is_line_ = on; }
     PortModel& port(char letter);
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
     // Duty of a channel of timer 3, 1 to 4.
@@ -86,6 +92,7 @@ private:
     void make_blocks();
     void make_timers();
     void make_serial();
+    void make_usb();
     struct SerialWiring;
     void add_serial(const SerialWiring& wiring);
     void add(std::uint32_t address,
@@ -98,6 +105,7 @@ private:
                    std::function<bool()> clocked);
     std::uint32_t read(std::uint32_t address, unsigned size);
     void write(std::uint32_t address, unsigned size, std::uint32_t value);
+    bool usb_on(std::uint32_t address, unsigned size);
     Block* block_of(std::uint32_t address, unsigned size, const char* what);
     void write_by_dma(std::uint32_t address, std::uint32_t value);
     void store_flash(std::uint32_t address, unsigned size, std::uint32_t value);
@@ -115,6 +123,9 @@ private:
     std::unique_ptr<WatchdogModel> watchdog_;
     std::unique_ptr<DmaModel> dma1_, dma2_;
     std::array<std::unique_ptr<UsartModel>, 2> usarts_;
+    std::unique_ptr<UsbModel> usb_;
+    std::unique_ptr<UsbHost> host_;
+    bool usb_is_line_{false};
     std::map<char, std::unique_ptr<PortModel>> ports_;
     std::map<std::string, std::unique_ptr<TimerModel>> timers_;
     std::unique_ptr<CoreModel> core_;

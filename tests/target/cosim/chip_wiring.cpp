@@ -60,7 +60,9 @@ ChipKind chip_kind(const std::string& name)
                 128 * 1024,
                 0,
                 true,
-                "ABCDEFGH"};
+                "ABCDEFGH",
+                1,
+                true};
     }
     if (name == "stm32f411") {
         return {{25000000, 100000000, 50000000, 100000000, 30000000, 3},
@@ -223,6 +225,21 @@ void ChipUnderTest::make_serial()
                 [this] { return clocks_->apb1_on(17); },
                 2,
                 38});
+}
+
+// RM0090 section 34 and table 62; the pins by alternate function 10.
+void ChipUnderTest::make_usb()
+{
+    usb_ = std::make_unique<UsbModel>(
+        circuit_, UsbModel::Wiring{[this] { return clocks_->usb_hz(); },
+                                   [this] {
+                                       const PortModel& a = *ports_.at('A');
+                                       return a.mode(11) == 2 && a.function(11) == 10 &&
+                                              a.mode(12) == 2 && a.function(12) == 10;
+                                   },
+                                   kind_.overrides_usb_session, 67});
+    host_ = std::make_unique<UsbHost>(circuit_, *usb_);
+    active_.push_back(host_.get());
 }
 
 }  // namespace cusp::cosim

@@ -32,6 +32,7 @@ void ClockModel::reset()
     cfgr_ = 0;
     cir_ = 0;
     ahb1enr_ = 0x00100000;
+    ahb2enr_ = 0;
     apb1enr_ = 0;
     apb2enr_ = 0;
     power_cr_ = facts_.full_scale << 14U;
@@ -82,6 +83,8 @@ std::uint32_t ClockModel::read(std::uint32_t offset)
             return cir_;
         case 0x30:
             return ahb1enr_;
+        case 0x34:
+            return ahb2enr_;
         case 0x40:
             return apb1enr_;
         case 0x44:
@@ -144,6 +147,9 @@ void ClockModel::write(std::uint32_t offset, std::uint32_t value)
         case 0x30:
             ahb1enr_ = value;
             break;
+        case 0x34:
+            ahb2enr_ = value;
+            break;
         case 0x40:
             apb1enr_ = value;
             break;
@@ -192,22 +198,35 @@ void ClockModel::set_wait_states(std::uint32_t count)
     check_rates();
 }
 
-std::uint32_t ClockModel::multiplier_hz() const
+std::uint64_t ClockModel::inside_hz() const
 {
     const std::uint32_t m = pllcfgr_ & 63U;
     const std::uint32_t n = pllcfgr_ >> 6U & 511U;
-    const std::uint32_t p = 2 * ((pllcfgr_ >> 16U & 3U) + 1);
     const std::uint32_t source =
         (pllcfgr_ & kFromCrystal) != 0 ? (crystal_alive_ ? facts_.crystal_hz : 0) : kOscillatorHz;
-    if (m < 2) {
-        circuit_.violate("RCC: PLLM below 2");
+    return m < 2 ? 0 : std::uint64_t{source / m} * n;
+}
+
+std::uint32_t ClockModel::usb_hz() const
+{
+    const std::uint32_t q = pllcfgr_ >> 24U & 15U;
+    const bool runs = (control() & kMultiplierReady) != 0;
+    return runs && q >= 2 ? static_cast<std::uint32_t>(inside_hz() / q) : 0;
+}
+
+std::uint32_t ClockModel::multiplier_hz() const
+{
+    const std::uint32_t n = pllcfgr_ >> 6U & 511U;
+    const std::uint32_t p = 2 * ((pllcfgr_ >> 16U & 3U) + 1);
+    const std::uint64_t inside = inside_hz();
+    if (inside == 0) {
+        circuit_.violate("RCC: PLLM below 2, or no source");
         return kOscillatorHz;
     }
-    const std::uint32_t input = source / m;
+    const std::uint64_t input = inside / n;
     if (input < 950000 || input > 2100000) {
         circuit_.violate("RCC: the multiplier's input is " + std::to_string(input) + " Hz");
     }
-    const std::uint64_t inside = std::uint64_t{input} * n;
     if (inside < 100000000 || inside > 432000000) {
         circuit_.violate("RCC: the multiplier would run at " + std::to_string(inside) + " Hz");
     }

@@ -31,10 +31,13 @@ public:
     std::uint32_t fast_bus_hz() const { return core_hz_ / divisor(cfgr_ >> 13U & 7U); }
     std::uint32_t slow_timer_hz() const { return timer_hz(slow_bus_hz(), cfgr_ >> 10U & 7U); }
     std::uint32_t fast_timer_hz() const { return timer_hz(fast_bus_hz(), cfgr_ >> 13U & 7U); }
+    // Of the multiplier's other output; 0 while it is off.
+    std::uint32_t usb_hz() const;
     // The clock that timer 11 can measure: the crystal divided by RTCPRE; 0 if nothing oscillates.
     std::uint32_t divided_crystal_hz() const;
 
     bool ahb1_on(unsigned bit) const { return (ahb1enr_ >> bit & 1U) != 0; }
+    bool ahb2_on(unsigned bit) const { return (ahb2enr_ >> bit & 1U) != 0; }
     bool apb1_on(unsigned bit) const { return (apb1enr_ >> bit & 1U) != 0; }
     bool apb2_on(unsigned bit) const { return (apb2enr_ >> bit & 1U) != 0; }
 
@@ -54,6 +57,7 @@ private:
     {
         return field < 4 ? bus : 2 * bus;
     }
+    std::uint64_t inside_hz() const;
     std::uint32_t multiplier_hz() const;
     bool crystal_fits() const
     {
@@ -67,7 +71,7 @@ private:
     ClockFacts facts_;
     bool crystal_alive_;
     std::uint32_t cr_{0}, pllcfgr_{0}, cfgr_{0}, cir_{0}, csr_{0};
-    std::uint32_t ahb1enr_{0}, apb1enr_{0}, apb2enr_{0};
+    std::uint32_t ahb1enr_{0}, ahb2enr_{0}, apb1enr_{0}, apb2enr_{0};
     std::uint32_t power_cr_{0};
     Picoseconds crystal_since_{0}, multiplier_since_{0};
     std::uint32_t wait_states_{0};

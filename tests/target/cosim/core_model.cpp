@@ -59,6 +59,8 @@ CoreModel::CoreModel(Circuit& circuit, std::vector<std::uint8_t>& flash, Outside
     // Owned by the engine's callbacks until the end of the program.
     static std::vector<std::unique_ptr<std::pair<CoreModel*, std::uint32_t>>> ranges;
     for (const auto& [start, size] : {std::pair{0x40000000U, 0x28000U},
+                                      {0x50000000U, 0x5000U},
+                                      {0x1FFF7000U, 0x1000U},
                                       {0xE0001000U, 0x1000U},
                                       {0xE000E000U, 0x1000U},
                                       {0xE0042000U, 0x1000U}}) {

@@ -6,6 +6,7 @@
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "firmware/base/assert.hpp"
 #include "tests/target/cosim/golden_sender.hpp"
 #include "tests/target/cosim/pseudo_terminal.hpp"
+#include "tests/target/cosim/usb_console.hpp"
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
 {
@@ -45,7 +47,8 @@ public:
 private:
     void listen()
     {
-        chip_.serial().set_receiver([this](char byte) { heard_.push_back(byte); });
+        chip_.serial().set_receiver([this](char byte) { heard_[0].push_back(byte); });
+        chip_.usb().set_receiver([this](char byte) { heard_[1].push_back(byte); });
     }
     void run(std::istream& words);
     void send(std::istream& words);
@@ -60,7 +63,10 @@ private:
     void tell_heard();
 
     ChipUnderTest& chip_;
-    std::string heard_;
+    std::string& heard() { return heard_[usb_ ? 1 : 0]; }
+
+    std::array<std::string, 2> heard_;  // over the serial port, over USB
+    bool usb_{false};                   // which of both is the line
 };
 
 Picoseconds milliseconds(std::istream& words)
@@ -82,22 +88,22 @@ void Console::run(std::istream& words)
     for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
         wanted.push_back(static_cast<char>(std::stoi(hex.substr(at, 2), nullptr, 16)));
     }
-    const auto heard = [&] {
-        return heard_.find(wanted) != std::string::npos;
+    const auto was_heard = [&] {
+        return heard().find(wanted) != std::string::npos;
     };
-    chip_.run(time, wanted.empty() ? std::function<bool()>{} : heard);
+    chip_.run(time, wanted.empty() ? std::function<bool()>{} : was_heard);
     tell_heard();
 }
 
 void Console::tell_heard()
 {
     std::cout << "heard ";
-    for (const char byte : heard_) {
+    for (const char byte : heard()) {
         std::printf("%02x", static_cast<unsigned char>(byte));
     }
     std::fflush(stdout);
     std::cout << "\n";
-    heard_.clear();
+    heard().clear();
 }
 
 // send HEX
@@ -109,7 +115,7 @@ void Console::send(std::istream& words)
     for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
         bytes.push_back(static_cast<char>(std::stoi(hex.substr(at, 2), nullptr, 16)));
     }
-    chip_.serial().send(bytes);
+    chip_.line().send(bytes);
 }
 
 // pin PB12 0|1|open
@@ -146,7 +152,7 @@ void Console::serial(std::istream& words)
     } else if (what == "damage") {
         chip_.serial().damage();
     } else {
-        chip_.serial().set_mute(what == "mute");
+        chip_.line().set_mute(what == "mute");
     }
 }
 
@@ -234,8 +240,8 @@ void Console::tell_state() const
               << "powered " << chip_.powered() << "\n"
               << "erases " << chip_.flash().erases() << "\n"
               << "words " << chip_.flash().words() << "\n"
-              << "lost " << chip_.serial().lost() << "\n"
-              << "unsent " << chip_.serial().waiting() << "\n"
+              << "lost " << chip_.line().lost() << "\n"
+              << "unsent " << chip_.line().waiting() << "\n"
               << "lowest_stack " << chip_.core().lowest_stack() << "\n";
     for (unsigned exception = 1; exception < 100; ++exception) {
         if (chip_.core().longest(exception) != 0) {
@@ -262,6 +268,13 @@ void Console::perform(const std::string& line)
         core(words);
     } else if (command == "serial") {
         serial(words);
+    } else if (command == "line") {
+        std::string which;
+        words >> which;
+        usb_ = which == "usb";
+        chip_.make_usb_the_line(usb_);
+    } else if (command == "usb") {
+        command_usb(chip_, words);
     } else if (command == "pace") {
         chip_.stop_pace();
     } else if (command == "power") {

@@ -54,13 +54,13 @@ GoldenSender::GoldenSender(ChipUnderTest& chip, GoldenJob job) : chip_{chip}, jo
 
 int GoldenSender::run()
 {
-    chip_.serial().set_receiver([this](char byte) { hear(byte); });
+    chip_.line().set_receiver([this](char byte) { hear(byte); });
     // To a place where the main loop has nothing left to do, with half a tick still to go.
     chip_.set_tick_listener([this] { silent_since_ = 1; });
     chip_.run(5 * kMillisecond, [this] { return std::exchange(silent_since_, 0) == 1; });
     silent_since_ = 0;
     chip_.core().set_instruction_time(kNoTime);
-    chip_.serial().set_instant(true);
+    chip_.line().set_instant(true);
     chip_.flash().set_times(0, 0);
     for (const auto& port : chip_.ports()) {
         port.second->forget_changes();
@@ -68,7 +68,7 @@ int GoldenSender::run()
     start_ = chip_.circuit().now;
     chip_.set_tick_listener([this] { on_tick(); });
     while (!job_.script.empty() && job_.script.front().first == 0) {
-        chip_.serial().send({job_.script.front().second});
+        chip_.line().send({job_.script.front().second});
         job_.script.pop_front();
     }
     begin_line();
@@ -109,7 +109,7 @@ void GoldenSender::on_tick()
     resumed_ = false;
     may_begin_line_ = true;
     while (!refused_ && !job_.script.empty() && job_.script.front().first <= tick_) {
-        chip_.serial().send({job_.script.front().second});
+        chip_.line().send({job_.script.front().second});
         job_.script.pop_front();
     }
     if (!waiting_) {
@@ -123,7 +123,7 @@ void GoldenSender::begin_line()
         return;
     }
     waiting_ = true;
-    chip_.serial().send(job_.lines[next_line_] + "\n");
+    chip_.line().send(job_.lines[next_line_] + "\n");
     ++next_line_;
 }
 
@@ -152,7 +152,7 @@ void GoldenSender::take(const std::string& answer)
     if (starts_with(answer, "<Hold:0") && job_.script.empty() && !refused_ && !resumed_) {
         resumed_ = true;
         may_begin_line_ = false;
-        chip_.serial().send("~");
+        chip_.line().send("~");
     } else if (starts_with(answer, "<Idle") && finished() && !refused_) {
         done_ = true;
     }
@@ -174,12 +174,12 @@ bool GoldenSender::on_settled()
         return done_;
     }
     // Asleep amid a line or an answer: there is more to do in this tick, and it may begin a hold.
-    if (!chip_.serial().quiet()) {
+    if (!chip_.line().quiet()) {
         return done_;
     }
     if (!asked_ && (may_hold_ || finished())) {
         asked_ = true;
-        chip_.serial().send("?");
+        chip_.line().send("?");
     }
     return done_;
 }

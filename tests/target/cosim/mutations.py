@@ -66,8 +66,8 @@ FAULTS_OF_PILL = {
     "wrong channel": (PACE, "{5, 6, detail", "{5, 7, detail"),
     "wrong stream": (PACE, "{5, 6, detail", "{4, 6, detail"),
     "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~2U;"),
-    "too few wait states": (PILL, "100000000, 3, 1, 2, 3}", "100000000, 2, 1, 2, 3}"),
-    "slow bus too fast": (PILL, "25000000, 100000000, 3", "25000000, 108000000, 3"),
+    "too few wait states": (PILL, "96000000, 3, 1, 2, 3}", "96000000, 2, 1, 2, 3}"),
+    "slow bus too fast": (PILL, "25000000, 96000000, 3", "25000000, 120000000, 3"),
     "limit pins swapped": (PILL, "{'B', 5}, {'B', 6}", "{'B', 6}, {'B', 5}"),
 }
 

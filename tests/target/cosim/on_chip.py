@@ -2,11 +2,11 @@
 """Runs programs on a board's shipping image in the co-simulation and in the simulator: equal pins.
 
 usage: on_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin [--programs N] [--seed N]
-                  [--keep FOLDER] [PROGRAM [--settings FILE] [--script FILE]]
+                  [--keep FOLDER] [--usb] [PROGRAM [--settings FILE] [--script FILE]]
 
 With a program, that one; otherwise N random programs with random settings and scripts, as
 random_programs.py makes them. The edges are compared at the pins, through the wiring table of the
-board's README and the inversion of $2 and $3, microsecond by microsecond.
+board's README and the inversion of $2 and $3, microsecond by microsecond. --usb: bytes come through its plug.
 Exit status: 0 all are equal, 1 one is not, 2 something could not run.
 """
 import argparse
@@ -22,6 +22,7 @@ import golden  # noqa: E402
 import random_programs  # noqa: E402
 from chip import Chip, CosimFailed  # noqa: E402
 from qemu import RunFailed  # noqa: E402
+from usb import Usb  # noqa: E402
 
 
 def inversion(settings):
@@ -45,6 +46,10 @@ def play(options, folder):
     with Chip(options.cosim, options.image, options.board) as chip:
         chip.command("flash 20 0.001")
         chip.boot()
+        if options.usb:
+            plug = Usb(chip)
+            plug.plug_in()
+            plug.open()
         for line in settings.split():
             answer = chip.ask(line)
             if "ok" not in answer:
@@ -111,6 +116,7 @@ def main():
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--settings")
     parser.add_argument("--script")
+    parser.add_argument("--usb", action="store_true")
     parser.add_argument("--as-it-is", action="store_true")
     parser.add_argument("--programs", type=int, default=6)
     parser.add_argument("--seed", type=int, default=1)

@@ -19,7 +19,7 @@ void run_on_terminal(ChipUnderTest& chip, const std::string& link, Picoseconds t
     line.survive_hang_up(true);
     std::cout << "terminal" << std::endl;
     std::string out;
-    chip.serial().set_receiver([&out](char byte) { out.push_back(byte); });
+    chip.line().set_receiver([&out](char byte) { out.push_back(byte); });
     const auto begin = Clock::now();
     bool opened = false;
     for (Picoseconds done = 0; done < time; done += kMillisecond) {
@@ -27,7 +27,7 @@ void run_on_terminal(ChipUnderTest& chip, const std::string& link, Picoseconds t
         for (std::uint8_t byte = 0; line.try_read(byte);) {
             bytes.push_back(static_cast<char>(byte));
         }
-        chip.serial().send(bytes);
+        chip.line().send(bytes);
         const bool held = terminal.has_peer();
         opened = opened || held;
         if (opened && !held) {

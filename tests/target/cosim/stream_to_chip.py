@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """`cusp stream` sends a program to a board's shipping image, over a pseudo-terminal, at its baud rate.
 
-usage: stream_to_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin PROGRAM --end X,Y,Z
+usage: stream_to_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin [--usb] PROGRAM --end X,Y,Z
 Exit status: 0 it was taken and the machine is at the end given, 1 it does not.
 """
 import argparse
@@ -11,16 +11,22 @@ import sys
 import tempfile
 
 from chip import Chip
+from usb import Usb
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("cosim", "cusp", "board", "image", "end"):
         parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--usb", action="store_true", help="through its plug")
     parser.add_argument("program")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, Chip(options.cosim, options.image, options.board) as machine:
         machine.boot()
+        if options.usb:
+            plug = Usb(machine)
+            plug.plug_in()
+            plug.open()
         port = pathlib.Path(folder) / "port"
         machine.process.stdin.write(f"terminal {port} 600000\n")
         machine.process.stdin.flush()

@@ -4,11 +4,12 @@
 #include <deque>
 #include <functional>
 
+#include "tests/target/cosim/line_model.hpp"
 #include "tests/target/cosim/model.hpp"
 
 namespace cusp::cosim {
 
-class UsartModel final : public Model {
+class UsartModel final : public Model, public LineModel {
 public:
     struct Wiring {
         std::function<std::uint32_t()> bus_hz;
@@ -29,17 +30,18 @@ public:
 
     // The other end of the line.
     void set_sender_baud(std::uint32_t baud) { sender_baud_ = baud; }
-    void set_instant(bool on);
-    void send(const std::string& bytes);
-    // Takes a byte that the chip has sent.
-    void set_receiver(std::function<void(char)> receiver) { receiver_ = std::move(receiver); }
-    std::size_t waiting() const { return incoming_.size(); }
-    // True if no byte is on its way, to the chip or from it.
-    bool quiet() const { return incoming_.empty() && shift_due_ == kNever && !stuck_; }
-    std::uint64_t lost() const { return lost_; }
+    void set_instant(bool on) override;
+    void send(const std::string& bytes) override;
+    void set_receiver(std::function<void(char)> receiver) override
+    {
+        receiver_ = std::move(receiver);
+    }
+    std::size_t waiting() const override { return incoming_.size(); }
+    bool quiet() const override { return incoming_.empty() && shift_due_ == kNever && !stuck_; }
+    std::uint64_t lost() const override { return lost_; }
     void unplug() { incoming_.clear(); }
     // The other end takes no more bytes: the one on its way stays in the port.
-    void set_mute(bool on);
+    void set_mute(bool on) override;
     // A byte came before the last one was fetched: it is lost, and the flag stays until it is read away.
     void overrun();
     // A damaged byte arrives, as when the cable is pulled.
