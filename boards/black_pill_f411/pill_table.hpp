@@ -16,17 +16,26 @@ namespace cusp::boards {
 struct PillTable {
     static constexpr hal::stm32f4::LinePins kLines{
         {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}, {'A', 4}, {'A', 5}}};
-    static constexpr PanelPins kPanelPins{
-        {{{'B', 5}, {'B', 6}, {'B', 7}, {'B', 8}}},
-        {{{'B', 9}, {'B', 10}, {'B', 1}, {'B', 0}}},
-        {{{'B', 15}, {'B', 3}}},
-        {{{'B', 12}}},
-        {'B', 13},
-        {'B', 14},
-        {'A', 8},
-        {'A', 7},
-        {{'A', 6}, 1},
-    };
+    static constexpr PanelPins kPanelPins = [] {
+        PanelPins pins;
+        pins.limit_x = {'B', 5};
+        pins.limit_y = {'B', 6};
+        pins.limit_z = {'B', 7};
+        pins.probe = {'B', 8};
+        pins.door = {'B', 9};
+        pins.hold = {'B', 10};
+        pins.start = {'B', 1};
+        pins.reset = {'B', 0};
+        pins.emergency_stop = {'B', 15};
+        pins.motor_fault = {'B', 3};
+        pins.drives_off = {{{'B', 12}}};
+        pins.flood = {'B', 13};
+        pins.mist = {'B', 14};
+        pins.spindle_on = {'A', 8};
+        pins.spindle_reverse = {'A', 7};
+        pins.spindle_pulses = {{'A', 6}, 1};
+        return pins;
+    }();
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer1Pace<Chip>;

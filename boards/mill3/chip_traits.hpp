@@ -20,6 +20,7 @@
 #include <type_traits>
 
 #include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/pin_rules.hpp"
 #include "boards/mill3/two_links.hpp"
 #include "firmware/machine/accessories.hpp"
 #include "firmware/machine/stored_state.hpp"
@@ -36,15 +37,6 @@
 
 namespace cusp::boards {
 
-namespace detail {
-
-template <class Table, class = void>
-inline constexpr bool has_usb = false;
-template <class Table>
-inline constexpr bool has_usb<Table, std::void_t<decltype(Table::kUsb)>> = true;
-
-}  // namespace detail
-
 template <class Table>
 struct ChipTraits {
     using Chip = hal::stm32f4::Chip;
@@ -58,6 +50,7 @@ struct ChipTraits {
     using Panel = MillPanel<Chip, ChipTraits>;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
 
+    static_assert(PinRules<Table, SerialPort>::kHold);
     // start_clocks() sets no others.
     static_assert(Table::kClocks.fast_bus_divisor == 1 || Table::kClocks.fast_bus_divisor == 2);
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);

@@ -16,42 +16,52 @@ using hal::stm32f4::Pin;
 // A channel of timer 3, 1 to 4, on a pin that has it as alternate function 2.
 struct SpindlePin {
     Pin pin;
-    unsigned channel;
+    unsigned channel{0};
 };
 
-// Pins of a panel. Inputs that stop the machine close to ground when at rest: a broken wire, or
-// none, reads as tripped or pressed. Only the start button closes to 3.3 V when pressed.
+// Pins of a panel, each set by its name: there is no order to mistake. Inputs that stop the machine close
+// to ground when at rest: a broken wire, or none, reads as tripped or pressed. Only the start button closes
+// to 3.3 V when pressed. boards/mill3/pin_rules.hpp says which a board must have.
 struct PanelPins {
-    std::array<Pin, 4> switches;    // limits X Y Z, probe
-    std::array<Pin, 4> buttons;     // door, hold, start, reset
-    std::array<Pin, 2> protectors;  // emergency stop, motor fault
+    constexpr PanelPins() noexcept {}
+
+    Pin limit_x, limit_y, limit_z, probe;
+    Pin door, hold, start, reset;
+    Pin emergency_stop, motor_fault;
+    Pin second_limit;  // the switch of the second motor
     // High: the drives are without current. One line for all of them, or one a drive; the last is the
     // second motor's.
-    std::array<Pin, 4> drives_off;
-    Pin flood;
-    Pin mist;
-    Pin spindle_on;
-    Pin spindle_reverse;
+    std::array<Pin, 4> drives_off{};
+    Pin flood, mist;
+    Pin spindle_on, spindle_reverse;
     SpindlePin spindle_pulses;
-    Pin power{};  // high from the first output on: feeds drives and outputs, where a board has that
-    Pin second_limit{};  // the switch of the second motor, where there is one
+    Pin power;  // high from the first output on: feeds drives and outputs, where a board has that
 };
+
+// In the order of InputBit.
+using InputPins = std::array<Pin, 11>;
+constexpr InputPins input_pins(const PanelPins& pins) noexcept
+{
+    return {pins.limit_x,        pins.limit_y,     pins.limit_z,     pins.probe,
+            pins.door,           pins.hold,        pins.start,       pins.reset,
+            pins.emergency_stop, pins.motor_fault, pins.second_limit};
+}
+using OutputPins = std::array<Pin, 10>;
+constexpr OutputPins output_pins(const PanelPins& pins) noexcept
+{
+    return {pins.drives_off[0],     pins.drives_off[1],   pins.drives_off[2],
+            pins.drives_off[3],     pins.flood,           pins.mist,
+            pins.spindle_on,        pins.spindle_reverse, pins.power,
+            pins.spindle_pulses.pin};
+}
 
 constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
 {
-    std::uint32_t bits = clock_bit(pins.flood) | clock_bit(pins.mist) | clock_bit(pins.spindle_on) |
-                         clock_bit(pins.spindle_reverse) | clock_bit(pins.spindle_pulses.pin) |
-                         clock_bit(pins.power) | clock_bit(pins.second_limit);
-    for (const Pin pin : pins.switches) {
+    std::uint32_t bits = 0;
+    for (const Pin pin : input_pins(pins)) {
         bits |= clock_bit(pin);
     }
-    for (const Pin pin : pins.buttons) {
-        bits |= clock_bit(pin);
-    }
-    for (const Pin pin : pins.protectors) {
-        bits |= clock_bit(pin);
-    }
-    for (const Pin pin : pins.drives_off) {
+    for (const Pin pin : output_pins(pins)) {
         bits |= clock_bit(pin);
     }
     return bits;
@@ -79,20 +89,11 @@ public:
     static void start() noexcept
     {
         using namespace hal::stm32f4;
-        constexpr const PanelPins& kPins = Rules::kPanelPins;
-        for (const Pin pin : kPins.switches) {
-            set_pin(port(pin), pin.number, PinMode::kInput, Pull::kUp);
-        }
-        for (unsigned i = 0; i < kPins.buttons.size(); ++i) {
-            const Pull pull = i == kStartPlace ? Pull::kDown : Pull::kUp;
-            set_pin(port(kPins.buttons[i]), kPins.buttons[i].number, PinMode::kInput, pull);
-        }
-        for (const Pin pin : kPins.protectors) {
-            set_pin(port(pin), pin.number, PinMode::kInput, Pull::kUp);
-        }
-        if constexpr (is_there(kPins.second_limit)) {
-            set_pin(port(kPins.second_limit), kPins.second_limit.number, PinMode::kInput,
-                    Pull::kUp);
+        for (unsigned i = 0; i < kInputs.size(); ++i) {
+            if (is_there(kInputs[i])) {
+                set_pin(port(kInputs[i]), kInputs[i].number, PinMode::kInput,
+                        i == kStartPlace ? Pull::kDown : Pull::kUp);
+            }
         }
     }
     // Levels of rest, as the last set() inverts them. Context: any.
@@ -109,17 +110,11 @@ public:
     // See hal/contract/board.hpp.
     std::uint16_t inputs() const noexcept
     {
-        constexpr const PanelPins& kPins = Rules::kPanelPins;
         std::uint32_t bits = 0;
-        for (unsigned i = 0; i < 4; ++i) {
-            bits |= level(kPins.switches[i]) << i;
-            bits |= level(kPins.buttons[i]) << (i + 4);
-        }
-        for (unsigned i = 0; i < 2; ++i) {
-            bits |= level(kPins.protectors[i]) << (i + 8);
-        }
-        if constexpr (is_there(kPins.second_limit)) {
-            bits |= level(kPins.second_limit) << 10U;
+        for (unsigned i = 0; i < kInputs.size(); ++i) {
+            if (is_there(kInputs[i])) {
+                bits |= level(kInputs[i]) << i;
+            }
         }
         return static_cast<std::uint16_t>(bits);
     }
@@ -133,7 +128,9 @@ public:
     }
 
 private:
-    static constexpr unsigned kStartPlace = 2;
+    static constexpr InputPins kInputs = input_pins(Rules::kPanelPins);
+    static constexpr unsigned kStartPlace = 6;
+    static_assert(kStartButton == 1U << kStartPlace);
 
     static auto& port(Pin pin) noexcept { return Chip::port(pin.port); }
     static std::uint32_t level(Pin pin) noexcept { return port(pin).idr.read() >> pin.number & 1U; }
@@ -176,18 +173,12 @@ private:
     static void make_outputs() noexcept
     {
         using namespace hal::stm32f4;
-        constexpr const PanelPins& kPins = Rules::kPanelPins;
-        const auto make_output = [](Pin pin) {
-            if (is_there(pin)) {
-                set_pin(port(pin), pin.number, PinMode::kOutput);
+        constexpr OutputPins kOutputs = output_pins(Rules::kPanelPins);
+        // The last is the timer's, or rest()'s.
+        for (unsigned i = 0; i + 1 < kOutputs.size(); ++i) {
+            if (is_there(kOutputs[i])) {
+                set_pin(port(kOutputs[i]), kOutputs[i].number, PinMode::kOutput);
             }
-        };
-        for (const Pin pin : kPins.drives_off) {
-            make_output(pin);
-        }
-        for (const Pin pin :
-             {kPins.flood, kPins.mist, kPins.spindle_on, kPins.spindle_reverse, kPins.power}) {
-            make_output(pin);
         }
     }
     static void switch_outputs_on() noexcept
@@ -230,7 +221,7 @@ private:
     static inline bool outputs_on_{false};
 };
 
-// The order of PanelPins is that of the contract's bits.
+// The order of input_pins() is that of the contract's bits.
 static_assert(kLimitX == 1 && kLimitY == 2 && kLimitZ == 4 && kProbe == 8 && kDoor == 16 &&
               kHoldButton == 32 && kStartButton == 64 && kResetButton == 128 &&
               kEmergencyStop == 256 && kMotorFault == 512 && kSecondLimit == 1024);

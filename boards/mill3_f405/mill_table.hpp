@@ -15,17 +15,26 @@ namespace cusp::boards {
 struct MillTable {
     static constexpr hal::stm32f4::LinePins kLines{
         {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}, {'C', 4}, {'C', 5}}};
-    static constexpr PanelPins kPanelPins{
-        {{{'B', 12}, {'B', 13}, {'B', 14}, {'B', 15}}},
-        {{{'B', 8}, {'B', 9}, {'B', 6}, {'B', 7}}},
-        {{{'B', 10}, {'B', 11}}},
-        {{{'C', 6}}},
-        {'C', 7},
-        {'C', 8},
-        {'A', 5},
-        {'A', 7},
-        {{'A', 6}, 1},
-    };
+    static constexpr PanelPins kPanelPins = [] {
+        PanelPins pins;
+        pins.limit_x = {'B', 12};
+        pins.limit_y = {'B', 13};
+        pins.limit_z = {'B', 14};
+        pins.probe = {'B', 15};
+        pins.door = {'B', 8};
+        pins.hold = {'B', 9};
+        pins.start = {'B', 6};
+        pins.reset = {'B', 7};
+        pins.emergency_stop = {'B', 10};
+        pins.motor_fault = {'B', 11};
+        pins.drives_off = {{{'C', 6}}};
+        pins.flood = {'C', 7};
+        pins.mist = {'C', 8};
+        pins.spindle_on = {'A', 5};
+        pins.spindle_reverse = {'A', 7};
+        pins.spindle_pulses = {{'A', 6}, 1};
+        return pins;
+    }();
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

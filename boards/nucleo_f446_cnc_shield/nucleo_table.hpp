@@ -15,17 +15,26 @@ namespace cusp::boards {
 struct NucleoTable {
     static constexpr hal::stm32f4::LinePins kLines{
         {{'A', 10}, {'B', 3}, {'B', 5}, {'B', 4}, {'B', 10}, {'A', 8}}};
-    static constexpr PanelPins kPanelPins{
-        {{{'C', 7}, {'B', 6}, {'A', 6}, {'C', 0}}},
-        {{{'C', 8}, {'A', 1}, {'A', 4}, {'A', 0}}},
-        {{{'C', 6}, {'C', 5}}},
-        {{{'A', 9}}},
-        {'B', 0},
-        {'C', 1},
-        {'B', 7},
-        {'A', 5},
-        {{'A', 7}, 2},
-    };
+    static constexpr PanelPins kPanelPins = [] {
+        PanelPins pins;
+        pins.limit_x = {'C', 7};
+        pins.limit_y = {'B', 6};
+        pins.limit_z = {'A', 6};
+        pins.probe = {'C', 0};
+        pins.door = {'C', 8};
+        pins.hold = {'A', 1};
+        pins.start = {'A', 4};
+        pins.reset = {'A', 0};
+        pins.emergency_stop = {'C', 6};
+        pins.motor_fault = {'C', 5};
+        pins.drives_off = {{{'A', 9}}};
+        pins.flood = {'B', 0};
+        pins.mist = {'C', 1};
+        pins.spindle_on = {'B', 7};
+        pins.spindle_reverse = {'A', 5};
+        pins.spindle_pulses = {{'A', 7}, 2};
+        return pins;
+    }();
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

@@ -16,19 +16,27 @@ namespace cusp::boards {
 struct OctopusTable {
     static constexpr hal::stm32f4::LinePins kLines{
         {{'F', 13}, {'G', 0}, {'F', 11}, {'F', 12}, {'G', 1}, {'G', 3}, {'F', 9}, {'F', 10}}};
-    static constexpr PanelPins kPanelPins{
-        {{{'G', 6}, {'G', 9}, {'G', 10}, {'B', 7}}},
-        {{{'G', 14}, {'E', 8}, {'E', 7}, {'G', 15}}},
-        {{{'G', 12}, {'G', 13}}},
-        {{{'F', 14}, {'F', 15}, {'G', 5}, {'G', 2}}},
-        {'A', 2},
-        {'A', 3},
-        {'A', 8},
-        {'E', 5},
-        {{'A', 6}, 1},
-        {},
-        {'G', 11},
-    };
+    static constexpr PanelPins kPanelPins = [] {
+        PanelPins pins;
+        pins.limit_x = {'G', 6};
+        pins.limit_y = {'G', 9};
+        pins.limit_z = {'G', 10};
+        pins.probe = {'B', 7};
+        pins.door = {'G', 14};
+        pins.hold = {'E', 8};
+        pins.start = {'E', 7};
+        pins.reset = {'G', 15};
+        pins.emergency_stop = {'G', 12};
+        pins.motor_fault = {'G', 13};
+        pins.second_limit = {'G', 11};
+        pins.drives_off = {{{'F', 14}, {'F', 15}, {'G', 5}, {'G', 2}}};
+        pins.flood = {'A', 2};
+        pins.mist = {'A', 3};
+        pins.spindle_on = {'A', 8};
+        pins.spindle_reverse = {'E', 5};
+        pins.spindle_pulses = {{'A', 6}, 1};
+        return pins;
+    }();
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

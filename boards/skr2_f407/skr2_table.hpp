@@ -16,19 +16,28 @@ namespace cusp::boards {
 struct Skr2Table {
     static constexpr hal::stm32f4::LinePins kLines{
         {{'E', 2}, {'D', 5}, {'A', 15}, {'E', 1}, {'D', 4}, {'A', 8}, {'D', 15}, {'D', 14}}};
-    static constexpr PanelPins kPanelPins{
-        {{{'C', 1}, {'C', 3}, {'C', 0}, {'E', 4}}},
-        {{{'A', 7}, {'A', 5}, {'A', 6}, {'A', 4}}},
-        {{{'C', 2}, {'A', 0}}},
-        {{{'E', 3}, {'D', 6}, {'D', 1}, {'C', 7}}},
-        {'B', 3},
-        {'B', 4},
-        {'B', 6},
-        {'B', 5},
-        {{'B', 0}, 3},
-        {'C', 13},
-        {'E', 7},
-    };
+    static constexpr PanelPins kPanelPins = [] {
+        PanelPins pins;
+        pins.limit_x = {'C', 1};
+        pins.limit_y = {'C', 3};
+        pins.limit_z = {'C', 0};
+        pins.probe = {'E', 4};
+        pins.door = {'A', 7};
+        pins.hold = {'A', 5};
+        pins.start = {'A', 6};
+        pins.reset = {'A', 4};
+        pins.emergency_stop = {'C', 2};
+        pins.motor_fault = {'A', 0};
+        pins.second_limit = {'E', 7};
+        pins.drives_off = {{{'E', 3}, {'D', 6}, {'D', 1}, {'C', 7}}};
+        pins.flood = {'B', 3};
+        pins.mist = {'B', 4};
+        pins.spindle_on = {'B', 6};
+        pins.spindle_reverse = {'B', 5};
+        pins.spindle_pulses = {{'B', 0}, 3};
+        pins.power = {'C', 13};
+        return pins;
+    }();
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

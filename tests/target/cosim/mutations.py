@@ -56,7 +56,8 @@ FAULTS = {
                         "Chip::power().cr.write(0);"),
     "wrong baud rate": (LINK, "port.brr.write((bus_hz + baud / 2) / baud);",
                         "port.brr.write(bus_hz / 16 / baud);"),
-    "limit pins swapped": (TABLE, "{'B', 12}, {'B', 13}", "{'B', 13}, {'B', 12}"),
+    "limit pins swapped": (TABLE, "limit_x = {'B', 12};\n        pins.limit_y = {'B', 13}",
+                            "limit_x = {'B', 13};\n        pins.limit_y = {'B', 12}"),
     "no barrier": ("boards/mill3/mill_image.hpp", '__asm volatile("dsb" ::: "memory");', ""),
 }
 
@@ -68,7 +69,8 @@ FAULTS_OF_PILL = {
     "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~2U;"),
     "too few wait states": (PILL, "96000000, 3, 1, 2, 3}", "96000000, 2, 1, 2, 3}"),
     "slow bus too fast": (PILL, "25000000, 96000000, 3", "25000000, 120000000, 3"),
-    "limit pins swapped": (PILL, "{'B', 5}, {'B', 6}", "{'B', 6}, {'B', 5}"),
+    "limit pins swapped": (PILL, "limit_x = {'B', 5};\n        pins.limit_y = {'B', 6}",
+                            "limit_x = {'B', 6};\n        pins.limit_y = {'B', 5}"),
 }
 
 # Faults of lines on several ports: planted in the SKR 2, whose three it has.

@@ -1,0 +1,140 @@
+// PinRules: what the compiler finds wrong in a board's table of pins, so that no such board is built.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/pins.hpp"
+#include "hal/stm32f4/step_ports.hpp"
+#include "hal/stm32f4/usb_endpoints.hpp"
+
+namespace cusp::boards {
+namespace detail {
+
+template <class Table, class = void>
+inline constexpr bool has_usb = false;
+template <class Table>
+inline constexpr bool has_usb<Table, std::void_t<decltype(Table::kUsb)>> = true;
+
+constexpr bool same(Pin a, Pin b) noexcept { return a.port == b.port && a.number == b.number; }
+constexpr bool exists(Pin pin) noexcept
+{
+    return pin.port >= 'A' && pin.port <= 'I' && pin.number < 16;
+}
+
+// All that a table names, absent ones too.
+using AllPins = std::array<Pin, 8 + 11 + 10>;
+template <class Table>
+constexpr AllPins all_pins() noexcept
+{
+    AllPins all{};
+    std::size_t count = 0;
+    for (const Pin pin : Table::kLines) {
+        all[count++] = pin;
+    }
+    for (const Pin pin : input_pins(Table::kPanelPins)) {
+        all[count++] = pin;
+    }
+    for (const Pin pin : output_pins(Table::kPanelPins)) {
+        all[count++] = pin;
+    }
+    return all;
+}
+
+constexpr bool names_one(const AllPins& all, Pin pin) noexcept
+{
+    for (const Pin used : all) {
+        if (is_there(used) && same(used, pin)) {
+            return true;
+        }
+    }
+    return false;
+}
+constexpr bool names_one_twice(const AllPins& all) noexcept
+{
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t k = i + 1; k < all.size(); ++k) {
+            if (is_there(all[i]) && same(all[i], all[k])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+constexpr bool all_exist(const AllPins& all) noexcept
+{
+    for (const Pin pin : all) {
+        if (is_there(pin) && !exists(pin)) {
+            return false;
+        }
+    }
+    return true;
+}
+// What every board has: six lines, all inputs but the second motor's switch, an enable line, the outputs.
+constexpr bool is_complete(const hal::stm32f4::LinePins& lines, const PanelPins& panel) noexcept
+{
+    bool complete = is_there(panel.drives_off[0]) && is_there(panel.flood) &&
+                    is_there(panel.mist) && is_there(panel.spindle_on) &&
+                    is_there(panel.spindle_reverse) && is_there(panel.spindle_pulses.pin);
+    for (unsigned i = 0; i < 6; ++i) {
+        complete = complete && is_there(lines[i]);
+    }
+    const auto inputs = input_pins(panel);
+    for (unsigned i = 0; i + 1 < inputs.size(); ++i) {
+        complete = complete && is_there(inputs[i]);
+    }
+    return complete;
+}
+// Alternate function 2 in the data sheets' tables, alike on all chips of the family.
+constexpr bool has_channel_of_timer3(SpindlePin spindle) noexcept
+{
+    constexpr std::array<SpindlePin, 10> kPlaces{{{{'A', 6}, 1},
+                                                  {{'B', 4}, 1},
+                                                  {{'C', 6}, 1},
+                                                  {{'A', 7}, 2},
+                                                  {{'B', 5}, 2},
+                                                  {{'C', 7}, 2},
+                                                  {{'B', 0}, 3},
+                                                  {{'C', 8}, 3},
+                                                  {{'B', 1}, 4},
+                                                  {{'C', 9}, 4}}};
+    for (const SpindlePin& place : kPlaces) {
+        if (same(place.pin, spindle.pin) && place.channel == spindle.channel) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace detail
+
+// `Table` as in boards/mill3/chip_traits.hpp, `SerialPort` its port. kHold is true, or nothing compiles.
+template <class Table, class SerialPort>
+struct PinRules {
+    static constexpr detail::AllPins kAll = detail::all_pins<Table>();
+
+    static_assert(detail::all_exist(kAll), "a pin is none of A0 to I15");
+    static_assert(detail::is_complete(Table::kLines, Table::kPanelPins),
+                  "a line, input or output has no pin");
+    static_assert(!detail::names_one_twice(kAll), "a pin is named twice");
+    static_assert(!detail::names_one(kAll, {'A', 13}) && !detail::names_one(kAll, {'A', 14}),
+                  "PA13 and PA14 are the debugger's");
+    static_assert(!detail::names_one(kAll, {'H', 0}) && !detail::names_one(kAll, {'H', 1}),
+                  "PH0 and PH1 are the crystal's");
+    static_assert(!detail::names_one(kAll, SerialPort::kTransmit) &&
+                      !detail::names_one(kAll, SerialPort::kReceive),
+                  "a pin is the serial port's");
+    static_assert(!detail::has_usb<Table> || (!detail::names_one(kAll, hal::stm32f4::kUsbMinus) &&
+                                              !detail::names_one(kAll, hal::stm32f4::kUsbPlus)),
+                  "PA11 and PA12 are the USB plug's");
+    static_assert(detail::has_channel_of_timer3(Table::kPanelPins.spindle_pulses),
+                  "the pin of the spindle's pulses does not have that channel of timer 3");
+    static_assert(is_there(Table::kLines[6]) == is_there(Table::kLines[7]),
+                  "the second motor has a step without a direction, or the other way round");
+
+    static constexpr bool kHold = true;
+};
+
+}  // namespace cusp::boards
