@@ -135,6 +135,11 @@ struct ChipTraits {
     {
         using namespace hal::stm32f4;
         report_reset(board.byte_link, clock_source_);
+        if constexpr (kUsb) {
+            if (clock_source_ == ClockSource::kCrystal) {
+                board.byte_link.usb.connect();
+            }
+        }
         enable_interrupt<Chip>(player_interrupt(), kPlayerPriority);
         board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
                                  reset_amid_motion());

@@ -61,8 +61,8 @@ constexpr std::array<std::uint8_t, 18> device_descriptor(const UsbIdentity& iden
 // clang-format off
 inline constexpr std::array<std::uint8_t, 75> kUsbConfiguration{
     9, kConfigurationDescriptor, 75, 0, 2, 1, 0, 0xC0, 50,  // two interfaces, a supply of its own
-    8, 11, 0, 2, 0x02, 0x02, 0x01, 0,                       // both are one ACM function
-    9, 4, 0, 0, 1, 0x02, 0x02, 0x01, 0,                     // interface 0: control
+    8, 11, 0, 2, 0x02, 0x02, 0x00, 0,                       // both are one ACM function
+    9, 4, 0, 0, 1, 0x02, 0x02, 0x00, 0,                     // interface 0: control, no AT commands
     5, 0x24, 0x00, 0x20, 0x01,                              // CDC 1.20
     5, 0x24, 0x01, 0x00, 1,                                 // no call management
     4, 0x24, 0x02, 0x02,                                    // line coding and control line state

@@ -198,7 +198,7 @@ private:
     static constexpr std::uint32_t kNotifyIn = kUsbActive | kNotifyKind | 2U << 22U | 8U;
 };
 
-// From the block's reset to a device that the host can see (RM0090 sections 34.17.1 and 34.17.3).
+// From the block's reset to a device that connect_usb() shows to the host (RM0090 sections 34.17.1 and 34.17.3).
 template <class Chip>
 void start_usb(UsbSession session) noexcept
 {
@@ -238,7 +238,13 @@ void start_usb(UsbSession session) noexcept
     core.gintmsk.write(kUsbReceived | kUsbSuspend | kUsbReset | kUsbEnumerated | kUsbInEvent |
                        kUsbOutEvent | kUsbWakeUp);
     core.gahbcfg.write(1);
-    core.dctl.write(0);
+}
+
+// The pull-up on, so that a host sees the device.
+template <class Chip>
+void connect_usb() noexcept
+{
+    Chip::usb().dctl.write(0);
 }
 
 }  // namespace cusp::hal::stm32f4

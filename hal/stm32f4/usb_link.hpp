@@ -21,8 +21,10 @@ namespace cusp::hal::stm32f4 {
 template <class Chip, class Table>
 class UsbLink {
 public:
-    // Plugs in. Precondition: 48 MHz and the block's clock are on, the pins are set.
+    // Precondition: 48 MHz and the block's clock are on, the pins are set.
     void start(UsbSession session) noexcept { start_usb<Chip>(session); }
+    // After start(), and late: a host that a boot loader has spoken to must see that it has gone.
+    void connect() noexcept { connect_usb<Chip>(); }
 
     // See hal/contract/board.hpp. Bytes are never lost.
     bool try_read(std::uint8_t& byte) noexcept;

@@ -9,6 +9,7 @@ Exit status: 0 each is found, 1 one is not, 2 something could not be built.
 """
 import argparse
 import contextlib
+import functools
 import io
 import pathlib
 import re
@@ -108,6 +109,28 @@ FAULTS_OF_STOPS = {
     "a watchdog fed without ticks": ("boards/mill3/chip_traits.hpp", "if (ticks != fed_at)", "if (true)"),
 }
 
+# Faults of USB; usb_on_chip.py judges. `--usb-faults` plants these, on a board with a plug.
+USB, ENDPOINTS, TWO_LINKS = "hal/stm32f4/usb_link.hpp", "hal/stm32f4/usb_endpoints.hpp", "boards/mill3/two_links.hpp"
+FAULTS_OF_USB = {
+    "more urgent than the tick": ("hal/stm32f4/chip.hpp", "kUsbPriority = 0xE0", "kUsbPriority = 0x00"),
+    "47 MHz": (CLOCKS, "plan.usb_divisor() << 24U", "(plan.usb_divisor() + 1) << 24U"),
+    "takes what has no room": (USB, "kReceiveSize - held >= kUsbPacket", "true"),
+    "never takes more": (USB, "if (wants_room_.load(std::memory_order_relaxed)) {", "if (false) {"),
+    "waits for a port that is closed": (USB, "return open() ? kSendSize", "return true ? kSendSize"),
+    "answers of before": (USB, "send_tail_.store(send_head_.load(std::memory_order_relaxed), std::memory_order_release);", ""),
+    "no empty packet": (USB, "full_packet_ = size == kUsbPacket;", "full_packet_ = false;"),
+    "toggles kept over a halt": (ENDPOINTS, "(resumed == endpoint ? kUsbDataZero : 0U)", "0U"),
+    "toggles kept over a configuration": (ENDPOINTS, "kBulkOut | kUsbDataZero | kUsbSetNak", "kBulkOut | kUsbSetNak"),
+    "a request amid an answer": (USB, "    Endpoints::cancel_in(0);\n    control_waits_ = false;\n    const", "    const"),
+    "the host's sleep not seen": (USB, "!suspended_ && (control_", "(control_"),
+    "one link starves the other": (TWO_LINKS, "other_first_ = !other_first_;", ""),
+    "links mixed": (TWO_LINKS, "may_turn() && !amid_line_ && !(text && parks)", "true"),
+    "a cut line goes on": (TWO_LINKS, "lost_ = lost_ || ends_line_;", ""),
+    "what was lost is not told": (TWO_LINKS, "parked_lost_ = true;\n        }\n    }\n    return false;",
+                                  "}\n    }\n    return false;"),
+    "never holds": (TWO_LINKS, "return usb.sender_left() && usb_has_turn_;", "return false;"),
+}
+
 
 class Builder:
     """Compiles and links the board's image with a changed header."""
@@ -186,11 +209,11 @@ def find(options, image):
     return None
 
 
-def find_in_stops(options, image):
-    """The report of stops_on_chip.py on an image; None if it finds nothing."""
-    script = pathlib.Path(__file__).with_name("stops_on_chip.py")
-    done = subprocess.run([sys.executable, str(script), "--cosim", options.cosim, "--board", options.board,
-                           "--image", str(image)], capture_output=True, text=True)
+def find_by(script, options, image):
+    """The report of a script on an image; None if it finds nothing."""
+    done = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name(script)), "--cosim", options.cosim,
+                           "--board", options.board, "--cusp", options.cusp, "--image", str(image)],
+                          capture_output=True, text=True)
     failed = re.findall(r"^(?:FAIL|ERROR): (\w+)", done.stderr, re.M)
     return None if done.returncode == 0 else f"{len(failed)} failures: {', '.join(sorted(set(failed)))}"
 
@@ -200,6 +223,7 @@ def main():
     for name in ("cosim", "cusp", "board", "image"):
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--stops", action="store_true", help="the faults that delay a stop")
+    parser.add_argument("--usb-faults", action="store_true", help="the faults of USB and of two links")
     parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -207,18 +231,19 @@ def main():
         program = folder / "short.ngc"
         program.write_text("G91 G1 X1 Y0.5 Z-0.2 F1200\nG0 X-1\nG2 X1 Y1 I0.5 J0.5\nM2\n")
         options.program, options.settings, options.script = program, None, None
-        options.as_it_is = options.may_stand_still = False
+        options.as_it_is = options.may_stand_still = options.usb = False
         options.chip_seconds = options.seconds = 0.0
         options.most_ticks = 20000  # ten times what it takes
         missed = []
-        look = find_in_stops if options.stops else find
+        script = "stops_on_chip.py" if options.stops else "usb_on_chip.py" if options.usb_faults else None
+        look = functools.partial(find_by, script) if script else find
         try:
             builder = Builder(options.image, folder)
             said = look(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
             faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
-            faults = FAULTS_OF_STOPS if options.stops else faults
+            faults = FAULTS_OF_STOPS if options.stops else FAULTS_OF_USB if options.usb_faults else faults
             faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
                 said = look(options, builder.make(file, old, new))

@@ -38,6 +38,7 @@ UsbHost::UsbHost(Circuit& circuit, UsbModel& device) : Model{circuit}, device_{d
 
 void UsbHost::plug()
 {
+    buffer_.clear();
     plugged_ = true;
     asleep_ = false;
     suspend_at_ = kNever;
@@ -144,11 +145,16 @@ bool UsbHost::fetch_packet()
         return true;
     }
     in_one_ = !in_one_;
-    for (const std::uint8_t byte : packet) {
+    buffer_.insert(buffer_.end(), packet.begin(), packet.end());
+    if (packet.size() == kPacket && buffer_.size() < kBuffer) {
+        return true;
+    }
+    for (const std::uint8_t byte : buffer_) {
         if (receiver_) {
             receiver_(static_cast<char>(byte));
         }
     }
+    buffer_.clear();
     return true;
 }
 

@@ -69,6 +69,9 @@ private:
     UsbModel& device_;
     std::function<void(char)> receiver_;
     std::deque<std::uint8_t> outgoing_;
+    // A host's driver gets bytes once its buffer is full or a packet is short.
+    static constexpr std::size_t kBuffer = 2 * kPacket;
+    std::vector<std::uint8_t> buffer_;
     unsigned address_{0};
     bool plugged_{false}, open_{false}, mute_{false}, asleep_{false}, working_{false};
     bool out_one_{false}, in_one_{false};

@@ -123,6 +123,12 @@ class Lines(unittest.TestCase):
                 self.assertIn("ok", machine.ask("G4 P0"))
                 self.assertEqual(machine.status()[0], "Idle")
 
+    def test_answers_of_any_length_arrive_at_once(self):
+        with Plugged() as machine:
+            for length in range(64):
+                self.assertIn("ok", machine.ask(f"$N0=({'a' * length})"))
+                self.assertIn("ok", machine.ask("$N", 10))
+
     def test_a_link_waits_for_the_others_lines_but_its_realtime_bytes_act(self):
         with Plugged() as machine:
             machine.send("G4 P0.2\nG4 P0.1\n")
