@@ -236,8 +236,14 @@ void Machine::enter_alarm(Alarm alarm) noexcept
         message("Reset to continue");
     } else if (alarm == Alarm::kEmergencyStop || alarm == Alarm::kMotorFault) {
         reset_needed_ = true;
-        message(alarm == Alarm::kMotorFault ? "Motor fault: clear it, then reset"
-                                            : "Emergency stop: clear it, then reset");
+        // The first that a bare board says: its inputs are open.
+        message(
+            alarm == Alarm::kMotorFault
+                ? "Motor fault: clear it, then reset. No such wire: close the input to ground or "
+                  "add 256 to $14"
+                : "Emergency stop: clear it, then reset. No such wire: close the input to ground "
+                  "or "
+                  "add 64 to $14; 331 if no control is wired");
     }
 }
 

@@ -339,6 +339,7 @@ class Inputs(unittest.TestCase):
         with chip(quiet_inputs=False) as machine:
             heard = machine.boot()
             self.assertIn("ALARM:10", heard)
+            self.assertRegex(heard, r"\[MSG:Emergency stop: .* wire: .* ground .* \$14; 331 ")
             self.assertEqual(machine.status()[0], "Alarm")
             self.assertIn("error:9", machine.ask("G1 X1 F100"))
 
