@@ -40,7 +40,7 @@ static_assert(cusp::boards::PinRules<cusp::boards::{name},
     cusp::boards::{name}::SerialPort<cusp::hal::stm32f4::Chip>>::kHold);
 """
     run = subprocess.run([COMPILER, "-std=c++17", "-fsyntax-only", "-x", "c++", "-I", ROOT, "-"],
-                         input=source, capture_output=True, text=True)
+                         input=source, capture_output=True, text=True, cwd=ROOT)
     return run.stderr if run.returncode else None
 
 
@@ -49,7 +49,7 @@ def main():
     for name, path in TABLES.items():
         said = compile_table(name, (ROOT / path).read_text())
         if said is not None:
-            wrong.append(f"{path} does not compile: {said}")
+            wrong.append(f"{path} does not compile: {said[:600]}")
     good = (ROOT / TABLES["MillTable"]).read_text()
     for what, (old, new, reason) in WRONG.items():
         if good.count(old) != 1:
