@@ -42,14 +42,6 @@ double widest(const Operation& operation)
     return 2 * radius + operation.passes.allowance + lead + cut.width;
 }
 
-// loop_polyline() closes what it is given, by the last point.
-std::vector<Vec2d> open_polyline(const Chain& chain)
-{
-    std::vector<Vec2d> line = loop_polyline(chain, kBoxChord / 10);
-    line.back() = in_plan(point_at(chain.back(), chain.back().domain_end()));
-    return line;
-}
-
 // A closed loop on an open chain: no line from its end to its start.
 Chain there_and_back(Chain chain)
 {
@@ -136,7 +128,7 @@ std::vector<double> engraved_heights(const Operation& operation, const HeightGri
     EngravedTips tips{operation, spacing};
     std::vector<ToolPositions> runs;
     for (const Chain& chain : operation.prismatic->chains) {
-        ToolPositions run{operation.tool, tips.along(open_polyline(chain)), {}};
+        ToolPositions run{operation.tool, tips.along(open_polyline(chain, kBoxChord / 10)), {}};
         run.rapid.resize(run.tips.size(), false);
         runs.push_back(std::move(run));
     }
@@ -149,8 +141,16 @@ std::vector<double> engraved_heights(const Operation& operation, const HeightGri
 
 }  // namespace
 
+std::vector<Vec2d> open_polyline(const Chain& chain, double chord)
+{
+    std::vector<Vec2d> line = loop_polyline(chain, chord);
+    line.back() = in_plan(point_at(chain.back(), chain.back().domain_end()));
+    return line;
+}
+
 CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
     : operation_{&operation},
+      grid_{grid},
       cap_{operation.prismatic ? widest(operation) + 2 * grid.pitch
                                : 2 * operation.tool.radius + 2 * grid.pitch}
 {
@@ -218,7 +218,9 @@ double CutRegion::room(double x, double y) const
         return least;
     }
     const double inward = into_material(x, y);
-    return operation_->prismatic->side == ProfileSide::kInside ? inward : -inward;
+    const bool within = operation_->cuts(job::Region::kValleys) ||
+                        operation_->prismatic->side == ProfileSide::kInside;
+    return within ? inward : -inward;
 }
 
 RegionAt CutRegion::profile_at(double x, double y) const
@@ -226,7 +228,7 @@ RegionAt CutRegion::profile_at(double x, double y) const
     const Prismatic& cut = *operation_->prismatic;
     const double bottom = cut.top - cut.depth;
     if (cut.side == ProfileSide::kOn) {
-        return {operation_->tool.radius - from_curves(x, y), bottom};
+        return engraved_at(x, y);
     }
     const double away = room(x, y);
     return {std::min(away, widest(*operation_) - away), bottom};
@@ -312,6 +314,25 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
                 0.0};
     }
     return {cap_, bottom};  // face
+}
+
+RegionAt CutRegion::around(Vec2d place) const
+{
+    const double near = grid_.pitch / 2;
+    RegionAt lowest = at(place.x, place.y, 0);
+    if (heights_.empty()) {
+        return lowest;
+    }
+    lowest.floor = kUnbounded;
+    for (std::size_t i = grid_.first_column(place.x - near); i < grid_.end_column(place.x + near);
+         ++i) {
+        for (std::size_t j = grid_.first_row(place.y - near); j < grid_.end_row(place.y + near);
+             ++j) {
+            const double z = heights_[grid_.index(i, j)];
+            lowest.floor = std::min(lowest.floor, std::isfinite(z) ? z : -kUnbounded);
+        }
+    }
+    return lowest;
 }
 
 std::vector<CutRegion> cut_regions(const Job& job, const HeightGrid& grid)

@@ -36,8 +36,11 @@ public:
     // k  the point's place in the grid
     RegionAt at(double x, double y, std::size_t k) const;
 
-    // mm: how far the tool's centre may go into the region, on the side that it has to clear;
-    // a pocket's and a profile's walls alone decide.
+    // Likewise at any place: where floors are known at points of the grid alone, the lowest around it.
+    RegionAt around(Vec2d place) const;
+
+    // mm: how far the tool's centre may go into the region, on the side that it has to clear; the
+    // walls alone decide.
     double room(double x, double y) const;
 
     const job::Operation& operation() const { return *operation_; }
@@ -55,10 +58,14 @@ private:
     RegionAt engraved_at(double x, double y) const;
 
     const job::Operation* operation_;
+    HeightGrid grid_;
     double cap_;
     std::vector<WallDistance> walls_;
     std::vector<double> heights_;  // of surfaces; NaN where there is none
 };
+
+// Chords of a chain within `chord` mm; job::loop_polyline() closes what it is given.
+std::vector<Vec2d> open_polyline(const job::Chain& chain, double chord);
 
 std::vector<CutRegion> cut_regions(const job::Job& job, const HeightGrid& grid);
 

@@ -68,9 +68,9 @@ double spacing_for(const path::Move& move)
 
 }  // namespace
 
-std::vector<EarlierCut> earlier_cuts(const Job& job, const std::string& file)
+std::vector<EarlierCut> straight_cuts(const Program& program,
+                                      const std::function<const Tool&(int)>& tool_of)
 {
-    const Program program = read_program(job, file, job.stock_top + kStartHigh);
     std::vector<EarlierCut> cuts;
     std::vector<Vec3d> points;
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
@@ -78,20 +78,28 @@ std::vector<EarlierCut> earlier_cuts(const Job& job, const std::string& file)
         if (is_rapid(m)) {
             continue;
         }
-        const Tool& tool = tool_of_program(job, file, program, m.tool);
+        const Tool& tool = tool_of(m.tool);
         if (k == 0) {
-            continue;  // the place before the first move is not known
+            continue;
         }
         const bool is_chord = !std::holds_alternative<path::Line>(m.move.path);
         points.clear();
         append_points(m.move, spacing_for(m.move), points);
         Vec3d at = to_millimetres(m.move.start);
         for (const Vec3d p : points) {
-            cuts.push_back({tool, is_chord, at, p});
+            cuts.push_back({tool, is_chord, at, p, m.move.line});
             at = p;
         }
     }
     return cuts;
+}
+
+std::vector<EarlierCut> earlier_cuts(const Job& job, const std::string& file)
+{
+    const Program program = read_program(job, file, job.stock_top + kStartHigh);
+    return straight_cuts(program, [&](int number) -> const Tool& {
+        return tool_of_program(job, file, program, number);
+    });
 }
 
 std::vector<std::string> earlier_programs(const Job& job)

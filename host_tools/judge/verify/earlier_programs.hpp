@@ -1,6 +1,8 @@
 // Programs that were cut before a job's own, from any source.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,14 @@ struct EarlierCut {
     bool is_chord;  // of an arc or a curve, which it leaves by at most 0.0002 mm
     Vec3d from;
     Vec3d to;
+    std::uint32_t line{};  // of its program
 };
+
+// The feed moves of a program as straight moves, with the tool that `tool_of` has for each number.
+//
+// The first move is left out: the place before it is not known.
+std::vector<EarlierCut> straight_cuts(
+    const Program& program, const std::function<const toolpath::Tool&(int number)>& tool_of);
 
 // The feed moves of a program as straight moves. Tools are those that its comments describe
 // (tool_comment.hpp), else those of the job with the same number. A program that names no tool is

@@ -9,6 +9,8 @@
 
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/distance_transform.hpp"
+#include "host_tools/judge/verify/wall_gouge.hpp"
+#include "host_tools/judge/verify/wall_stock.hpp"
 
 namespace cusp::verify {
 
@@ -17,28 +19,6 @@ using job::Prismatic;
 using job::ProfileSide;
 
 namespace {
-
-struct Cuts {
-    double gouge{};
-    double wall{};
-};
-
-// The least of what a cut to z at a point breaks: below a floor, or beyond a wall. Near a wall that is cut too deep the
-// greater of the two distances counts, not the whole depth.
-Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top)
-{
-    double least = top - z;
-    Cuts cuts{least, 0};
-    for (const RegionAt& region : regions) {
-        const double below = std::max(0.0, region.floor - region.below - z);
-        const double beyond = std::max(0.0, -region.inside);
-        if (std::max(below, beyond) < least) {
-            least = std::max(below, beyond);
-            cuts = beyond > below ? Cuts{0, beyond} : Cuts{below, 0};
-        }
-    }
-    return cuts;
-}
 
 class LevelJudge {
 public:
@@ -101,6 +81,47 @@ private:
                 figures_.wall_gouge_at = {{x(k), y(k), q_.cut[k]}};
             }
             figures_.wall_gouge_max = std::max(*figures_.wall_gouge_max, worst[band].wall);
+        }
+        find_wall_gouges();
+    }
+
+    // Those that lie between the points of the grid.
+    void find_wall_gouges()
+    {
+        take_gouge(deepest_wall_gouge(
+            regions_, q_.runs,
+            {q_.stock, q_.job.stock_top, q_.plan_tolerance, q_.floor_tolerance}));
+    }
+
+    // high  points that the operation has left above its floor
+    void find_wall_faults(const CutRegion& region, const std::vector<char>& high)
+    {
+        const Operation& operation = region.operation();
+        const bool is_rest = !operation.rest.after.empty() || !q_.job.stock_programs.empty();
+        if (!q_.job.turned_programs.empty() || (is_rest && operation.cuts(job::Region::kGrooves))) {
+            return;  // what is cut before may be left out as a whole
+        }
+        const auto is_open = [&](Vec2d at, double reach) {
+            return q_.stock.any_near(at, reach, [&](std::size_t k) { return high[k] != 0; });
+        };
+        const double thin = is_rest ? operation.rest.tolerance.value_or(std::min(
+                                          operation.tolerance.floor, operation.tolerance.plan))
+                                    : 0.0;
+        const WallFaults found =
+            faults_at_walls(region, {regions_, q_.cuts, q_.stock, is_open, q_.plan_tolerance + thin,
+                                     q_.plan_tolerance, q_.floor_tolerance});
+        if (found.stock &&
+            (!figures_.wall_stock || found.stock->thickness > figures_.wall_stock->thickness)) {
+            figures_.wall_stock = found.stock;
+        }
+        take_gouge(found.gouge.value_or(WallGouge{}));
+    }
+
+    void take_gouge(const WallGouge& found)
+    {
+        if (found.depth > *figures_.wall_gouge_max) {
+            figures_.wall_gouge_max = found.depth;
+            figures_.wall_gouge_at = found.at;
         }
     }
 
@@ -177,6 +198,7 @@ private:
             high[k] = left - at.above > q_.floor_tolerance + at.left ? 1 : 0;
         }
         figures_.cells += cells;
+        find_wall_faults(region, high);
         if (cut.tabs) {
             count_tabs(region, here, high);
         }

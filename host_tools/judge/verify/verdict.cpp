@@ -97,6 +97,10 @@ void judge(const Job& job, std::optional<double> scallop, Verification& result)
                         f.level_left->height, f.level_left->operation, f.level_left->strategy,
                         f.level_left->place.x, f.level_left->place.y));
     }
+    if (f.wall_stock) {
+        bound("wall_stock_max_mm", f.wall_stock->thickness, bounds.plan_tolerance + kJudgement,
+              f.wall_stock->at);
+    }
     if (f.tabs_standing != f.tabs_wanted) {
         result.broken.push_back(
             fmt::format("tabs: {} found, {} expected", f.tabs_standing, f.tabs_wanted));

@@ -375,13 +375,24 @@ void judge_surfaces(const Job& job,
 // these figures of gouges replace those of the surfaces.
 void add_levels(const Job& job,
                 const Scene& scene,
+                const std::string& program_file,
+                const std::vector<ToolPositions>& runs,
+                const StandingStock& before,
                 const std::vector<double>& heights,
                 Verification& result)
 {
+    std::vector<EarlierCut> cuts = straight_cuts(
+        result.program, [&](int n) -> const Tool& { return tool_of(job, n, program_file); });
+    for (const std::string& file : earlier_programs(job)) {
+        for (EarlierCut& cut : earlier_cuts(job, file)) {
+            cut.line = 0;  // of another program
+            cuts.push_back(cut);
+        }
+    }
     result.figures.ball_gouge_max.reset();
     result.figures.wall_gouge_at.reset();
     LevelMaps maps = judge_levels({job, result.grid, heights, scene.floor_tolerance + kJudgement,
-                                   scene.plan_tolerance + kJudgement},
+                                   scene.plan_tolerance + kJudgement, runs, cuts, before},
                                   result.figures);
     for (std::size_t k = 0; k < result.left.size(); ++k) {
         if (std::isnan(maps.left[k])) {
@@ -418,6 +429,7 @@ Verification verify(const Job& job,
     MachinedStock stock = UncutStock{job}.on(result.grid);
     const std::vector<Tool> tools = finishing_tools(job, runs);
     const double removed_before = cut_earlier_programs(job, spacing, stock);
+    const StandingStock before{result.grid, stock.heights()};
     cut_stock(job, runs, spacing, settings.engagement, progress, stock, result);
     if (settings.engagement) {
         sum_engagement(job, runs, settings, spacing, stock.removed_volume() - removed_before,
@@ -439,7 +451,7 @@ Verification verify(const Job& job,
         judge_surfaces(job, scene, runs, walls, tools, spacing, heights, result);
     }
     if (scene.has_levels) {
-        add_levels(job, scene, heights, result);
+        add_levels(job, scene, program_file, runs, before, heights, result);
     }
     find_fixture_hits(job, runs, figures);
     figures.between_sides = floor_between_sides(job, result.grid, stock.heights(), spacing);

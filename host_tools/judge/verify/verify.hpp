@@ -49,6 +49,12 @@ struct FaultPlace {
     int tool{};            // its number
 };
 
+// Stock left beside a wall of a 2.5-D operation, or how far the tool leaves the curve that it has to follow.
+struct WallStock {
+    double thickness{};  // mm, square to the wall
+    FaultPlace at{};     // with the move that comes nearest
+};
+
 // Figures of one tool of the program.
 struct ToolFigures {
     toolpath::Tool tool;
@@ -105,6 +111,7 @@ struct VerifyFigures {
     double uncovered_share{};                   // of the floor: left above the scallop bound
     // For 2.5-D operations: the most stock left over the tolerance, and the tabs of all profiles.
     std::optional<LevelLeft> level_left;
+    std::optional<WallStock> wall_stock;  // the thickest over the tolerance
     int tabs_standing{};
     int tabs_wanted{};
     // The thinnest floor over a cut of the other side, of a stock that was turned over.

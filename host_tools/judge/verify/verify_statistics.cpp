@@ -134,6 +134,10 @@ Json stats_of(const Verification& result)
         out["tabs_standing"] = f.tabs_standing;
         out["tabs_wanted"] = f.tabs_wanted;
     }
+    if (f.wall_stock) {
+        out["wall_stock_max_mm"] = rounded(f.wall_stock->thickness);
+        add_place_to(out, "wall_stock", f.wall_stock->at);
+    }
     if (f.level_left) {
         out["level_left_mm"] = rounded(f.level_left->height);
         out["level_left_at_mm"] = {rounded(f.level_left->place.x), rounded(f.level_left->place.y)};

@@ -14,7 +14,6 @@ using job::loop_polyline;
 
 namespace {
 
-constexpr double kChord = 1e-4;
 constexpr std::size_t kLevels = 2000;
 
 double distance_to(Vec2d p, Vec2d a, Vec2d b)
@@ -29,7 +28,7 @@ double distance_to(Vec2d p, Vec2d a, Vec2d b)
 
 WallDistance::WallDistance(const Loop& loop, bool outer, double cap) : outer_{outer}, cap_{cap}
 {
-    const std::vector<Vec2d> line = loop_polyline(loop, kChord);
+    const std::vector<Vec2d> line = loop_polyline(loop, kWallChord);
     Vec2d low{kInfinite, kInfinite};
     Vec2d high{-kInfinite, -kInfinite};
     for (const Vec2d p : line) {

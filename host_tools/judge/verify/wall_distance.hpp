@@ -8,6 +8,8 @@
 
 namespace cusp::verify {
 
+inline constexpr double kWallChord = 1e-4;  // mm: of a wall's curves
+
 class WallDistance {
 public:
     // outer  true: a boundary, the tool stays inside; false: an island, it stays outside
