@@ -66,7 +66,7 @@ auto Homing::step(Motion& motion, const Settings& settings) noexcept -> Progress
         return finish_phase(motion, settings);
     }
     if (!moving_) {
-        if (!motion.settled() || !motion.make_room()) {
+        if (!motion.settled() || !motion.has_room()) {
             return Progress::kWaiting;
         }
         return start_phase(motion, settings);

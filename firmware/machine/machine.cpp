@@ -78,9 +78,14 @@ bool Machine::poll() noexcept
     const bool can_answer = replies_.room() >= kReplyRoom;
     motion_.work(can_answer && (!received_.empty() || task_ == Task::kActions));
     guard_limits();
-    if (!can_answer) {
-        return false;  // a stop acts in the tick meanwhile
-    }
+    // Without room for answers a stop acts in the tick meanwhile.
+    const bool worked = can_answer && step();
+    motion_.take_changes();
+    return worked;
+}
+
+bool Machine::step() noexcept
+{
     const bool handled = handle_events();
     const bool followed = follow_motion();
     if (handled || followed) {

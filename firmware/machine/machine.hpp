@@ -144,6 +144,7 @@ private:
     void wait_until_up(std::uint32_t ticks) noexcept;
 
     // machine.cpp
+    bool step() noexcept;
     void guard_limits() noexcept;
     bool follow_motion() noexcept;
     void follow_hold() noexcept;

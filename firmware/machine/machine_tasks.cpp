@@ -83,7 +83,7 @@ bool Machine::perform(const path::Move& move) noexcept
     if (state_ == State::kCheck) {
         return true;
     }
-    if (!motion_.make_room()) {
+    if (!motion_.has_room()) {
         return false;
     }
     path::Move numbered = move;
@@ -102,7 +102,7 @@ bool Machine::perform(const gcode::Probe& probe) noexcept
     if (state_ == State::kCheck) {
         return true;
     }
-    if (!wait_settled() || !motion_.make_room()) {
+    if (!wait_settled() || !motion_.has_room()) {
         return false;
     }
     const bool on = (motion_.inputs().raw() & kProbe) != 0;

@@ -72,6 +72,7 @@ void Motion::push(const path::Move& move) noexcept
     planner_.push(move);
     last_push_tick_ = ticks();
     open_ = true;
+    changed_ = true;
 }
 
 void Motion::close() noexcept
@@ -79,14 +80,14 @@ void Motion::close() noexcept
     if (open_) {
         planner_.close();
         open_ = false;
+        changed_ = true;
     }
 }
 
 void Motion::work(bool more_waits) noexcept
 {
     if (!planner_.empty()) {
-        const bool late = open_ && !more_waits && ticks() != last_push_tick_;
-        late ? planner_.flush_if_short() : static_cast<void>(planner_.make_room());
+        planner_.work(open_ && !more_waits && ticks() != last_push_tick_);
     }
     // A sender that waits for each answer needs a moment to send the next line.
     constexpr std::uint32_t kPatienceTicks = 5;
@@ -99,6 +100,14 @@ void Motion::work(bool more_waits) noexcept
     const float left = interpolator_.path_ahead();
     if (interpolator_.at_rest() || left < braking) {
         close();
+    }
+}
+
+void Motion::take_changes() noexcept
+{
+    if (changed_) {
+        changed_ = false;
+        planner_.work();
     }
 }
 
@@ -135,6 +144,7 @@ void Motion::abandon() noexcept
     planner_.reset(at);
     interpolator_.reset(at);
     open_ = false;
+    changed_ = false;
     unwatch();
     limit_hit_.store(false, std::memory_order_relaxed);
     halted_.store(false, std::memory_order_relaxed);

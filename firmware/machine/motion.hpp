@@ -36,15 +36,16 @@ public:
 
     // Main loop.
 
-    // See Planner::make_room().
-    bool make_room() noexcept { return planner_.make_room(); }
-    // Precondition: make_room() returned true, and move.start == tail().
+    bool has_room() const noexcept { return planner_.has_room(); }
+    // Precondition: has_room(), and move.start == tail().
     void push(const path::Move& move) noexcept;
     // No move follows for now.
     void close() noexcept;
-    // Lets the planner continue with its moves; closes the path where it runs out and nothing came
-    // for a while. more_waits: lines are at hand.
+    // The begin of a slice of the main loop: lets the planner go on with its moves; closes the path
+    // where it runs out and nothing came for a while. more_waits: lines are at hand.
     void work(bool more_waits) noexcept;
+    // The end of a slice: gives the planner what was pushed and closed in it.
+    void take_changes() noexcept;
 
     Position tail() const noexcept { return planner_.tail(); }
     // The last set point.
@@ -151,6 +152,7 @@ private:
     float path_filter_s_{0};
     std::uint32_t last_push_tick_{0};
     bool open_{false};
+    bool changed_{false};  // pushed to or closed in this slice
     std::optional<unsigned> second_motor_axis_;
 };
 

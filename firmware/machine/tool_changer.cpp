@@ -111,7 +111,7 @@ auto ToolChanger::step(Motion& motion, const Settings& settings) noexcept -> Pro
         resting_ = false;
     }
     if (!moving_) {
-        const bool ready = motion.settled() && motion.make_room();
+        const bool ready = motion.settled() && motion.has_room();
         return ready ? start_phase(motion, settings) : Progress::kWaiting;
     }
     const bool probing = phase_ == Phase::kSeek || phase_ == Phase::kLocate;

@@ -119,15 +119,9 @@ void Planner::reset(Position at) noexcept
     tail_ = at;
 }
 
-bool Planner::make_room() noexcept
-{
-    work();
-    return !waiting_ && !smoother_.full();
-}
-
 void Planner::push(const path::Move& move) noexcept
 {
-    CUSP_ASSERT(!waiting_ && !smoother_.full());
+    CUSP_ASSERT(has_room());
     CUSP_ASSERT(move.start == tail_);
     close_requested_ = false;
     tail_ = move.end;
@@ -138,22 +132,12 @@ void Planner::push(const path::Move& move) noexcept
         waiting_ = move;
         starved_ = false;
     }
-    work();
 }
 
 void Planner::close() noexcept
 {
     close_requested_ = true;
     starved_ = false;
-    work();
-}
-
-void Planner::flush_if_short() noexcept
-{
-    flushing_ = path_is_short();
-    starved_ = starved_ && !flushing_;
-    work();
-    flushing_ = false;
 }
 
 bool Planner::empty() const noexcept
@@ -229,8 +213,10 @@ bool Planner::next_move() noexcept
     return true;
 }
 
-void Planner::work() noexcept
+void Planner::work(bool late) noexcept
 {
+    flushing_ = late && path_is_short();
+    starved_ = starved_ && !flushing_;
     if (!waits()) {
         go_on();
     }

@@ -1,8 +1,8 @@
 // The planner: moves become blocks with geometry, speed limits and an always feasible way to stop.
 //
-// Main loop side: push() a Move where make_room() says that one is taken; close() when no further
-// move is at hand. The interpolator reads the queue from the servo tick; while it reads, speeds are
-// only raised.
+// Main loop side: push() a Move where has_room() says that one is taken; close() when no further
+// move is at hand; work() puts them on the path. The interpolator reads the queue from the servo tick;
+// while it reads, speeds are only raised.
 //
 //   Move -> runs of short lines to arcs (line_smoother) -> corners to curves (corner_blender)
 //        -> blocks (block_maker) -> junctions and limits (junction, speed_limit)
@@ -48,19 +48,19 @@ public:
     // Discards all moves; the next starts at `at`. The interpolator must be reset with it.
     void reset(Position at) noexcept;
 
-    // Works on the moves so far, as far as there is room for their blocks. Returns whether push()
-    // takes another one.
-    bool make_room() noexcept;
+    // Works on the moves so far, as far as there is room for their blocks. `late`: the next move is
+    // late, so if the path could end soon, the known part of a run of lines is planned instead of
+    // waiting for longer arcs.
+    void work(bool late = false) noexcept;
 
-    // Precondition: make_room() returned true, and move.start == tail(). A move of no length is
-    // dropped.
+    // True if push() takes another move.
+    bool has_room() const noexcept { return !waiting_ && !smoother_.full(); }
+
+    // Takes a move for work(). Precondition: has_room(), and move.start == tail(). A move of no
+    // length is dropped.
     void push(const path::Move& move) noexcept;
 
-    // The next move is late: if the path could end soon, plans the known part of a run of
-    // lines instead of waiting for longer arcs.
-    void flush_if_short() noexcept;
-
-    // No move follows for now: the path stops at its end.
+    // No move follows for now: work() ends the path in a stop.
     void close() noexcept;
 
     // True if every move is played to its end.
@@ -92,7 +92,6 @@ private:
         Stretch stretch{};
         Allowance allowance{};
     };
-    void work() noexcept;
     void go_on() noexcept;
     bool waits() const noexcept;
     bool path_is_short() const noexcept;

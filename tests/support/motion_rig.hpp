@@ -34,12 +34,13 @@ struct MotionRig {
         std::size_t next = 0;
         std::size_t idle = 0;
         while (idle < 3) {
-            while (next < moves.size() && planner->make_room()) {
+            while (next < moves.size() && takes_another()) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (next == moves.size() && planner->make_room()) {
+            if (next == moves.size() && takes_another()) {
                 planner->close();
+                planner->work();
             }
             samples.push_back(interpolator->tick());
             idle =
@@ -60,12 +61,13 @@ struct MotionRig {
         std::size_t idle = 0;
         std::size_t until = 0;
         while (idle < 3 && samples.size() < kMostTicks) {
-            while (next < moves.size() && planner->make_room() && random() % 3 != 0) {
+            while (next < moves.size() && takes_another() && random() % 3 != 0) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (random() % 50 == 0 || (next == moves.size() && planner->make_room())) {
+            if (random() % 50 == 0 || (next == moves.size() && takes_another())) {
                 planner->close();
+                planner->work();
             }
             if (samples.size() >= until) {
                 until = samples.size() + 1 + random() % 60;
@@ -98,12 +100,13 @@ struct MotionRig {
             // Until then the planner gets only a few moves, so that it does starve.
             const std::size_t known =
                 starved ? std::min<std::size_t>(moves.size(), 5) : moves.size();
-            while (next < known && planner->make_room()) {
+            while (next < known && takes_another()) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (next == known && planner->make_room()) {
+            if (next == known && takes_another()) {
                 planner->close();
+                planner->work();
             }
             if (interpolator->holding() && interpolator->at_rest()) {
                 interpolator->resume();
@@ -113,6 +116,12 @@ struct MotionRig {
                 next == moves.size() && planner->empty() && interpolator->at_rest() ? idle + 1 : 0;
         }
         return samples;
+    }
+
+    bool takes_another()
+    {
+        planner->work();
+        return planner->has_room();
     }
 
     void strike(Event event)

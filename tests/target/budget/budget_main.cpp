@@ -70,9 +70,7 @@ void count_ticks(InstructionMeter& meter)
 {
     plan.close();
     for (unsigned tick = 0; tick < 20000; ++tick) {
-        while (!plan.make_room() && !plan.empty()) {
-            break;
-        }
+        plan.work();
         meter.begin();
         static_cast<void>(interpolator.tick());
         meter.end();
@@ -92,7 +90,6 @@ void count_one_move(std::string_view name, Position end, const path::Path& path)
 {
     InstructionMeter meter{name};
     begin_at_zero();
-    static_cast<void>(plan.make_room());
     plan.push(move_to(end, path, 0.0F));
     count_ticks(meter);
     meter.report(out);
@@ -210,13 +207,14 @@ void count_look_ahead()
     for (unsigned line = 1; line <= kLines; ++line) {
         const auto angle = sin_cos(static_cast<double>(line) * (0.1 / 30.0));
         const Position end = to_position({30.0 * angle.sin, 30.0 - 30.0 * angle.cos, 0.001 * line});
-        while (!plan.make_room()) {
+        while (!plan.has_room()) {
             static_cast<void>(interpolator.tick());
+            plan.work();
         }
         const path::Move move = move_to(end, path::Line{}, 0.01F);
         meter.begin();
         plan.push(move);
-        static_cast<void>(plan.make_room());
+        plan.work();
         meter.end();
     }
     meter.report(out);
