@@ -119,6 +119,8 @@ void Planner::reset(Position at) noexcept
     tail_ = at;
 }
 
+bool Planner::has_room() const noexcept { return !waiting_ && !smoother_.full(); }
+
 void Planner::push(const path::Move& move) noexcept
 {
     CUSP_ASSERT(has_room());

@@ -54,7 +54,7 @@ public:
     void work(bool late = false) noexcept;
 
     // True if push() takes another move.
-    bool has_room() const noexcept { return !waiting_ && !smoother_.full(); }
+    bool has_room() const noexcept;
 
     // Takes a move for work(). Precondition: has_room(), and move.start == tail(). A move of no
     // length is dropped.
