@@ -101,11 +101,40 @@ class AdaptiveLevels(CuspCase):
         self.assertEqual(found["rapid_cut_max_mm"], 0)
         self.assertGreater(found["removed_mm3"], 0.997 * cells["removed_mm3"])
 
+    # The demo's pocket. Steps stay where the ball does not reach, beside walls.
+    def test_a_pocket_over_a_curved_floor(self):
+        def planned(keys):
+            boundary = f'boundary = "{PARTS / "suh-lee-boundary.json"}"\n'
+            self.write("job.toml", JOB.format(
+                tools=FLAT12 + BALL10.replace("shape", "number = 3\nshape"), top=0, strategy="contour_pocket",
+                part=PARTS / "suh-lee-floor.json", depth=12,
+                keys=f'{boundary}islands = ["{PARTS / "suh-lee-island.json"}"]\nscallop = 0.2\nfloor_tolerance = 0.05\n'
+                     f'tool = 3\ntools = [1]\n' + keys))
+            self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+            said = self.cusp(0, "verify", "job.toml", "p.ngc", "--max-engagement", str(ANGLE), "--stats", "v.json")
+            self.assertIn("all bounds hold", said)
+            return [json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json")]
+        _, loops = planned("")
+        plan, found = planned(f'clearing = "adaptive"\nmax_engagement = {ANGLE}')
+        roughing = plan["operations"][0]
+        self.assertLessEqual(roughing["engagement_bound_deg"], ANGLE + 1e-6)
+        self.assertLess(roughing["over_engagement_mm"], 1e-3 * roughing["cut_length_mm"])
+        self.assertLess(found["over_engagement_mm"], 0.1 * loops["over_engagement_mm"])
+        self.assertLess(found["cut_depth_max_mm"], 12.02)
+        self.assertEqual(found["rapid_cut_max_mm"], 0)
+        self.assertGreater(found["removed_mm3"], 0.998 * loops["removed_mm3"])
+
     def test_what_has_no_meaning_is_refused(self):
         def refused(strategy, keys):
             self.job(strategy=strategy, tools=FLAT12, depth=4, keys=keys)
             return self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
         adaptive = 'clearing = "adaptive"\n'
+        curved = f'boundary = "{PARTS / "suh-lee-boundary.json"}"\nscallop = 0.2\n'
+        self.job(strategy="contour_pocket", tools=FLAT12, depth=4, keys=adaptive + curved)
+        text = (self.folder / "job.toml").read_text().replace("chuang-pan-tap", "suh-lee-floor")
+        self.write("job.toml", text.replace("max_depth = 4\nallowance = 0.3\n", ""))
+        self.assertIn('clearing: "adaptive" needs max_depth or layers: the floor is not level',
+                      self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
         self.assertIn("overlap: does not go with", refused("hull_rough", adaptive + "overlap = 1"))
         grid = f'boundary = "{PARTS / "choi-polygon-boundary.json"}"\ngrid = [1, 1]\n'
         self.job(strategy="grid_pocket", tools=FLAT12, depth=4, keys=adaptive + grid)

@@ -1,6 +1,8 @@
 // Clears for climb milling, or mirrored; of two ways the shorter one.
 #include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "host_tools/cam/adaptive_clearing/mirrored_path.hpp"
@@ -49,6 +51,13 @@ AdaptivePath shorter_path(const Region2d& region, const AdaptiveSettings& settin
 }
 
 }  // namespace
+
+double cleared_radius(const toolpath::Tool& tool, double scallop_height)
+{
+    const double corner = tool.corner_radius;
+    const double height = std::min(corner, scallop_height);
+    return tool.radius - corner + std::sqrt(height * (2.0 * corner - height));
+}
 
 AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& settings)
 {

@@ -69,6 +69,9 @@ struct AdaptivePath {
     double length{};                   // mm of all runs
 };
 
+// mm: of the circle that the tool clears to the scallop height (mm, of a round corner at most its radius).
+double cleared_radius(const toolpath::Tool& tool, double scallop_height);
+
 // Empty where the tool fits nowhere.
 AdaptivePath clear_adaptively(const offset::Region2d& region, const AdaptiveSettings& settings);
 

@@ -11,6 +11,7 @@ namespace cusp::adaptive_isocurve {
 using adaptive_clearing::AdaptivePath;
 using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
+using adaptive_clearing::cleared_radius;
 using offset::Box2d;
 using offset::Contour;
 using offset::line_edge;
@@ -31,14 +32,6 @@ Contour rectangle(const Box2d& box)
     return out;
 }
 
-// mm: of the circle that the tool clears to the scallop height.
-double clears(const Tool& tool, double scallop_height)
-{
-    const double corner = tool.corner_radius;
-    const double height = std::min(corner, scallop_height);
-    return tool.radius - corner + std::sqrt(height * (2.0 * corner - height));
-}
-
 }  // namespace
 
 AdaptivePath adaptive_level(const RoughWork& work,
@@ -48,7 +41,7 @@ AdaptivePath adaptive_level(const RoughWork& work,
                             const std::vector<ClearedPlaces>& before)
 {
     AdaptiveSettings adaptive;
-    adaptive.tool_radius = clears(tool, settings.scallop_height);
+    adaptive.tool_radius = cleared_radius(tool, settings.scallop_height);
     adaptive.wall_clearance = settings.wall_clearance;
     adaptive.max_engagement = *work.operation.passes.max_engagement * kPi / 180.0;
     adaptive.tolerance = std::min(settings.chord, 0.005 * adaptive.tool_radius);

@@ -15,6 +15,7 @@
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/toolpath/toolpath_writer.hpp"
+#include "host_tools/job/job/level_floor.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -26,10 +27,10 @@ using adaptive_clearing::EngagementReport;
 using drop_cutter::DropCutter;
 using job::EntryKind;
 using job::Job;
+using job::level_floor;
 using job::Operation;
 using job::OutputForm;
 using job::PocketRefusal;
-using nurbs::Surface;
 using offset::Region2d;
 using offset::RegionOffset;
 using toolpath::OperationStats;
@@ -39,22 +40,7 @@ using toolpath::ToolpathWriter;
 namespace {
 
 constexpr double kDegrees = kPi / 180.0;
-constexpr double kLevel = 1e-6;  // mm: heights of a level floor differ by less
-
-double level_of(const Operation& operation)
-{
-    const Vec3d first = operation.part.floor.front().points.front();
-    for (const Surface& surface : operation.part.floor) {
-        for (const Vec3d p : surface.points) {
-            if (std::abs(p.z - first.z) > kLevel) {
-                throw InputError(operation.part.floor_files.front() +
-                                 ": clearing \"adaptive\" needs a level floor; it has z " +
-                                 number_text(first.z) + " mm and " + number_text(p.z) + " mm");
-            }
-        }
-    }
-    return first.z;
-}
+constexpr double kLevel = 1e-6;  // mm: layers that differ by less are one
 
 std::vector<double> heights_of(const Job& job, const Operation& operation, double floor)
 {
@@ -73,23 +59,6 @@ std::vector<double> heights_of(const Job& job, const Operation& operation, doubl
     }
     heights.push_back(floor);
     return heights;
-}
-
-// The swept area is kept in cells of a twelfth of the radius.
-void check_size(const Operation& operation, const Region2d& region)
-{
-    constexpr double kMostCells = 2e7;
-    const double pitch = operation.tool.radius / 12.0;
-    const offset::Box2d box = box_of(region);
-    const double x = box.x1 - box.x0;
-    const double y = box.y1 - box.y0;
-    if (x * y > kMostCells * pitch * pitch) {
-        throw InputError(
-            operation.outline.boundary_file + ": the pocket of " + number_text(x) + " x " +
-            number_text(y) + " mm is over " + number_text(kMostCells * pitch * pitch) +
-            " mm^2, the most that clearing \"adaptive\" takes with the tool of radius " +
-            number_text(operation.tool.radius) + " mm");
-    }
 }
 
 // mm: of chords in place of arcs. The bound of SweptArea has room for this share of the radius.
@@ -139,6 +108,24 @@ void warn_beside_stock(const Job& job,
 
 }  // namespace
 
+// The swept area is kept in cells of a twelfth of the radius.
+void check_adaptive_size(const Operation& operation, const Region2d& region)
+{
+    constexpr double kMostCells = 2e7;
+    const double pitch = operation.tool.radius / 12.0;
+    const offset::Box2d box = box_of(region);
+    const double x = box.x1 - box.x0;
+    const double y = box.y1 - box.y0;
+    if (x * y > kMostCells * pitch * pitch) {
+        throw InputError(
+            operation.outline.boundary_file + ": the pocket of " + number_text(x) + " x " +
+            number_text(y) + " mm is over " + number_text(kMostCells * pitch * pitch) +
+            " mm^2, the most that clearing \"adaptive\" takes with the tool of radius " +
+            number_text(operation.tool.radius) + " mm");
+    }
+}
+
+// Over 60 lines: the steps of one plan, in order, share its settings.
 std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
@@ -148,10 +135,10 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
         open_sides(job, operation, pocket, tolerances.wall_clearance);
     const Region2d& region = open ? open->region : pocket;
     check_work(job, operation, region, tolerances);
-    check_size(operation, region);
+    check_adaptive_size(operation, region);
     const DropCutter floor{operation.part.floor, operation.tool, tolerances.accuracy};
     check_coverage(operation, open ? open->in_stock : pocket, floor);
-    const std::vector<double> heights = heights_of(job, operation, level_of(operation));
+    const std::vector<double> heights = heights_of(job, operation, level_floor(operation).value());
     const AdaptivePath path = passes_of(job, operation, region, open, tolerances);
 
     PlannedOperation result;

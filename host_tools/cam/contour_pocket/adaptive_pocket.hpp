@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "host_tools/geometry/offset/contour.hpp"
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
 
@@ -11,8 +12,14 @@ namespace cusp::contour_pocket {
 // Plans an operation with clearing = "adaptive". All layers have the same passes; the last one is
 // on the floor, and nothing is left for a finish.
 //
-// Errors: InputError as plan_contour_pocket(), and for a floor that is not level.
+// Precondition: the floor is level (job/level_floor.hpp).
+//
+// Errors: InputError as plan_contour_pocket().
 std::vector<toolpath::PlannedOperation> plan_adaptive_pocket(const job::Job& job,
                                                              const job::Operation& operation);
+
+// Errors: InputError if the region is too large for the areas that adaptive clearing keeps with the
+// operation's tool.
+void check_adaptive_size(const job::Operation& operation, const offset::Region2d& region);
 
 }  // namespace cusp::contour_pocket

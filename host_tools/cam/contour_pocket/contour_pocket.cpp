@@ -22,6 +22,7 @@
 #include "host_tools/cam/contour_pocket/rough_layers.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/job/job/level_floor.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -37,6 +38,7 @@ using clearing::LoopStrip;
 using drop_cutter::DropCutter;
 using job::Job;
 using job::kRoughingDone;
+using job::level_floor;
 using job::Operation;
 using job::OutputForm;
 using job::PocketRefusal;
@@ -154,6 +156,7 @@ public:
             settings.rapid_to_stock = true;
             settings.skipped = cut_by_roughing(cleared, settings.repeated, *rough);
             const bool stock_left = operation_.passes.allowance > 0.0 ||
+                                    operation_.passes.max_engagement ||
                                     rough->operation.path.tool.number != operation_.tool.number;
             if (stock_left) {
                 settings.stock_beside = {stock_beside(cleared, settings.repeated), job_.stock_top,
@@ -442,7 +445,7 @@ private:
 
 std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
 {
-    if (operation.passes.max_engagement) {
+    if (operation.passes.max_engagement && level_floor(operation)) {
         return plan_adaptive_pocket(job, operation);
     }
     const auto begin = std::chrono::steady_clock::now();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/cam/contour_pocket/adaptive_rough_layers.hpp"
 #include "host_tools/cam/contour_pocket/pocket_path_writer.hpp"
 
 namespace cusp::contour_pocket {
@@ -27,6 +28,8 @@ using toolpath::OperationStats;
 using toolpath::Tool;
 
 namespace {
+
+constexpr double kStepOfDepth = 0.2;  // of adaptive levels
 
 struct RoughStep {
     double across;          // mm between loops
@@ -128,6 +131,21 @@ void fill_operation(const Operation& operation,
                     {"islands", static_cast<double>(operation.outline.islands.size())}};
     report_plunges(moves.steep_plunges(), stats);
     result.operation.path.moves = moves.take();
+}
+
+// Layers of bounded engagement, for all that lies above `bottom` (z of the tip) by more than half a step.
+void fill_adaptively(const Job& job,
+                     const Operation& rough,
+                     const Region2d& region,
+                     double bottom,
+                     RoughResult& result)
+{
+    const double depth = layer_depth(rough);
+    const double step = kStepOfDepth * depth;
+    const double scallops = kStepOfDepth * std::min(depth, rough.tool.corner_radius);
+    result.heights = layer_heights(job, rough, std::min(bottom + 0.5 * step, job.stock_top),
+                                   std::max(0.1 * depth, depth - scallops));
+    rough_adaptively(job, rough, region, result.wall_clearance, step, result);
 }
 
 // Cuts the loops at every height.
@@ -245,6 +263,17 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     const double bottom = lowest_tip(cleared, floor) + operation.passes.allowance;
     if (operation.levels.layers.empty() && bottom >= job.stock_top) {
+        return result;
+    }
+    if (operation.passes.max_engagement) {
+        fill_adaptively(job, rough, region, bottom, result);
+        if (cut_depth != nullptr) {
+            cut_depth->begin(rough.tool);
+            cut_depth->track(result.operation.path.moves);
+        }
+        warn_of_thin_layers(job, operation, result);
+        result.operation.stats.planning_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return result;
     }
     settings.repeated.assign(cleared.passes.size(), true);

@@ -15,13 +15,13 @@ namespace cusp::grid_pocket {
 
 using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
+using adaptive_clearing::cleared_radius;
 using job::Operation;
 using offset::Box2d;
 using offset::common;
 using offset::Region2d;
 using offset::RegionOffset;
 using part_model::PartModel;
-using toolpath::Tool;
 using waterline_slices::fitted_region;
 using waterline_slices::SliceSettings;
 using waterline_slices::WaterlineSlices;
@@ -45,13 +45,6 @@ double scallop_height(const Operation& operation)
 {
     const double most = kScallop * operation.tool.corner_radius;
     return std::min(most, kScallopOfDepth * operation.levels.max_depth.value_or(kUnbounded));
-}
-
-// mm: of the circle that the tool clears to the scallop height.
-double cleared_radius(const Tool& tool, double scallops)
-{
-    const double corner = tool.corner_radius;
-    return tool.radius - corner + std::sqrt(scallops * (2.0 * corner - scallops));
 }
 
 class LayerPlanner {

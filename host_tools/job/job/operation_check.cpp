@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/job/level_floor.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
 #include "fmt/format.h"
@@ -52,10 +53,19 @@ void check_roughing(const Operation& operation, const Refuse& refuse)
     }
 }
 
-// Keys that adaptive clearing of pockets does not know are refused.
+// Keys that adaptive clearing of pockets does not know are refused. Over a level floor it cuts to size;
+// over others it roughs.
 void check_adaptive(const Operation& operation, const Refuse& refuse)
 {
     if (!operation.passes.max_engagement) {
+        return;
+    }
+    if (!operation.prismatic && !level_floor(operation)) {
+        if (!operation.levels.max_depth && operation.levels.layers.empty()) {
+            refuse("clearing",
+                   "\"adaptive\" needs max_depth or layers: the floor is not level, so passes of "
+                   "bounded engagement rough it");
+        }
         return;
     }
     if (operation.tool.shape != toolpath::ToolShape::kFlat) {

@@ -18,6 +18,11 @@ using toolpath::Tool;
 
 namespace {
 
+bool is_cylindrical(const Tool& tool)
+{
+    return flat_radius(tool) >= tool.radius && !is_conical(tool);
+}
+
 // Behind the last position of the rapid move that begins at a position.
 std::size_t end_of_move(const ToolPositions& positions, std::size_t k)
 {
@@ -82,7 +87,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Tools with round corners leave no more between positions than the square of their distance.
     const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
-    const bool is_cylinder = flat_radius(tool) >= tool.radius && !is_conical(tool);
+    const bool is_cylinder = is_cylindrical(tool);
     CutFigures figures;
     std::size_t measured = 0;  // rapid positions before this one are
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
@@ -133,12 +138,20 @@ DeepRapid MachinedStock::deepest_of(const ToolPositions& positions,
                                     std::size_t begin,
                                     std::size_t end) const
 {
+    const bool is_cylinder = is_cylindrical(positions.tool);
+    bool is_empty = first > 0 && !positions.rapid[first - 1];  // what it has cut
     DeepRapid deepest{last - 1, first, 0, 0};
     for (std::size_t k = first; k < last; ++k) {
         if (positions.tips[k].z >= top_) {
+            is_empty = true;
             continue;
         }
-        const double depth = depth_at(positions.tool, positions.tips[k], shrink, begin, end);
+        // A cylinder goes on through the empty disc of the position before.
+        const bool goes_on =
+            is_cylinder && is_empty && positions.tips[k - 1].z <= positions.tips[k].z;
+        const double depth = depth_at(positions.tool, positions.tips[k], shrink,
+                                      goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
+        is_empty = depth <= 0;
         if (depth > deepest.depth) {
             deepest.position = k;
             deepest.depth = depth;
@@ -148,26 +161,29 @@ DeepRapid MachinedStock::deepest_of(const ToolPositions& positions,
     return deepest;
 }
 
-double MachinedStock::depth_at(
-    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end) const
+double MachinedStock::depth_at(const Tool& tool,
+                               Vec3d tip,
+                               double shrink,
+                               const Vec3d* before,
+                               std::size_t begin,
+                               std::size_t end) const
 {
     const Profile probe{tool, shrink};
+    const double bottom = tip.z + shrink;
     double deepest = 0;
-    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
-    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
-        for (std::size_t j = grid_.first_row(tip.y - tool.radius);
-             j < grid_.end_row(tip.y + tool.radius); ++j) {
-            const double dx = grid_.x(i, j) - tip.x;
-            const double dy = grid_.y(i, j) - tip.y;
-            const double squared = dx * dx + dy * dy;
-            const double over = heights_[grid_.index(i, j)] - tip.z - shrink;
-            if (over > deepest && squared <= probe.reach) {
-                deepest = std::max(deepest, over - probe.at(squared));
+    visit_disc(tool, tip, probe.reach, before, begin, end, [&](const DiscColumn& column) {
+        const double* height = heights_.data() + column.index * grid_.ny;
+        for (std::size_t j = column.first; j < column.last; ++j) {
+            if (height[j] - bottom > deepest) {
+                const double squared = column.squared(j);
+                deepest = squared <= probe.reach
+                              ? std::max(deepest, height[j] - bottom - probe.at(squared))
+                              : deepest;
             }
         }
-    }
+    });
     if (tool.corner_radius > 0 || is_conical(tool)) {
-        deepest = std::max(deepest, level_around(tip.x, tip.y, begin, end) - tip.z - shrink);
+        deepest = std::max(deepest, level_around(tip.x, tip.y, begin, end) - bottom);
     }
     // The height by which the tool was raised is in stock too.
     return deepest > kRapidCutAllowed ? deepest + shrink : deepest;
@@ -257,7 +273,38 @@ bool MachinedStock::is_looked_at(const Tool& tool, Vec3d tip) const
     return i0 < i1 && j0 < j1 && sum(i1, j1) - sum(i0, j1) - sum(i1, j0) + sum(i0, j0) > 0;
 }
 
-// Over 60 lines: the loops over rows share what holds for a column, and are vectorised with it.
+template <class Visit>
+void MachinedStock::visit_disc(const Tool& tool,
+                               Vec3d tip,
+                               double reach,
+                               const Vec3d* before,
+                               std::size_t begin,
+                               std::size_t end,
+                               Visit visit) const
+{
+    const double max_error = grid_.pitch / 2;
+    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
+        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+        DiscColumn column{i, 0, 0, x - tip.x, grid_.shift(i) - tip.y, row_x_.data(), row_y_.data()};
+        const double half = half_chord(reach, std::max(0.0, std::abs(column.x) - max_error));
+        column.first = grid_.first_row(tip.y - half);
+        column.last = grid_.end_row(tip.y + half);
+        if (before == nullptr) {
+            visit(column);
+            continue;
+        }
+        const double inner = half_chord(reach, std::abs(x - before->x) + max_error);
+        const std::size_t done = grid_.end_row(before->y - inner);
+        const std::size_t open = std::max(done, grid_.first_row(before->y + inner));
+        DiscColumn above = column;
+        column.last = std::min(done, column.last);
+        above.first = std::max(open, above.first);
+        visit(column);
+        visit(above);
+    }
+}
+
 double MachinedStock::cut_at(const Tool& tool,
                              Vec3d tip,
                              double shrink,
@@ -270,58 +317,31 @@ double MachinedStock::cut_at(const Tool& tool,
     const Profile profile{tool, 0};
     const Profile probe{tool, shrink};
     const double steepness = profile.steepness();
-    const double* row_x = row_x_.data();
-    const double* row_y = row_y_.data();
     double deepest = 0;
-    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
-    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
-        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
-        const double column_x = x - tip.x;
-        const double column_y = grid_.shift(i) - tip.y;
-        const auto squared_at = [=](std::size_t j) {
-            const double dx = column_x + row_x[j];
-            const double dy = column_y + row_y[j];
-            return dx * dx + dy * dy;
-        };
-        double* height = heights_.data() + i * grid_.ny;
-        const auto cut_rows = [&](std::size_t first, std::size_t high) {
-            for (std::size_t j0 = first; j0 < high; j0 += kRun) {
-                const std::size_t j1 = std::min(high, j0 + kRun);
-                double over = 0;
+    visit_disc(tool, tip, profile.reach, before, begin, end, [&](const DiscColumn column) {
+        double* height = heights_.data() + column.index * grid_.ny;
+        for (std::size_t j0 = column.first; j0 < column.last; j0 += kRun) {
+            const std::size_t j1 = std::min(column.last, j0 + kRun);
+            double over = 0;
 #pragma omp simd reduction(max : over)
-                for (std::size_t j = j0; j < j1; ++j) {
-                    const double squared = squared_at(j);
-                    over = std::max(over, std::min(profile.reach - squared,
-                                                   height[j] - tip.z - steepness * squared));
-                }
-                if (over <= 0) {
-                    continue;
-                }
-#pragma omp simd reduction(max : deepest)
-                for (std::size_t j = j0; j < j1; ++j) {
-                    const double squared = squared_at(j);
-                    const double tracked = height[j] - tip.z - shrink - probe.at(squared);
-                    deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
-                    const double lower = tip.z + profile.at(squared);
-                    height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
-                }
+            for (std::size_t j = j0; j < j1; ++j) {
+                const double squared = column.squared(j);
+                over = std::max(over, std::min(profile.reach - squared,
+                                               height[j] - tip.z - steepness * squared));
             }
-        };
-        const double max_error = grid_.pitch / 2;
-        const double half =
-            half_chord(profile.reach, std::max(0.0, std::abs(column_x) - max_error));
-        const std::size_t first = grid_.first_row(tip.y - half);
-        const std::size_t high = grid_.end_row(tip.y + half);
-        if (before == nullptr) {
-            cut_rows(first, high);
-            continue;
+            if (over <= 0) {
+                continue;
+            }
+#pragma omp simd reduction(max : deepest)
+            for (std::size_t j = j0; j < j1; ++j) {
+                const double squared = column.squared(j);
+                const double tracked = height[j] - tip.z - shrink - probe.at(squared);
+                deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
+                const double lower = tip.z + profile.at(squared);
+                height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
+            }
         }
-        const double inner = half_chord(profile.reach, std::abs(x - before->x) + max_error);
-        const std::size_t done = grid_.end_row(before->y - inner);
-        const std::size_t open = std::max(done, grid_.first_row(before->y + inner));
-        cut_rows(first, std::min(done, high));
-        cut_rows(std::max(open, first), high);
-    }
+    });
     return deepest;
 }
 

@@ -83,10 +83,43 @@ private:
                          double shrink,
                          std::size_t begin,
                          std::size_t end) const;
+    // Rows of a column that a disc reaches.
+    struct DiscColumn {
+        std::size_t index;
+        std::size_t first;
+        std::size_t last;
+        double x;  // mm, of the column from the disc's centre
+        double y;
+        const double* row_x;
+        const double* row_y;
+
+        // mm^2, from the centre
+        double squared(std::size_t j) const
+        {
+            const double dx = x + row_x[j];
+            const double dy = y + row_y[j];
+            return dx * dx + dy * dy;
+        }
+    };
+    // Calls visit(DiscColumn) for the points under the tool, and some around.
+    //
+    // reach   mm^2: square of the disc's radius
+    // before  centre of such a disc whose points are left out, but for some at its edge; null: none
+    template <class Visit>
+    void visit_disc(const toolpath::Tool& tool,
+                    Vec3d tip,
+                    double reach,
+                    const Vec3d* before,
+                    std::size_t begin,
+                    std::size_t end,
+                    Visit visit) const;
     // mm: how deep the tool, reduced by `shrink`, is in the stock.
+    //
+    // before  of a cylinder: where it meets nothing, no higher. May be null.
     double depth_at(const toolpath::Tool& tool,
                     Vec3d tip,
                     double shrink,
+                    const Vec3d* before,
                     std::size_t begin,
                     std::size_t end) const;
     // z of the stock around a place where it is level: what a pointed tool meets at its axis, between the points.

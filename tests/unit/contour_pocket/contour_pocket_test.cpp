@@ -148,16 +148,6 @@ TEST(ContourPocket, ClearsAdaptivelyInLayersDownToALevelFloor)
     CHECK(bound <= 60.0);
 }
 
-TEST(ContourPocket, RefusesAdaptiveClearingOnASlope)
-{
-    const std::string text = refusal([](Operation& operation) {
-        operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
-        operation.passes.max_engagement = 60.0;
-        operation.part.floor.front().points[3].z = -9.0;
-    });
-    CHECK(says(text, "floor.json: clearing \"adaptive\" needs a level floor"));
-}
-
 TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
 {
     Operation operation = pocket();

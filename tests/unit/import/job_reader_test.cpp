@@ -236,10 +236,9 @@ TEST(JobReader, RefusesWhatAdaptiveClearingDoesNotKnow)
                        pocket("scallop = 0.4\n" + more));
     };
     const std::string adaptive = "clearing = \"adaptive\"\n";
-    STRCMP_CONTAINS("clearing: \"adaptive\" needs a flat end", refusal(adaptive).c_str());
-    STRCMP_EQUAL("", refusal(adaptive + "tool = 4\n").c_str());
-    STRCMP_CONTAINS("allowance: does not go with",
-                    refusal(adaptive + "tool = 4\nmax_depth = 2\nallowance = 0.3\n").c_str());
+    STRCMP_CONTAINS("clearing: \"adaptive\" needs max_depth or layers: the floor is not level",
+                    refusal(adaptive + "tool = 4\n").c_str());
+    STRCMP_EQUAL("", refusal(adaptive + "tool = 4\nmax_depth = 2\nallowance = 0.3\n").c_str());
     STRCMP_CONTAINS("max_engagement: ",
                     refusal(adaptive + "tool = 4\nmax_engagement = 10\n").c_str());
     STRCMP_CONTAINS("max_engagement: needs clearing", refusal("max_engagement = 60\n").c_str());
