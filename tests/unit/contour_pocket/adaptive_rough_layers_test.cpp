@@ -19,13 +19,13 @@ using namespace toolpath;
 
 namespace {
 
-nurbs::Curve side(Vec2d a, Vec2d b)
+nurbs::Curve wall_line(Vec2d a, Vec2d b)
 {
     return {1, {0.0, 0.0, 1.0, 1.0}, {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}}, {1.0, 1.0}};
 }
 
 // 50 x 50 mm, 8 mm deep, in stock up to z = 0.
-Operation pocket()
+Operation ball_pocket()
 {
     Operation operation;
     operation.strategy = &kContourPocket;
@@ -37,8 +37,8 @@ Operation pocket()
     floor.weights = {1.0, 1.0, 1.0, 1.0};
     operation.part.floor = {floor};
     operation.part.floor_files = {"floor.json"};
-    operation.outline.boundary = Loop{side({5, 5}, {55, 5}), side({55, 5}, {55, 55}),
-                                      side({55, 55}, {5, 55}), side({5, 55}, {5, 5})};
+    operation.outline.boundary = Loop{wall_line({5, 5}, {55, 5}), wall_line({55, 5}, {55, 55}),
+                                      wall_line({55, 55}, {5, 55}), wall_line({5, 55}, {5, 5})};
     operation.outline.boundary_file = "boundary.json";
     operation.tool = {1, ToolShape::kBall, 4.0, 4.0};
     operation.tolerance.plan = operation.tolerance.floor = 0.02;
@@ -46,7 +46,7 @@ Operation pocket()
     return operation;
 }
 
-Job job()
+Job stock_job()
 {
     Job job;
     job.file = "job.toml";
@@ -64,7 +64,7 @@ double lowest_z(const Toolpath& path)
 }
 
 // What is wrong with an adaptive operation.
-std::string refusal(const Operation& operation)
+std::string why_refused(const Operation& operation)
 {
     std::string text;
     check_pocket(operation, [&](const char* key, const std::string& why) {
@@ -77,7 +77,7 @@ std::string refusal(const Operation& operation)
 
 TEST_GROUP(AdaptiveRoughing)
 {
-    Operation operation{pocket()};
+    Operation operation{ball_pocket()};
 
     void setup() override
     {
@@ -99,19 +99,20 @@ TEST(AdaptiveRoughing, KnowsLevelFloors)
 
 TEST(AdaptiveRoughing, CutsLevelFloorsToSizeWithOneFlatEnd)
 {
-    STRCMP_CONTAINS("clearing: \"adaptive\" needs a flat end", refusal(operation).c_str());
-    STRCMP_CONTAINS("tools: has more than", refusal(operation).c_str());
-    STRCMP_CONTAINS("allowance: does not go with", refusal(operation).c_str());
+    STRCMP_CONTAINS("clearing: \"adaptive\" needs a flat end", why_refused(operation).c_str());
+    STRCMP_CONTAINS("tools: has more than", why_refused(operation).c_str());
+    STRCMP_CONTAINS("allowance: does not go with", why_refused(operation).c_str());
     operation.part.floor.front().points[3].z = -9.0;
-    STRCMP_EQUAL("", refusal(operation).c_str());
+    STRCMP_EQUAL("", why_refused(operation).c_str());
     operation.levels.max_depth.reset();
-    STRCMP_CONTAINS("clearing: \"adaptive\" needs max_depth or layers", refusal(operation).c_str());
+    STRCMP_CONTAINS("clearing: \"adaptive\" needs max_depth or layers",
+                    why_refused(operation).c_str());
 }
 
 TEST(AdaptiveRoughing, KeepsItsBoundOnASlopeAndLeavesTwoStepsAtMost)
 {
     operation.part.floor.front().points[3].z = -9.0;
-    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(stock_job(), operation);
     LONGS_EQUAL(2, planned.size());
     const OperationStats& roughed = planned.front().stats;
     CHECK(roughed.roughing);
