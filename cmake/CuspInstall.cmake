@@ -12,12 +12,12 @@ install(FILES README.md CHANGELOG.md DESTINATION ${data}/doc/cusp COMPONENT prog
 install(DIRECTORY docs DESTINATION ${data}/doc/cusp COMPONENT program)
 install(FILES ${packaging}/cusp.bash DESTINATION ${data}/bash-completion/completions RENAME cusp COMPONENT program)
 
-# The images, each with its board's README: an own build with the preset cortex-m4f.
+# The images, each with its board's README: of the preset cortex-m4f, as the tests run them.
 if(CUSP_IMAGES)
-  set(images ${PROJECT_BINARY_DIR}/images)
+  set(images ${PROJECT_SOURCE_DIR}/build/cortex-m4f)
   add_custom_target(cusp_images ALL
-    COMMAND ${CMAKE_COMMAND} --preset cortex-m4f -B ${images} > ${PROJECT_BINARY_DIR}/images.log
-    COMMAND ${CMAKE_COMMAND} --build ${images} >> ${PROJECT_BINARY_DIR}/images.log
+    COMMAND ${CMAKE_COMMAND} --preset cortex-m4f > ${PROJECT_BINARY_DIR}/images.log
+    COMMAND ${CMAKE_COMMAND} --build --preset cortex-m4f >> ${PROJECT_BINARY_DIR}/images.log
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Cross-building the images of the boards" VERBATIM)
   file(GLOB readmes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/boards/*/README.md)
   foreach(readme IN LISTS readmes)
