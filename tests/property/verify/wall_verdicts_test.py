@@ -225,16 +225,17 @@ def moved(job, lines, moves, place, inward, size):
 
 
 def true_size(job, lines, new, foot, low, inward):
-    """mm: by brute force; on curves the distance of the path from them."""
+    """mm: by brute force; on curves the distance of the path from them. Then, for stock at a wall, the lines of the moves
+    that come nearest, as another pass may: verify names one of them."""
     on = job.kind in ("engrave", "on")
     if on or inward:
         beside = [tuple(u + (w - u) * k / 50 for u, w in zip(a, b)) for _, a, b in Moves(lines, job.unit).feeds
                   if math.dist(a, new) < 1e-3 or math.dist(b, new) < 1e-3 for k in range(51)]
-        return max(nearest(p, job.walls)[0] if on else job.radius_at(-p[2]) - nearest(p, job.walls)[0] for p in beside)
+        return max(nearest(p, job.walls)[0] if on else job.radius_at(-p[2]) - nearest(p, job.walls)[0] for p in beside), None
     radius = job.radius_at(min(job.corner + 0.02, -low) if job.corner else 0.0)
-    segments = [(a[:2], b[:2]) for _, a, b in Moves(lines, job.unit).feeds
+    segments = [(a[:2], b[:2], k + 1) for k, a, b in Moves(lines, job.unit).feeds
                 if max(a[2], b[2]) < low + 0.015 and away(foot, (a[:2], b[:2]))[0] < 10]
-    worst = 0.0
+    worst, lines_nearest = 0.0, set()
     for (ax, ay), (bx, by) in job.walls:
         steps = max(1, int(math.hypot(bx - ax, by - ay) / 0.05))
         for k in range(steps + 1):
@@ -243,8 +244,11 @@ def true_size(job, lines, new, foot, low, inward):
                 continue
             if not fits(job, p, (ax, ay), (bx, by)):
                 continue
-            worst = max(worst, min(away(p, s)[0] for s in segments) - radius)
-    return worst
+            found = sorted((away(p, (a, b))[0] - radius, number) for a, b, number in segments)
+            worst = max(worst, found[0][0])
+            lines_nearest |= {number for thickness, number in found if found[0][0] > TOLERANCE and
+                              thickness < found[0][0] + 0.002}
+    return worst, lines_nearest
 
 
 def fits(job, p, a, b):
@@ -273,7 +277,7 @@ def planted(job, folder, lines):
                 continue
             place = job.random.choice(places)
             text, new, line = moved(job, lines, moves, place, inward, size)
-            true = true_size(job, text, new, place[1], low, inward)
+            true, blamed = true_size(job, text, new, place[1], low, inward)
             name = f"{'in' if inward else 'out'}-{size}.ngc"
             (folder / name).write_text("\n".join(text) + "\n")
             status, figures, said = verify(folder, name)
@@ -285,7 +289,8 @@ def planted(job, folder, lines):
             tried += 1
             if status != 1 or abs(found - true) > 0.006:
                 return what, tried
-            said_lines = [re.match(r"N(\d+)|", text[line - 1 + more]).group(1) or line + more for more in (0, 1)]
+            said_lines = [re.match(r"N(\d+)|", text[number - 1]).group(1) or number
+                          for number in (blamed if blamed is not None else (line, line + 1))]
             if not any(re.search(rf"line {number}\b", words) for words in figures["broken"] for number in said_lines):
                 return f"another line: {figures['broken']}; {what}", tried
     return "", tried
