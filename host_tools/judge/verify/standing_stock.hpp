@@ -16,7 +16,8 @@ public:
     {
     }
 
-    // True where all points of the grid around a place are higher than z: there is no doubt.
+    // True where all points of the grid within a pitch of a place are higher than z: there is no doubt. On the
+    // stock's own edge it is never true.
     bool is_over(Vec2d place, double z) const
     {
         const double x_end = grid_.x0 + static_cast<double>(grid_.nx - 1) * grid_.pitch;
@@ -24,7 +25,7 @@ public:
         if (place.x < grid_.x0 || place.x > x_end || place.y < grid_.y0 || place.y > y_end) {
             return false;
         }
-        return !any_near(place, 0, [&](std::size_t k) { return !(heights_[k] > z); });
+        return !any_near(place, grid_.pitch, [&](std::size_t k) { return !(heights_[k] > z); });
     }
 
     // Whether is(k) for some point of the grid within `reach` mm in x and in y, and the ones around these.
