@@ -72,7 +72,7 @@ constexpr bool all_exist(const AllPins& all) noexcept
     }
     return true;
 }
-// What every board has: six lines, all inputs but the second motor's switch, an enable line, the outputs.
+// Every board has six lines, all inputs but the second motor's switch, an enable line, the outputs.
 constexpr bool is_complete(const hal::stm32f4::LinePins& lines, const PanelPins& panel) noexcept
 {
     bool complete = is_there(panel.drives_off[0]) && is_there(panel.flood) &&

@@ -111,7 +111,7 @@ void TwoLinks<Serial, Usb>::turn() noexcept
     tell_parked_loss();
 }
 
-// What was lost came after the text that was kept.
+// Lost bytes came after the text that was kept.
 template <class Serial, class Usb>
 void TwoLinks<Serial, Usb>::tell_parked_loss() noexcept
 {

@@ -19,7 +19,7 @@ struct ClockPlan {
     bool external{false};           // a clock from outside drives OSC_IN instead of a crystal
 
     constexpr bool has_usb() const { return 2 * core_hz % kUsbHz == 0; }
-    // Of the multiplier's other output, PLLQ; one that nothing uses where there is no USB.
+    // PLLQ, the divisor of the multiplier's other output; without USB nothing uses it.
     constexpr std::uint32_t usb_divisor() const { return has_usb() ? 2 * core_hz / kUsbHz : 7; }
     constexpr std::uint32_t fast_bus_hz() const { return core_hz / fast_bus_divisor; }
     constexpr std::uint32_t slow_bus_hz() const { return core_hz / slow_bus_divisor; }

@@ -22,7 +22,7 @@ struct UsbSetup {
 };
 UsbSetup read_setup(const std::array<std::uint8_t, 8>& bytes) noexcept;
 
-// What follows a SETUP packet on endpoint 0.
+// The stage that follows a SETUP packet on endpoint 0.
 enum class UsbStage : std::uint8_t {
     kStall,    // the request is refused
     kStatus,   // an empty packet to the host

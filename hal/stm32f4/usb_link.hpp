@@ -293,7 +293,7 @@ void UsbLink<Chip, Table>::send_control() noexcept
     control_waits_ = size == kUsbPacket && (control_sent_ < all.size() || control_.data_is_short());
 }
 
-// What a request changes beside its answer.
+// Does what a request asks for beside its answer.
 template <class Chip, class Table>
 void UsbLink<Chip, Table>::apply_request() noexcept
 {

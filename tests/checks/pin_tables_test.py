@@ -12,7 +12,7 @@ ROOT, COMPILER = pathlib.Path(sys.argv[1]), sys.argv[2]
 TABLES = {"MillTable": "boards/mill3_f405/mill_table.hpp", "PillTable": "boards/black_pill_f411/pill_table.hpp",
           "NucleoTable": "boards/nucleo_f446_cnc_shield/nucleo_table.hpp",
           "Skr2Table": "boards/skr2_f407/skr2_table.hpp", "OctopusTable": "boards/octopus_f446/octopus_table.hpp"}
-# Of the first table: what is changed in it, and what the compiler must say.
+# Changes to the first table, and what the compiler must say of each.
 WRONG = {
     "flood on X's step": ("flood = {'C', 7}", "flood = {'C', 0}", "a pin is named twice"),
     "two inputs on one pin": ("probe = {'B', 15}", "probe = {'B', 14}", "a pin is named twice"),

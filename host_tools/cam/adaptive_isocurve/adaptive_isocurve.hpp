@@ -28,14 +28,14 @@ namespace cusp::adaptive_isocurve {
 extern const job::Strategy kAdaptiveIsocurve;
 extern const job::Strategy kCompleteIsocurves;
 
-// What a job says of isocurves and planes alone.
+// Keys that isocurves and planes alone take.
 struct IsocurveKeys {
     std::optional<double> iso_distance;  // mm; none: by the scallop
     bool even_steps{false};  // iso_spacing = "even": full steps, not the paper's halving
     char direction{'u'};     // or 'v'; of planes along x or y
 };
 
-// Those of the operation.
+// The operation's own keys.
 template <class AnyOperation>
 decltype(auto) isocurve_keys(AnyOperation& operation)
 {

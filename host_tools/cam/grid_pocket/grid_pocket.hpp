@@ -22,7 +22,7 @@ namespace cusp::grid_pocket {
 // The record of the strategy.
 extern const job::Strategy kGridPocket;
 
-// What a job says of it alone.
+// Keys that it alone takes.
 struct GridKeys {
     double grid_x{};  // mm, of a cell
     double grid_y{};
@@ -32,7 +32,7 @@ struct GridKeys {
     std::optional<double> max_roughness;  // mm; none: any
 };
 
-// Those of the operation.
+// The operation's own keys.
 template <class AnyOperation>
 decltype(auto) grid_keys(AnyOperation& operation)
 {

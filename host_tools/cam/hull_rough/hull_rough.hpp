@@ -27,14 +27,14 @@ namespace cusp::hull_rough {
 // The record of the strategy.
 extern const job::Strategy kHullRough;
 
-// What a job says of it alone.
+// Keys that it alone takes.
 struct HullKeys {
     double overlap{};         // mm, of neighbouring passes
     int extra_subdivision{};  // halvings of patches
     bool contour_clearing{};  // in place of lines
 };
 
-// Those of the operation.
+// The operation's own keys.
 template <class AnyOperation>
 decltype(auto) hull_keys(AnyOperation& operation)
 {

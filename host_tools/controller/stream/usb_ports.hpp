@@ -14,7 +14,7 @@ struct UsbPort {
     std::string serial;  // the serial number; may be empty
 };
 
-// Those that are plugged in now. Errors: InputError if the system does not tell.
+// Boards that are plugged in now. Errors: InputError if the system does not tell.
 std::vector<UsbPort> list_usb_ports();
 
 // The device of the one port that `wanted` names: a part of its name, its serial number, or VID:PID in

@@ -1,4 +1,4 @@
-// What the tables of keys say, for people and for editors.
+// The tables of keys as text, for people and for editors.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ public:
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);
 
-    // Of those of the keys that are values, not tables or tools; lengths in units of `millimetres`.
+    // The values of the keys, without tables and tools; lengths in units of `millimetres`.
     job::KeyValues values(const std::vector<job::Key>& keys, double millimetres);
 
     // Refuses the first known value of another kind or out of its range, before any is used.

@@ -56,7 +56,7 @@ struct ChipLoad {
     std::optional<double> feed_max;  // none: twice the feed
 };
 
-// What is cut: surfaces or triangles, and the files that they come from.
+// The part: surfaces or triangles, and the files that they come from.
 struct CutPart {
     std::vector<nurbs::Surface> floor;
     std::vector<std::string> floor_files;
@@ -66,7 +66,7 @@ struct CutPart {
     std::vector<std::array<Vec3d, 3>> mesh;
 };
 
-// Where it is cut, seen from above.
+// The loops in which it is cut, seen from above.
 struct CutOutline {
     std::optional<Loop> boundary;
     std::string boundary_file;
@@ -126,7 +126,7 @@ struct Operation {
     CutPasses passes;
     CutRest rest;
     bool may_open{false};  // into what the other side of a stock that was turned over has cut
-    // Of 2.5-D strategies; the floor and boundary of a pocket are set too.
+    // Keys of 2.5-D strategies; the floor and boundary of a pocket are set too.
     std::optional<Prismatic> prismatic;
     std::any parameters;  // the strategy's own: parameters_of()
 

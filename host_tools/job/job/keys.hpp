@@ -15,7 +15,7 @@
 
 namespace cusp::job {
 
-// Of a number as the file has it, in the file's unit.
+// Limits of a number as the file has it, in the file's unit.
 struct Range {
     double low;
     double high;

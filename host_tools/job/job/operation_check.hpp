@@ -6,7 +6,7 @@
 
 namespace cusp::job {
 
-// What the strategy's record checks, then that no island lies outside the boundary. Throws InputError.
+// Runs the check of the strategy's record, then refuses islands outside the boundary. Throws InputError.
 void check_operation(const Strategy& strategy, const Operation& operation, const Refuse& refuse);
 
 // Refuses the key as missing where it is not there.
@@ -26,11 +26,11 @@ void check_sideways(const Operation& operation, const Refuse& refuse);
 void check_level(const Operation& operation, const Refuse& refuse);
 // Cones cut no surfaces.
 void check_end(const Operation& operation, const Refuse& refuse);
-// Of strategies that always finish: min_depth has no effect without layers.
+// Strategies that always finish: min_depth needs layers.
 void check_least_depth(const Operation& operation, const Refuse& refuse);
-// Of a pocket with walls: its boundary, scallop, layers and roughing.
+// Pockets with walls: boundary, scallop, layers and roughing.
 void check_pocket(const Operation& operation, const Refuse& refuse);
-// Of passes over surfaces that may rough first: adaptive clearing needs roughing.
+// Passes over surfaces that may rough first: adaptive clearing needs roughing.
 void check_adaptive_roughing(const Operation& operation, const Refuse& refuse);
 
 }  // namespace cusp::job

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = KeyKind;
 
-// Of parts, tolerances and levels.
+// Keys of parts, tolerances and levels.
 const std::vector<Key>& part_keys()
 {
     static const std::vector<Key> kKeys{
@@ -47,7 +47,7 @@ const std::vector<Key>& part_keys()
     return kKeys;
 }
 
-// Of tools, passes and rates.
+// Keys of tools, passes and rates.
 const std::vector<Key>& pass_keys()
 {
     static const std::vector<Key> kKeys{

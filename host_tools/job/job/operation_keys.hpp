@@ -25,9 +25,9 @@ Key tables(const std::string& name,
 
 // Keys that every operation has.
 const std::vector<Key>& common_keys();
-// Of the shared keys those of these names. Throws std::logic_error where there is none of a name.
+// The shared keys of these names. Throws std::logic_error where there is none of a name.
 std::vector<Key> shared_keys(const std::vector<std::string>& names);
-// What all strategies on surfaces take, then the keys of these names.
+// Keys that all strategies on surfaces take, then the keys of these names.
 std::vector<Key> surface_keys(const std::vector<std::string>& names = {});
 // `tabs` of a profile.
 const KeyTable& tabs_table();

@@ -1,5 +1,5 @@
-// A strategy is a record: its name, its keys, and how it checks and plans an operation. Records live beside their planners; `cam/strategies` lists them in one table,
-// which the reader of jobs is given.
+// A strategy is a record: its name, its keys, and how it checks and plans an operation. Records live
+// beside their planners; `cam/strategies` lists them in one table, which the reader of jobs is given.
 //
 //     const Strategy kTrace{"trace", "the tip follows the boundary", keys_of({"floor", "boundary"}),
 //                           {{"point_spacing", KeyKind::kLength, "1 mm", "of the pass", kPositive}},
@@ -20,7 +20,7 @@ namespace cusp::job {
 struct Job;
 struct Operation;
 
-// What an operation cuts.
+// The shape that an operation cuts.
 enum class Region : std::uint8_t {
     kSurfaces,     // down to the surfaces of the floor, inside the boundary where there is one
     kLevelPocket,  // between walls, down to a level floor
@@ -32,7 +32,7 @@ enum class Region : std::uint8_t {
     kEdges         // upper edges, along the flanks of a cone
 };
 
-// What the rest of the program may ask of a strategy.
+// Facts that the rest of the program may ask of a strategy.
 struct Traits {
     Region region{Region::kSurfaces};
     bool pocket{false};             // clears what a boundary encloses, with walls
@@ -62,7 +62,7 @@ struct Strategy {
     bool is_prismatic() const { return traits.region != Region::kSurfaces; }
 };
 
-// Of an operation that has none yet; it plans nothing.
+// The strategy of an operation that has none yet; it plans nothing.
 extern const Strategy kNoStrategy;
 
 // In the order in which errors and help name them.

@@ -85,7 +85,7 @@ private:
         find_wall_gouges();
     }
 
-    // Those that lie between the points of the grid.
+    // The moves tell of cuts between the points of the grid.
     void find_wall_gouges()
     {
         take_gouge(deepest_wall_gouge(

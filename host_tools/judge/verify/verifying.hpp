@@ -1,4 +1,4 @@
-// What the stages of a verification share: each reads the job and what stages before it found.
+// The state of a verification: each stage reads the job and what stages before it found.
 #pragma once
 
 #include <array>

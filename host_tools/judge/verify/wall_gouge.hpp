@@ -13,7 +13,7 @@
 
 namespace cusp::verify {
 
-// What a cut breaks, mm: one of the two, the greater.
+// How far a cut breaks a bound, mm: one of the two, the greater.
 struct Cuts {
     double gouge{};  // below a floor
     double wall{};   // beyond a wall

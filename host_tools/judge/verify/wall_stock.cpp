@@ -153,7 +153,8 @@ private:
         return std::min(least, lowest_between(left_at));
     }
 
-    // Of a convex function over [0, 1], to 1e-5 of it. Where the tip is too high it is unbounded.
+    // The least value of a convex function over [0, 1], to 1e-5 of it; it is unbounded where the tip is too
+    // high.
     template <class Function>
     static double lowest_between(const Function& of)
     {

@@ -31,7 +31,7 @@ public:
     std::uint32_t fast_bus_hz() const { return core_hz_ / divisor(cfgr_ >> 13U & 7U); }
     std::uint32_t slow_timer_hz() const { return timer_hz(slow_bus_hz(), cfgr_ >> 10U & 7U); }
     std::uint32_t fast_timer_hz() const { return timer_hz(fast_bus_hz(), cfgr_ >> 13U & 7U); }
-    // Of the multiplier's other output; 0 while it is off.
+    // The multiplier's other output; 0 while it is off.
     std::uint32_t usb_hz() const;
     // The clock that timer 11 can measure: the crystal divided by RTCPRE; 0 if nothing oscillates.
     std::uint32_t divided_crystal_hz() const;

@@ -1,4 +1,4 @@
-// What the block does with the tokens of a host, and with the states of the wire (RM0090 section 34.17).
+// The block's answers to the tokens of a host, and to the states of the wire (RM0090 section 34.17).
 #include <cstddef>
 
 #include "tests/target/cosim/usb_bits.hpp"

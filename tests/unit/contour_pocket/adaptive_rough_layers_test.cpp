@@ -63,7 +63,7 @@ double lowest_z(const Toolpath& path)
     return lowest;
 }
 
-// What is wrong with an adaptive operation.
+// The reasons for which an adaptive operation is refused.
 std::string why_refused(const Operation& operation)
 {
     std::string text;
