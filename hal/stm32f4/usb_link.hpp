@@ -40,7 +40,7 @@ public:
     {
         return read_.load(std::memory_order_relaxed) == head_.load(std::memory_order_acquire);
     }
-    // Whether open() has ended since the last call: unplugged, closed, or the host sleeps.
+    // True if open() has ended since the last call: unplugged, closed, or the host sleeps.
     bool sender_left() noexcept { return left_.exchange(false, std::memory_order_relaxed); }
 
     void on_interrupt() noexcept;

@@ -62,7 +62,7 @@ private:
     mutable std::vector<double> gone_;
 };
 
-// What the region leaves over, unbounded where the region is not.
+// The complement of the region: unbounded where the region is not.
 Region2d reversed(const Region2d& region);
 
 // The region grown by `distance` (mm, > 0), with rounded corners.

@@ -1,4 +1,4 @@
-// Whether the floor of an operation is level.
+// The height of an operation's floor, if it is level.
 #pragma once
 
 #include <optional>

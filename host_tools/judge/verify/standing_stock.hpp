@@ -28,7 +28,7 @@ public:
         return !any_near(place, grid_.pitch, [&](std::size_t k) { return !(heights_[k] > z); });
     }
 
-    // Whether is(k) for some point of the grid within `reach` mm in x and in y, and the ones around these.
+    // True if is(k) holds for some point of the grid within `reach` mm in x and in y, and the ones around these.
     template <class Is>
     bool any_near(Vec2d place, double reach, const Is& is) const
     {

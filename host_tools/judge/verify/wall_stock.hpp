@@ -21,7 +21,7 @@ struct WallQuestion {
     const std::vector<CutRegion>& regions;  // of all operations
     const std::vector<EarlierCut>& cuts;    // of the whole program; of those before it with line 0
     const StandingStock& stock;             // before the program
-    // Whether stock remains on the floor near a place. Beside tabs walls are judged over these alone.
+    // True if stock remains on the floor near a place. Beside tabs walls are judged over these alone.
     std::function<bool(Vec2d centre, double radius)> is_open;
     double allowed;          // mm: stock that is no thicker is none
     double plan_tolerance;   // mm: cuts that go no farther are none
