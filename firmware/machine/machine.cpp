@@ -42,23 +42,23 @@ void Machine::start(LogState loaded) noexcept
             message("Settings: an interrupted write was dropped");
             break;
         case LogState::kDamaged:
-            answer(Error::kSettingReadFail);
+            lines_.answer(Error::kSettingReadFail);
             message("Settings damaged: an older set is in force");
             break;
         case LogState::kLost:
-            answer(Error::kSettingReadFail);
+            lines_.answer(Error::kSettingReadFail);
             message("Settings lost: defaults in force, $RST=* stores them");
             break;
     }
     if (mended) {
-        answer(Error::kSettingReadFail);
+        lines_.answer(Error::kSettingReadFail);
         message("Settings damaged: some are defaults, see $$");
     }
 }
 
 bool Machine::idle() const noexcept
 {
-    return task_ == Task::kNone && received_.empty() && motion_.settled() &&
+    return task_ == Task::kNone && lines_.empty() && motion_.settled() &&
            startup_next_ == kStartupLineCount && state_ != State::kHold && state_ != State::kDoor;
 }
 
@@ -76,7 +76,7 @@ bool Machine::suspended() const noexcept
 bool Machine::poll() noexcept
 {
     const bool can_answer = replies_.room() >= kReplyRoom;
-    motion_.work(can_answer && (!received_.empty() || task_ == Task::kActions));
+    motion_.work(can_answer && (!lines_.empty() || task_ == Task::kActions));
     guard_limits();
     // Without room for answers a stop acts in the tick meanwhile.
     const bool worked = can_answer && step();
@@ -127,13 +127,7 @@ void Machine::guard_limits() noexcept
 // Updates the state after changes that motion makes by itself.
 bool Machine::follow_motion() noexcept
 {
-    if (!motion_.settled()) {
-        still_since_ = motion_.ticks();
-        has_moved_ = true;
-    }
-    if (coming_up_ && static_cast<std::int32_t>(motion_.ticks() - up_at_) >= 0) {
-        coming_up_ = false;
-    }
+    outputs_.follow();
     if (jog_cancelled_) {
         if (!motion_.at_rest()) {
             return false;
@@ -185,9 +179,9 @@ void Machine::follow_hold() noexcept
     }
     starting_ = starting_ && !(state_ == State::kDoor && input_on(kDoor));
     if (state_ == State::kDoor && !starting_) {
-        pause_outputs();
+        outputs_.pause();
     }
-    if (!starting_ || coming_up_) {
+    if (!starting_ || outputs_.coming_up()) {
         return;
     }
     starting_ = false;
@@ -211,8 +205,8 @@ void Machine::drop_all() noexcept
     startup_next_ = kStartupLineCount;
     answer_after_startup_ = false;
     reset_after_answer_ = false;
-    lost_answers_ = 0;
-    switch_off();
+    lines_.forget_lost_lines();
+    outputs_.switch_off();
 }
 
 void Machine::raise(Alarm alarm) noexcept
@@ -221,8 +215,8 @@ void Machine::raise(Alarm alarm) noexcept
         (task_ != Task::kNone && ending_ != Ending::kStartupLine) || answer_after_startup_;
     enter_alarm(alarm);
     if (answers) {
-        answer(alarm == Alarm::kSoftLimit ? Error::kTravelExceeded : Error::kSystemGcLock);
-        line_.begin_line();
+        lines_.answer(alarm == Alarm::kSoftLimit ? Error::kTravelExceeded : Error::kSystemGcLock);
+        lines_.next();
     }
 }
 
@@ -264,13 +258,12 @@ void Machine::reset() noexcept
     critical_ = false;
     reset_needed_ = false;
     locked_ = false;
-    cancelling_ = false;
+    lines_.forget_cancel();
     hold_wanted_ = false;
     start_wanted_ = false;
     door_wanted_ = false;
     cancel_wanted_ = false;
-    overrides_ = Overrides{};
-    motion_.set_overrides(overrides_.feed, overrides_.rapid);
+    outputs_.reset_overrides();
     interpreter_.reset();
     interpreter_.set_parameters(stored_.parameters);
     tool_changer_.forget_reference();
@@ -318,14 +311,8 @@ void Machine::resynchronise() noexcept
 
 OutputLevels Machine::outputs() const noexcept
 {
-    // $1: ms that the drives stay on after the last step; 255: always. Before the first move they
-    // are off unless it is 255.
-    constexpr std::uint32_t kAlwaysOn = 255;
-    const std::uint32_t idle_lock = stored_.settings.whole(Setting::kIdleLock);
-    const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;
     const bool stopped = state_ == State::kSleep || alarm_ == Alarm::kEmergencyStop;
-    const bool drives = !stopped && (idle_lock == kAlwaysOn || (has_moved_ && !still));
-    return output_levels(accessories_, overrides_.spindle, drives, stored_.settings);
+    return outputs_.levels(stopped);
 }
 
 void Machine::report_status() noexcept
@@ -344,17 +331,17 @@ void Machine::report_status() noexcept
     status.position = motion_.position();
     status.work_offset = gcode::work_offset(interpreter_.modal(), interpreter_.parameters());
     status.free_blocks = motion_.free_blocks();
-    status.free_bytes = received_.room();
+    status.free_bytes = lines_.room();
     status.line = motion_.finished() ? 0 : motion_.executing_line();
     status.feed = motion_.speed() * kSecondsPerMinute;
-    status.spindle = spindle_speed(accessories_, overrides_.spindle, stored_.settings);
+    status.spindle = outputs_.spindle_speed();
     status.inputs = motion_.inputs().steady();
     if (input_on(kSecondLimit)) {  // by the letter of its axis
         const unsigned axis = stored_.settings.second_motor_axis().value_or(0);
         status.inputs = static_cast<std::uint16_t>(status.inputs | unsigned{kLimitX} << axis);
     }
-    status.overrides = overrides_;
-    status.accessories = accessories_;
+    status.overrides = outputs_.overrides();
+    status.accessories = outputs_.accessories();
     reporter_.write(status, stored_.settings, replies_);
 }
 

@@ -14,19 +14,17 @@
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
-#include "firmware/machine/accessories.hpp"
+#include "firmware/machine/dwell.hpp"
 #include "firmware/machine/homing.hpp"
+#include "firmware/machine/line_dialogue.hpp"
 #include "firmware/machine/listing.hpp"
 #include "firmware/machine/machine_state.hpp"
 #include "firmware/machine/motion.hpp"
-#include "firmware/machine/overrides.hpp"
+#include "firmware/machine/output_control.hpp"
 #include "firmware/machine/settings_log.hpp"
 #include "firmware/machine/status_report.hpp"
 #include "firmware/machine/stored_state.hpp"
 #include "firmware/machine/tool_changer.hpp"
-#include "firmware/protocol/checked_lines.hpp"
-#include "firmware/protocol/line_assembler.hpp"
-#include "firmware/protocol/receive_queue.hpp"
 #include "firmware/protocol/reply_queue.hpp"
 #include "firmware/protocol/system_command.hpp"
 
@@ -53,14 +51,14 @@ public:
     // A byte from the sender.
     void receive(std::uint8_t byte) noexcept;
     // Bytes were lost on their way to receive().
-    void bytes_lost() noexcept { received_.put(kLossMark); }
+    void bytes_lost() noexcept { lines_.bytes_lost(); }
 
     // The sender's plug was pulled, or its program has ended: $796.
     void sender_left() noexcept;
     // Every line that was received is answered, and every query; a line may have begun.
     bool all_answered() const noexcept;
     // Bytes of text that receive() takes without a loss.
-    std::uint32_t room() const noexcept { return received_.room(); }
+    std::uint32_t room() const noexcept { return lines_.room(); }
 
     // One slice of work. Returns whether anything was done.
     bool poll() noexcept;
@@ -76,7 +74,7 @@ public:
     void frame_missed() noexcept;
 
     // A byte that has come and that receive() has not had yet. Context: servo tick.
-    void notice(std::uint8_t byte) noexcept { motion_.stops().take_byte(byte, checked_.on()); }
+    void notice(std::uint8_t byte) noexcept { motion_.stops().take_byte(byte, lines_.checked()); }
     // Context: servo tick.
     void tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
     {
@@ -106,9 +104,6 @@ public:
     bool idle() const noexcept;
 
 private:
-    // Among the text, which has no such byte: here some were lost.
-    static constexpr std::uint8_t kLossMark = 0x80;
-
     // The event that the executed line waits for.
     enum class Task : std::uint8_t {
         kNone,
@@ -135,13 +130,8 @@ private:
     void cycle_start() noexcept;
     bool protect() noexcept;
     void open_door() noexcept;
-    void pause_outputs() noexcept;
     void cancel_jog() noexcept;
     void toggle_spindle_stop() noexcept;
-    void toggle_coolant(protocol::RealtimeCommand command) noexcept;
-    void switch_coolant(bool flood, bool mist) noexcept;
-    void switch_off() noexcept;
-    void wait_until_up(std::uint32_t ticks) noexcept;
 
     // machine.cpp
     bool step() noexcept;
@@ -174,24 +164,16 @@ private:
 
     // machine_lines.cpp
     bool read_lines() noexcept;
-    bool report_lost_bytes() noexcept;
-    void execute_line() noexcept;
     void execute_text(std::string_view text) noexcept;
     void execute_gcode(std::string_view text, Ending ending) noexcept;
-    bool line_cancelled() const noexcept;
     void finish_line(std::optional<Error> error) noexcept;
-    void answer(std::optional<Error> error) noexcept;
-    void refuse_checked_line() noexcept;
     void next_startup_line() noexcept;
 
     // machine_commands.cpp
     void execute_command(std::string_view text) noexcept;
-    std::optional<Error> refusal(protocol::SystemCommandKind kind) const noexcept;
     void perform(const protocol::SystemCommand& command) noexcept;
     void start_listing(Listing listing) noexcept;
     void set_setting(std::uint32_t number, float value) noexcept;
-    void tell_fault(const SettingFault& fault) noexcept;
-    void tell_range(std::uint32_t number, float value) noexcept;
     void restore(bool settings, bool parameters, bool texts) noexcept;
     void restore_settings() noexcept;
     void toggle_check_mode() noexcept;
@@ -240,11 +222,10 @@ private:
     Homing homing_;
     ToolChanger tool_changer_;
 
-    protocol::ReceiveQueue received_;
-    protocol::LineAssembler line_;
-    protocol::CheckedLines checked_;
     protocol::ReplyQueue replies_;
+    LineDialogue lines_{replies_};
     StatusReporter reporter_;
+    OutputControl outputs_{motion_, interpreter_, reporter_, stored_.settings};
 
     State state_{State::kIdle};
     Alarm alarm_{Alarm::kNone};
@@ -253,9 +234,7 @@ private:
     bool locked_{false};        // check mode was entered from an alarm
     bool hold_pending_{false};  // M0: the hold begins once the line is answered
     bool jog_cancelled_{false};
-    bool starting_{false};   // a cycle start waits for what comes up
-    bool coming_up_{false};  // spindle or coolant, until up_at_
-    std::uint32_t up_at_{0};
+    bool starting_{false};  // a cycle start waits for what comes up
 
     // Realtime commands that wait for the next slice.
     bool reset_wanted_{false};
@@ -268,30 +247,16 @@ private:
     bool frame_missed_{false};
     std::uint32_t stop_bytes_{0};
 
-    Overrides overrides_;
-    Accessories accessories_;
-    std::uint32_t still_since_{0};  // tick when motion settled last
-    bool has_moved_{false};         // since power-up
-    std::uint32_t last_byte_tick_{0};
-    std::uint32_t last_text_tick_{0};
-
     Task task_{Task::kNone};
     Ending ending_{Ending::kAnswer};
     gcode::Action action_;
     bool action_waits_{false};
     bool jogging_line_{false};
-    std::uint32_t line_number_{0};
-    std::uint32_t line_start_{0};    // place in the stream where the line began
-    std::uint32_t cancelled_to_{0};  // lines that began before this place are cancelled
-    bool cancelling_{false};
-    bool cancelled_in_jog_{false};
-    std::uint32_t lost_answers_{0};
     unsigned startup_next_{kStartupLineCount};
     bool answer_after_startup_{false};
     std::string_view startup_text_;
     std::uint8_t startup_number_{0};
-    std::uint32_t dwell_left_{0};
-    std::uint32_t dwell_seen_{0};
+    Dwell dwell_;
     bool probe_alarm_{false};
     AxisMask homing_axes_;  // all where empty
     AxisMask homed_;        // since the position was lost last

@@ -1,6 +1,7 @@
 // The '$' commands, performed.
+#include "firmware/machine/command_rules.hpp"
 #include "firmware/machine/machine.hpp"
-#include "firmware/machine/travel.hpp"
+#include "firmware/machine/setting_messages.hpp"
 
 namespace cusp::machine {
 
@@ -17,51 +18,11 @@ void Machine::execute_command(std::string_view text) noexcept
         finish_line(blocked ? Error::kIdleError : command.error());
         return;
     }
-    if (const std::optional<Error> error = refusal(command->kind)) {
-        finish_line(error);
+    if (!allows(state_, command->kind)) {
+        finish_line(Error::kIdleError);
         return;
     }
     perform(*command);
-}
-
-// True if the state forbids the command.
-std::optional<Error> Machine::refusal(SystemCommandKind kind) const noexcept
-{
-    const bool ready = state_ == State::kIdle || state_ == State::kAlarm;
-    bool allowed = ready;
-    switch (kind) {
-        case SystemCommandKind::kHelp:
-        case SystemCommandKind::kParserState:
-        case SystemCommandKind::kUnlock:
-        case SystemCommandKind::kCheckedLinesOn:
-        case SystemCommandKind::kCheckedLinesOff:
-            allowed = true;
-            break;
-        case SystemCommandKind::kSettings:
-            allowed = state_ != State::kRun && state_ != State::kHold;
-            break;
-        case SystemCommandKind::kCheckMode:
-            allowed = ready || state_ == State::kCheck;
-            break;
-        case SystemCommandKind::kJog:
-            allowed = state_ == State::kIdle || state_ == State::kJog;
-            break;
-        case SystemCommandKind::kSetStartupLine:
-            allowed = state_ == State::kIdle;
-            break;
-        case SystemCommandKind::kSetSetting:
-        case SystemCommandKind::kParameters:
-        case SystemCommandKind::kBuildInfo:
-        case SystemCommandKind::kSetBuildInfo:
-        case SystemCommandKind::kStartupLines:
-        case SystemCommandKind::kHome:
-        case SystemCommandKind::kSleep:
-        case SystemCommandKind::kRestoreSettings:
-        case SystemCommandKind::kRestoreParameters:
-        case SystemCommandKind::kRestoreAll:
-            break;
-    }
-    return allowed ? std::nullopt : std::optional<Error>{Error::kIdleError};
 }
 
 // Over 60 lines: one switch over all commands.
@@ -110,7 +71,7 @@ void Machine::perform(const SystemCommand& command) noexcept
             return;
         case SystemCommandKind::kSleep:
             state_ = State::kSleep;
-            switch_off();
+            outputs_.switch_off();
             break;
         case SystemCommandKind::kRestoreSettings:
             restore(true, false, false);
@@ -123,11 +84,11 @@ void Machine::perform(const SystemCommand& command) noexcept
             return;
         case SystemCommandKind::kCheckedLinesOn:
             finish_line(std::nullopt);
-            checked_.switch_on();
+            lines_.switch_checked(true);
             return;
         case SystemCommandKind::kCheckedLinesOff:
             finish_line(std::nullopt);
-            checked_.switch_off();
+            lines_.switch_checked(false);
             return;
     }
     finish_line(std::nullopt);
@@ -144,70 +105,18 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
 {
     Settings changed = stored_.settings;
     if (const std::optional<Error> error = changed.put(number, value)) {
-        tell_range(number, value);
+        tell_range(number, value, replies_);
         finish_line(error);
         return;
     }
     if (const std::optional<SettingFault> fault = changed.find_fault(board_)) {
-        tell_fault(*fault);
+        tell_fault(*fault, replies_);
         finish_line(fault->error);
         return;
     }
     stored_.settings = changed;
     store_wanted_ = true;
     task_ = Task::kConfigure;
-}
-
-// The range of a setting that Grbl does not have, and so no sender knows.
-void Machine::tell_range(std::uint32_t number, float value) noexcept
-{
-    constexpr std::uint32_t kFirst = 810;
-    constexpr unsigned kDecimals = 3;
-    for (std::size_t i = 0; i < kSettingCount; ++i) {
-        const SettingEntry& entry = setting_entry(i);
-        if (entry.number == number && number >= kFirst) {
-            const auto write = [this](float x) {
-                (void)replies_.decimal(protocol::scaled(x, kDecimals), kDecimals);
-            };
-            (void)replies_.text("[MSG:$").number(number).text(" is ");
-            write(value);
-            (void)replies_.text(", range ");
-            write(entry.least);
-            (void)replies_.text(" to ");
-            write(entry.most);
-            (void)replies_.text("]").end_line();
-        }
-    }
-}
-
-// Both settings by number and value, and what they come to.
-void Machine::tell_fault(const SettingFault& fault) noexcept
-{
-    if (fault.first == 0) {
-        return;
-    }
-    if (fault.second == 0) {
-        (void)replies_.text("[MSG:$").number(fault.first);
-        (void)replies_.text(": this board has no second motor]").end_line();
-        return;
-    }
-    if (fault.of_board) {
-        (void)replies_.text("[MSG:$").number(fault.first).text(" x $").number(fault.second);
-        (void)replies_.text(" asks for ").number(static_cast<std::uint32_t>(fault.amount + 0.5F));
-        (void)replies_.text(" steps/s, this board plays ");
-        (void)replies_.number(static_cast<std::uint32_t>(fault.limit)).text("]").end_line();
-        return;
-    }
-    const bool rate = fault.error == Error::kMaxStepRateExceeded;
-    constexpr unsigned kDecimals = 3;
-    constexpr float kMillisecondsPerSecond = 1000.0F;
-    const float unit = rate ? 1.0F : kMillisecondsPerSecond;
-    (void)replies_.text("[MSG:$").number(fault.first).text(rate ? " x $" : " / $");
-    (void)replies_.number(fault.second).text(rate ? " needs steps " : " asks for a filter of ");
-    (void)replies_.decimal(protocol::scaled(fault.amount * unit, kDecimals), kDecimals);
-    (void)replies_.text(rate ? " us apart, least 2 x $0 = " : " ms, most ");
-    (void)replies_.decimal(protocol::scaled(fault.limit * unit, kDecimals), kDecimals);
-    (void)replies_.text(rate ? " us]" : " ms]").end_line();
 }
 
 void Machine::restore_settings() noexcept
@@ -293,11 +202,11 @@ void Machine::start_homing(AxisMask axes) noexcept
 
 void Machine::start_jog(std::string_view words) noexcept
 {
-    if (line_cancelled()) {
+    if (lines_.cancelled()) {
         finish_line(std::nullopt);
         return;
     }
-    const Status status = interpreter_.execute_jog(words, line_number_);
+    const Status status = interpreter_.execute_jog(words, lines_.line_number());
     if (!status) {
         finish_line(status.error());
         return;

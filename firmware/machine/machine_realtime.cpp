@@ -7,19 +7,7 @@ using protocol::RealtimeCommand;
 
 void Machine::receive(std::uint8_t byte) noexcept
 {
-    last_byte_tick_ = motion_.ticks();
-    switch (protocol::byte_kind(byte)) {
-        case protocol::ByteKind::kDropped:
-            return;
-        case protocol::ByteKind::kText:
-            last_text_tick_ = last_byte_tick_;
-            checked_.text();
-            received_.put(byte);
-            return;
-        case protocol::ByteKind::kRealtime:
-            break;
-    }
-    if (checked_.accept_realtime(byte)) {
+    if (lines_.receive(byte, motion_.ticks())) {
         act(static_cast<RealtimeCommand>(byte));
     }
 }
@@ -30,10 +18,7 @@ void Machine::act(RealtimeCommand command) noexcept
     switch (command) {
         case RealtimeCommand::kReset:
             reset_wanted_ = true;
-            // Bytes before the reset are discarded; bytes after it are not.
-            received_.clear();
-            line_.begin_line();
-            checked_.switch_off();
+            lines_.discard();
             return;
         case RealtimeCommand::kStatusReport:
             status_wanted_ = true;
@@ -49,16 +34,17 @@ void Machine::act(RealtimeCommand command) noexcept
             return;
         case RealtimeCommand::kJogCancel:
             cancel_wanted_ = true;
-            cancelling_ = true;
-            cancelled_to_ = received_.received();
-            cancelled_in_jog_ = state_ == State::kJog;
+            lines_.cancel(state_ == State::kJog);
             return;
         case RealtimeCommand::kSpindleStopToggle:
             spindle_stop_wanted_ = true;
             return;
         case RealtimeCommand::kFloodToggle:
         case RealtimeCommand::kMistToggle:
-            toggle_coolant(command);
+            if (state_ == State::kIdle || state_ == State::kRun || state_ == State::kHold ||
+                state_ == State::kJog) {
+                outputs_.toggle_coolant(command);
+            }
             return;
         case RealtimeCommand::kFeedOverrideReset:
         case RealtimeCommand::kFeedOverrideCoarsePlus:
@@ -75,13 +61,9 @@ void Machine::act(RealtimeCommand command) noexcept
         case RealtimeCommand::kSpindleOverrideFineMinus:
             break;
     }
-    const Overrides before = overrides_;
-    overrides_ = overridden(overrides_, command);
-    if (!(before == overrides_)) {
-        motion_.set_overrides(overrides_.feed, overrides_.rapid);
-        reporter_.overrides_changed();
-    }
+    outputs_.override_by(command);
 }
+
 // Takes up to one event. The order is Grbl's: alarms, reset, report, stops, start.
 bool Machine::handle_events() noexcept
 {
@@ -178,20 +160,15 @@ bool Machine::watch_panel() noexcept
     return risen != 0;
 }
 
-// $791: a program whose sender has gone silent is held. Checked lines lapse in a long silence at
-// rest, so that a stock sender finds a stock controller.
+// $791: a program whose sender has gone silent is held.
 bool Machine::watch_link() noexcept
 {
-    constexpr std::uint32_t kCheckedLinesLapse = 3000;  // ticks
-    const std::uint32_t silence = motion_.ticks() - last_byte_tick_;
-    // Status queries are no lines: senders send them all the time.
-    const bool no_lines = motion_.ticks() - last_text_tick_ > kCheckedLinesLapse;
-    if (checked_.on() && no_lines && idle()) {
-        checked_.switch_off();
-        line_.begin_line();
+    const std::uint32_t now = motion_.ticks();
+    if (lines_.may_lapse(now) && idle()) {
+        lines_.lapse();
     }
     const std::uint32_t patience = stored_.settings.whole(Setting::kLinkWatchdog);
-    if (patience == 0 || state_ != State::kRun || silence <= patience) {
+    if (patience == 0 || state_ != State::kRun || lines_.silence(now) <= patience) {
         return false;
     }
     message("Link lost: holding");
@@ -211,7 +188,7 @@ void Machine::sender_left() noexcept
 
 bool Machine::all_answered() const noexcept
 {
-    const bool lines = received_.empty() && lost_answers_ == 0 && task_ == Task::kNone;
+    const bool lines = lines_.all_read() && task_ == Task::kNone;
     const bool startup = startup_next_ == kStartupLineCount && !answer_after_startup_;
     return lines && startup && !status_wanted_ && !reset_wanted_;
 }
@@ -245,12 +222,7 @@ void Machine::cycle_start() noexcept
     if ((state_ != State::kHold && !closed) || !motion_.at_rest() || starting_) {
         return;
     }
-    if (accessories_.spindle_paused || accessories_.coolant_paused) {
-        accessories_.spindle_paused = false;
-        accessories_.coolant_paused = false;
-        reporter_.overrides_changed();
-        wait_until_up(restoring_ticks(accessories_, stored_.settings));
-    }
+    outputs_.restore();
     starting_ = true;
 }
 
@@ -270,13 +242,7 @@ void Machine::open_door() noexcept
     motion_.hold();
     state_ = State::kDoor;
     starting_ = false;
-    pause_outputs();
-}
-
-void Machine::pause_outputs() noexcept
-{
-    accessories_.spindle_paused = true;
-    accessories_.coolant_paused = true;
+    outputs_.pause();
 }
 
 void Machine::cancel_jog() noexcept
@@ -297,54 +263,12 @@ void Machine::cancel_jog() noexcept
 // In a complete hold alone. Stopped again before it was up, it calls off the start.
 void Machine::toggle_spindle_stop() noexcept
 {
-    if (state_ != State::kHold || !motion_.at_rest() || accessories_.changing_tool ||
-        accessories_.spindle == gcode::SpindleMode::kOff) {
+    if (state_ != State::kHold || !motion_.at_rest() || !outputs_.can_pause_spindle()) {
         return;
     }
-    accessories_.spindle_paused = !accessories_.spindle_paused;
-    reporter_.overrides_changed();
-    if (accessories_.spindle_paused) {
+    if (outputs_.toggle_spindle_pause()) {
         starting_ = false;
-    } else {
-        wait_until_up(restoring_ticks(accessories_, stored_.settings));
     }
-}
-
-// The operator's M7, M8 and M9.
-void Machine::toggle_coolant(RealtimeCommand command) noexcept
-{
-    if (state_ != State::kIdle && state_ != State::kRun && state_ != State::kHold &&
-        state_ != State::kJog) {
-        return;
-    }
-    const bool flood = accessories_.flood;
-    const bool mist = accessories_.mist;
-    const bool of_flood = command == RealtimeCommand::kFloodToggle;
-    switch_coolant(of_flood ? !flood : flood, of_flood ? mist : !mist);
-}
-
-void Machine::switch_coolant(bool flood, bool mist) noexcept
-{
-    accessories_.flood = flood;
-    accessories_.mist = mist;
-    interpreter_.set_coolant(flood, mist);
-    reporter_.overrides_changed();
-}
-
-void Machine::switch_off() noexcept
-{
-    accessories_ = Accessories{};
-    coming_up_ = false;
-    interpreter_.set_coolant(false, false);
-    interpreter_.set_spindle_off();
-    reporter_.overrides_changed();
-}
-
-// Time that the outputs switched on take to come up; nothing moves meanwhile.
-void Machine::wait_until_up(std::uint32_t ticks) noexcept
-{
-    coming_up_ = true;
-    up_at_ = motion_.ticks() + ticks;
 }
 
 }  // namespace cusp::machine

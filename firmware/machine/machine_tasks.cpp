@@ -87,8 +87,8 @@ bool Machine::perform(const path::Move& move) noexcept
         return false;
     }
     path::Move numbered = move;
-    if (line_number_ > 0) {
-        numbered.line = line_number_;
+    if (lines_.line_number() > 0) {
+        numbered.line = lines_.line_number();
     }
     motion_.push(numbered);
     if (state_ == State::kIdle || state_ == State::kJog) {
@@ -150,11 +150,7 @@ bool Machine::perform(const gcode::Dwell& dwell) noexcept
     if (!wait_settled()) {
         return false;
     }
-    constexpr double kMostSeconds = 4e6;  // of a 32-bit tick counter
-    const double seconds = dwell.seconds < kMostSeconds ? dwell.seconds : kMostSeconds;
-    dwell_left_ =
-        static_cast<std::uint32_t>(seconds * static_cast<double>(kServoTicksPerSecond) + 0.5);
-    dwell_seen_ = motion_.ticks();
+    dwell_.begin(dwell.seconds, motion_.ticks());
     task_ = Task::kDwell;
     return true;
 }
@@ -162,14 +158,7 @@ bool Machine::perform(const gcode::Dwell& dwell) noexcept
 // A hold stops the clock of a dwell, since no slice comes here.
 bool Machine::step_dwell() noexcept
 {
-    const std::uint32_t now = motion_.ticks();
-    // A gap longer than a few ticks was a hold.
-    constexpr std::uint32_t kLongestGap = 10;
-    const std::uint32_t passed = now - dwell_seen_;
-    dwell_seen_ = now;
-    const std::uint32_t counted = passed > kLongestGap ? 1U : passed;
-    dwell_left_ = counted < dwell_left_ ? dwell_left_ - counted : 0;
-    if (dwell_left_ > 0) {
+    if (!dwell_.over(motion_.ticks())) {
         return false;
     }
     task_ = Task::kActions;
@@ -184,13 +173,7 @@ bool Machine::perform(const gcode::Spindle& spindle) noexcept
     if (!wait_settled()) {
         return false;
     }
-    const Accessories before = accessories_;
-    accessories_.spindle = spindle.mode;
-    accessories_.speed = spindle.speed;
-    accessories_.spindle_paused = false;
-    reporter_.overrides_changed();
-    if (accessories_.spindle_starts_after(before)) {
-        wait_until_up(spindle_ticks(stored_.settings));
+    if (outputs_.set_spindle(spindle.mode, spindle.speed)) {
         task_ = Task::kSpindleUp;
     }
     return true;
@@ -198,7 +181,7 @@ bool Machine::perform(const gcode::Spindle& spindle) noexcept
 
 bool Machine::step_spindle_up() noexcept
 {
-    if (coming_up_) {
+    if (outputs_.coming_up()) {
         return false;
     }
     task_ = Task::kActions;
@@ -214,8 +197,9 @@ bool Machine::perform(const gcode::Coolant& coolant) noexcept
         return false;
     }
     const bool on = coolant != gcode::Coolant::kOff;
-    switch_coolant(on && (accessories_.flood || coolant == gcode::Coolant::kFlood),
-                   on && (accessories_.mist || coolant == gcode::Coolant::kMist));
+    const Accessories& before = outputs_.accessories();
+    outputs_.set_coolant(on && (before.flood || coolant == gcode::Coolant::kFlood),
+                         on && (before.mist || coolant == gcode::Coolant::kMist));
     return true;
 }
 
@@ -267,10 +251,7 @@ bool Machine::perform(const gcode::ProgramEnd& /*end*/) noexcept
         if (!wait_settled()) {
             return false;
         }
-        accessories_ = Accessories{};
-        overrides_ = Overrides{};
-        motion_.set_overrides(overrides_.feed, overrides_.rapid);
-        reporter_.overrides_changed();
+        outputs_.end_program();
         reporter_.work_offset_changed();
     }
     message("Pgm End");

@@ -59,10 +59,9 @@ void Machine::start_tool_change(const gcode::ToolChange& change, ToolChangeMode 
     const bool known = gcode::ToolTable::holds(change.tool) && parameters.tools.has(change.tool);
     tool_changer_.begin({mode, parameters.work_offsets[kPlace], offset,
                          known ? parameters.tools.length_nm(change.tool) : offset,
-                         line_number_ > 0 ? line_number_ : change.line},
+                         lines_.line_number() > 0 ? lines_.line_number() : change.line},
                         motion_);
-    accessories_.changing_tool = true;
-    reporter_.overrides_changed();
+    outputs_.begin_tool_change();
     task_ = Task::kToolChange;
 }
 
@@ -86,10 +85,8 @@ bool Machine::step_tool_change() noexcept
             take_tool_length();
             break;
         case ToolChanger::Progress::kOverPart:
-            accessories_.changing_tool = false;
-            reporter_.overrides_changed();
-            wait_until_up(restoring_ticks(accessories_, stored_.settings));
-            tool_changer_.rest(up_at_);
+            outputs_.end_tool_change();
+            tool_changer_.rest(outputs_.up_at());
             break;
         case ToolChanger::Progress::kFailed:
             raise(tool_changer_.alarm());
