@@ -50,7 +50,7 @@ struct ChipTraits {
     using Panel = MillPanel<Chip, ChipTraits>;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
 
-    static_assert(PinRules<Table, SerialPort>::kHold);
+    static_assert(PinRules<Table, SerialPort, Pace>::kHold);
     // start_clocks() sets no others.
     static_assert(Table::kClocks.fast_bus_divisor == 1 || Table::kClocks.fast_bus_divisor == 2);
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
@@ -59,10 +59,13 @@ struct ChipTraits {
     // Members that MillPanel needs.
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
-    static constexpr std::uint32_t kSpindleTimerHz = Table::kClocks.slow_timer_hz();
+    static constexpr const hal::stm32f4::PulsePin& kPulses = kPanelPins.spindle_pulses;
+    static constexpr std::uint32_t kFastTimerHz = Table::kClocks.fast_timer_hz();
+    static constexpr std::uint32_t kSlowTimerHz = Table::kClocks.slow_timer_hz();
 
     static constexpr std::uint32_t kMostStepsPerSecond = Table::kMostStepsPerSecond;
     static constexpr bool kSecondMotor = hal::stm32f4::has_second_motor(Table::kLines);
+    static constexpr bool kAtSpeedInput = is_there(kPanelPins.at_speed);
 
     // True if the end of a frame calls for the servo tick.
     static constexpr bool live() noexcept { return true; }
@@ -191,13 +194,12 @@ private:
         }
         return ports;
     }
-    // Beside those of the serial line: the ports, DMA2, timers 2 and 3, PWR, the pace's timer.
+    // Beside those of the serial line: the ports, DMA2, timer 2, PWR, the pace's and the spindle's timer.
     static constexpr hal::stm32f4::PeripheralClocks peripheral_clocks() noexcept
     {
-        return hal::stm32f4::PeripheralClocks{clocks_of_ports() | 1U << 22U,
-                                              1U << 0U | 1U << 1U | 1U << 28U,
+        return hal::stm32f4::PeripheralClocks{clocks_of_ports() | 1U << 22U, 1U << 0U | 1U << 28U,
                                               1U << Pace::kClockBit} |
-               SerialPort::kClocks;
+               clocks_of(kPulses) | SerialPort::kClocks;
     }
 
     static inline hal::stm32f4::ClockSource clock_source_{hal::stm32f4::ClockSource::kNone};

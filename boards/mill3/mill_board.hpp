@@ -16,6 +16,7 @@ struct MillBoard {
 
     static constexpr std::uint32_t kMostStepsPerSecond = Traits::kMostStepsPerSecond;
     static constexpr bool kSecondMotor = Traits::kSecondMotor;
+    static constexpr bool kAtSpeedInput = Traits::kAtSpeedInput;
 
     typename Traits::PulsePlayer pulse_player;
     typename Traits::ByteLink byte_link;

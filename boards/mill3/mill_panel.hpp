@@ -7,17 +7,12 @@
 #include "firmware/base/pulse_frame.hpp"
 #include "hal/contract/board.hpp"
 #include "hal/stm32f4/pins.hpp"
+#include "hal/stm32f4/spindle_pulses.hpp"
 
 namespace cusp::boards {
 
 using hal::stm32f4::clock_bit;
 using hal::stm32f4::Pin;
-
-// A channel of timer 3, 1 to 4, on a pin that has it as alternate function 2.
-struct SpindlePin {
-    Pin pin;
-    unsigned channel{0};
-};
 
 // Pins of a panel, each set by its name: there is no order to mistake. Inputs that stop the machine close
 // to ground when at rest: a broken wire, or none, reads as tripped or pressed. Only the start button closes
@@ -29,22 +24,23 @@ struct PanelPins {
     Pin door, hold, start, reset;
     Pin emergency_stop, motor_fault;
     Pin second_limit;  // the switch of the second motor
+    Pin at_speed;      // the spindle's drive closes it to ground at speed; a board may have none
     // High: the drives are without current. One line for all of them, or one a drive; the last is the
     // second motor's.
     std::array<Pin, 4> drives_off{};
     Pin flood, mist;
     Pin spindle_on, spindle_reverse;
-    SpindlePin spindle_pulses;
+    hal::stm32f4::PulsePin spindle_pulses;
     Pin power;  // high from the first output on: feeds drives and outputs, where a board has that
 };
 
 // In the order of InputBit.
-using InputPins = std::array<Pin, 11>;
+using InputPins = std::array<Pin, 12>;
 constexpr InputPins input_pins(const PanelPins& pins) noexcept
 {
-    return {pins.limit_x,        pins.limit_y,     pins.limit_z,     pins.probe,
-            pins.door,           pins.hold,        pins.start,       pins.reset,
-            pins.emergency_stop, pins.motor_fault, pins.second_limit};
+    return {pins.limit_x,        pins.limit_y,     pins.limit_z,      pins.probe,
+            pins.door,           pins.hold,        pins.start,        pins.reset,
+            pins.emergency_stop, pins.motor_fault, pins.second_limit, pins.at_speed};
 }
 using OutputPins = std::array<Pin, 10>;
 constexpr OutputPins output_pins(const PanelPins& pins) noexcept
@@ -67,8 +63,8 @@ constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
     return bits;
 }
 
-// `Rules` has kPanelPins; kSpindleTimer: whether timer 3 makes the spindle's pulses; and
-// kSpindleTimerHz: what timer 3 counts.
+// `Rules` has kPanelPins; kSpindleTimer: whether a timer makes the spindle's pulses; and where one does,
+// what SpindlePulses asks of its `Place`.
 template <class Chip, class Rules>
 class MillPanel {
 public:
@@ -101,6 +97,8 @@ public:
     {
         if (outputs_on_) {
             hal::OutputLevels off;
+            off.spindle_pwm = last_.spindle_off_pwm;
+            off.spindle_hz = last_.spindle_hz;
             off.inverted_outputs = last_.inverted_outputs;
             off.drives_enabled_inverted = last_.drives_enabled_inverted;
             apply(off);
@@ -163,10 +161,9 @@ private:
     {
         put_levels(levels);
         if constexpr (Rules::kSpindleTimer) {
-            // The polarity of the timer's output; 0 of the compare is off.
-            constexpr unsigned kPlace = 4 * (Rules::kPanelPins.spindle_pulses.channel - 1);
-            Chip::timer3().ccer.write((inverts(levels, kSpindlePulsesOutput) ? 3U : 1U) << kPlace);
-            spindle_compare().write(levels.spindle_on ? levels.spindle_pwm : 0U);
+            using Pulses = hal::stm32f4::SpindlePulses<Chip, Rules>;
+            Pulses::set_rate(levels.spindle_hz);
+            Pulses::set_duty(levels.spindle_pwm, inverts(levels, kSpindlePulsesOutput));
         }
     }
     // Levels are set before the mode, so that no output is on in between.
@@ -185,36 +182,9 @@ private:
     {
         make_outputs();
         if constexpr (Rules::kSpindleTimer) {
-            start_spindle_timer();
+            hal::stm32f4::SpindlePulses<Chip, Rules>::start();
         }
         outputs_on_ = true;
-    }
-
-    static auto& spindle_compare() noexcept
-    {
-        constexpr unsigned kChannel = Rules::kPanelPins.spindle_pulses.channel;
-        static_assert(kChannel >= 1 && kChannel <= 4);
-        auto& timer = Chip::timer3();
-        return kChannel == 1   ? timer.ccr1
-               : kChannel == 2 ? timer.ccr2
-               : kChannel == 3 ? timer.ccr3
-                               : timer.ccr4;
-    }
-    // 1 kHz, a step of the duty cycle a per mille.
-    static void start_spindle_timer() noexcept
-    {
-        constexpr std::uint32_t kTimer3OnPin = 2;
-        constexpr std::uint32_t kPulseMode = 6U << 4U | 1U << 3U;
-        constexpr unsigned kChannel = Rules::kPanelPins.spindle_pulses.channel;
-        constexpr Pin kPin = Rules::kPanelPins.spindle_pulses.pin;
-        auto& timer = Chip::timer3();
-        timer.psc.write(Rules::kSpindleTimerHz / 1000000 - 1);
-        timer.arr.write(999);
-        (kChannel <= 2 ? timer.ccmr1 : timer.ccmr2)
-            .write(kPulseMode << (kChannel % 2 == 0 ? 8U : 0U));
-        timer.egr.write(1);
-        timer.cr1.write(1U << 7U | 1U);
-        hal::stm32f4::set_pin_function(port(kPin), kPin.number, kTimer3OnPin);
     }
 
     static inline hal::OutputLevels last_{};
@@ -224,6 +194,7 @@ private:
 // The order of input_pins() is that of the contract's bits.
 static_assert(kLimitX == 1 && kLimitY == 2 && kLimitZ == 4 && kProbe == 8 && kDoor == 16 &&
               kHoldButton == 32 && kStartButton == 64 && kResetButton == 128 &&
-              kEmergencyStop == 256 && kMotorFault == 512 && kSecondLimit == 1024);
+              kEmergencyStop == 256 && kMotorFault == 512 && kSecondLimit == 1024 &&
+              kAtSpeed == 2048);
 
 }  // namespace cusp::boards

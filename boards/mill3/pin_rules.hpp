@@ -25,7 +25,7 @@ constexpr bool exists(Pin pin) noexcept
 }
 
 // All that a table names, absent ones too.
-using AllPins = std::array<Pin, 8 + 11 + 10>;
+using AllPins = std::array<Pin, 8 + 12 + 10>;
 template <class Table>
 constexpr AllPins all_pins() noexcept
 {
@@ -72,7 +72,8 @@ constexpr bool all_exist(const AllPins& all) noexcept
     }
     return true;
 }
-// Every board has six lines, all inputs but the second motor's switch, an enable line, the outputs.
+// Every board has six lines, all inputs but the second motor's switch and the spindle's, an enable line,
+// the outputs.
 constexpr bool is_complete(const hal::stm32f4::LinePins& lines, const PanelPins& panel) noexcept
 {
     bool complete = is_there(panel.drives_off[0]) && is_there(panel.flood) &&
@@ -82,36 +83,15 @@ constexpr bool is_complete(const hal::stm32f4::LinePins& lines, const PanelPins&
         complete = complete && is_there(lines[i]);
     }
     const auto inputs = input_pins(panel);
-    for (unsigned i = 0; i + 1 < inputs.size(); ++i) {
+    for (unsigned i = 0; i + 2 < inputs.size(); ++i) {
         complete = complete && is_there(inputs[i]);
     }
     return complete;
 }
-// Alternate function 2 in the data sheets' tables, alike on all chips of the family.
-constexpr bool has_channel_of_timer3(SpindlePin spindle) noexcept
-{
-    constexpr std::array<SpindlePin, 10> kPlaces{{{{'A', 6}, 1},
-                                                  {{'B', 4}, 1},
-                                                  {{'C', 6}, 1},
-                                                  {{'A', 7}, 2},
-                                                  {{'B', 5}, 2},
-                                                  {{'C', 7}, 2},
-                                                  {{'B', 0}, 3},
-                                                  {{'C', 8}, 3},
-                                                  {{'B', 1}, 4},
-                                                  {{'C', 9}, 4}}};
-    for (const SpindlePin& place : kPlaces) {
-        if (same(place.pin, spindle.pin) && place.channel == spindle.channel) {
-            return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace detail
 
-// `Table` as in boards/mill3/chip_traits.hpp, `SerialPort` its port. kHold is true, or nothing compiles.
-template <class Table, class SerialPort>
+// `Table` as in boards/mill3/chip_traits.hpp, `SerialPort` its port, `Pace` its pace. kHold is true, or nothing compiles.
+template <class Table, class SerialPort, class Pace>
 struct PinRules {
     static constexpr detail::AllPins kAll = detail::all_pins<Table>();
 
@@ -129,8 +109,10 @@ struct PinRules {
     static_assert(!detail::has_usb<Table> || (!detail::names_one(kAll, hal::stm32f4::kUsbMinus) &&
                                               !detail::names_one(kAll, hal::stm32f4::kUsbPlus)),
                   "PA11 and PA12 are the USB plug's");
-    static_assert(detail::has_channel_of_timer3(Table::kPanelPins.spindle_pulses),
-                  "the pin of the spindle's pulses does not have that channel of timer 3");
+    static_assert(hal::stm32f4::has_channel(Table::kPanelPins.spindle_pulses),
+                  "the pin of the spindle's pulses does not have that channel of that timer");
+    static_assert(Table::kPanelPins.spindle_pulses.timer != Pace::kTimer,
+                  "the timer of the spindle's pulses asks for the step pulses");
     static_assert(is_there(Table::kLines[6]) == is_there(Table::kLines[7]),
                   "the second motor has a step without a direction, or the other way round");
 

@@ -27,6 +27,7 @@ struct MillTable {
         pins.reset = {'B', 7};
         pins.emergency_stop = {'B', 10};
         pins.motor_fault = {'B', 11};
+        pins.at_speed = {'B', 5};
         pins.drives_off = {{{'C', 6}}};
         pins.flood = {'C', 7};
         pins.mist = {'C', 8};

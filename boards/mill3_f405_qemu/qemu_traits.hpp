@@ -35,6 +35,7 @@ struct QemuTraits {
 
     static constexpr std::uint32_t kMostStepsPerSecond = MillTable::kMostStepsPerSecond;
     static constexpr bool kSecondMotor = false;
+    static constexpr bool kAtSpeedInput = false;
 
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>

@@ -38,7 +38,9 @@ public:
         const machine::Settings* factory = nullptr) noexcept
         : board_{board},
           log_{board.settings_store},
-          machine_{queue, factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
+          machine_{queue,
+                   factory,
+                   {Board::kMostStepsPerSecond, Board::kSecondMotor, Board::kAtSpeedInput}}
     {
         machine_.start(machine::load_state(log_, machine_.stored()));
         wanted_ = machine_.outputs();
@@ -205,7 +207,7 @@ void App<Board>::drive_outputs() noexcept
     if (cut) {
         levels.spindle_on = false;
         levels.spindle_reverse = false;
-        levels.spindle_pwm = 0;
+        levels.spindle_pwm = levels.spindle_off_pwm;
         levels.flood = false;
         levels.mist = false;
     }

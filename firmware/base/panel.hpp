@@ -21,9 +21,12 @@ enum InputBit : std::uint16_t {
     kMotorFault = 1U << 9U,
     kSecondLimit =
         1U << 10U,  // the switch of the second motor; read where settings 793 and 794 say so
+    kAtSpeed =
+        1U
+        << 11U,  // the spindle's drive: closed to ground at speed; read where setting 797 says so
 };
 
-inline constexpr unsigned kInputCount = 11;
+inline constexpr unsigned kInputCount = 12;
 inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ | kSecondLimit;
 
 // Outputs that settings 15 and 16 may invert.
@@ -35,11 +38,16 @@ enum OutputBit : std::uint8_t {
     kSpindlePulsesOutput = 1U << 4U,
 };
 
+// The duty cycle of the spindle's pulses that is always high.
+inline constexpr std::uint16_t kFullDuty = 50000;
+
 // The levels of all outputs but the steps.
 struct OutputLevels {
     bool spindle_on{false};
     bool spindle_reverse{false};
-    std::uint16_t spindle_pwm{0};  // 0 to 1000 per mille
+    std::uint16_t spindle_pwm{0};      // 0 to kFullDuty
+    std::uint16_t spindle_off_pwm{0};  // the same while the spindle is off
+    std::uint32_t spindle_hz{1000};    // of its pulses, at least 1
     bool flood{false};
     bool mist{false};
     bool drives_enabled{false};
@@ -52,7 +60,8 @@ struct OutputLevels {
     friend constexpr bool operator==(const OutputLevels& a, const OutputLevels& b) noexcept
     {
         return a.spindle_on == b.spindle_on && a.spindle_reverse == b.spindle_reverse &&
-               a.spindle_pwm == b.spindle_pwm && a.flood == b.flood && a.mist == b.mist &&
+               a.spindle_pwm == b.spindle_pwm && a.spindle_off_pwm == b.spindle_off_pwm &&
+               a.spindle_hz == b.spindle_hz && a.flood == b.flood && a.mist == b.mist &&
                a.drives_enabled == b.drives_enabled && a.inverted_lines == b.inverted_lines &&
                a.drives_enabled_inverted == b.drives_enabled_inverted &&
                a.inverted_outputs == b.inverted_outputs;

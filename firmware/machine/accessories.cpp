@@ -1,4 +1,4 @@
-// Speeds to per mille of the spindle's output.
+// Speeds to the duty cycle of the spindle's pulses.
 #include "firmware/machine/accessories.hpp"
 
 #include <algorithm>
@@ -6,24 +6,30 @@
 namespace cusp::machine {
 namespace {
 
-constexpr float kFullOutput = 1000.0F;
+constexpr auto kFull = static_cast<float>(kFullDuty);
+constexpr float kPercent = 0.01F;
 
-// As in Grbl: $31 and all below it is the least output above 0, $30 and all above it is full.
-std::uint16_t spindle_pwm(float speed, const Settings& settings) noexcept
+float duty_of(const Settings& settings, Setting percent) noexcept
 {
-    const float least = settings.value(Setting::kSpindleMinimum);
-    const float most = settings.value(Setting::kSpindleMaximum);
-    if (speed <= 0) {
-        return 0;
-    }
-    if (least >= most || speed >= most) {
-        return static_cast<std::uint16_t>(kFullOutput);
-    }
-    const float part = std::max(0.0F, (speed - least) / (most - least));
-    return static_cast<std::uint16_t>(1.0F + part * (kFullOutput - 1.0F));
+    return settings.value(percent) * kPercent * kFull;
 }
 
 }  // namespace
+
+DutyLaw::DutyLaw(const Settings& settings) noexcept
+    : off_{static_cast<std::uint16_t>(duty_of(settings, Setting::kSpindleOffDuty) + 0.5F)},
+      least_speed_{settings.value(Setting::kSpindleMinimum)},
+      least_{std::max(duty_of(settings, Setting::kSpindleLeastDuty), 1.0F)},
+      most_{std::max(duty_of(settings, Setting::kSpindleMostDuty), least_)}
+{
+    const float range = settings.value(Setting::kSpindleMaximum) - least_speed_;
+    if (range > 0) {
+        base_ = duty_of(settings, Setting::kSpindleLeastDuty);
+        rise_ = (most_ - base_) / range;
+    } else {
+        base_ = most_;
+    }
+}
 
 bool Accessories::spindle_starts_after(const Accessories& before) const noexcept
 {
@@ -57,7 +63,6 @@ float spindle_speed(const Accessories& accessories,
     if (!accessories.spindle_on() || accessories.speed <= 0) {
         return 0;
     }
-    constexpr float kPercent = 0.01F;
     const float least = settings.value(Setting::kSpindleMinimum);
     const float most = settings.value(Setting::kSpindleMaximum);
     const float wanted = accessories.speed * static_cast<float>(override_percent) * kPercent;
@@ -73,8 +78,10 @@ OutputLevels output_levels(const Accessories& accessories,
     levels.spindle_on = accessories.spindle_on();
     levels.spindle_reverse =
         levels.spindle_on && accessories.spindle == gcode::SpindleMode::kCounterClockwise;
-    levels.spindle_pwm =
-        spindle_pwm(spindle_speed(accessories, spindle_override_percent, settings), settings);
+    const DutyLaw law{settings};
+    levels.spindle_pwm = law.duty(spindle_speed(accessories, spindle_override_percent, settings));
+    levels.spindle_off_pwm = law.duty(0);
+    levels.spindle_hz = settings.whole(Setting::kSpindleFrequency);
     levels.flood = accessories.flood_on();
     levels.mist = accessories.mist_on();
     levels.drives_enabled = drives_enabled;

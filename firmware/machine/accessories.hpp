@@ -31,6 +31,32 @@ struct Accessories {
     bool spindle_starts_after(const Accessories& before) const noexcept;
 };
 
+// The duty cycle of the spindle's pulses by its speed: $34 while it is off, $35 at $31 and below, $36 at
+// $30 and above, a line between them. While it is on the duty is never 0.
+class DutyLaw {
+public:
+    explicit DutyLaw(const Settings& settings) noexcept;
+
+    // 0 to kFullDuty. speed: rpm; 0: off.
+    std::uint16_t duty(float speed) const noexcept
+    {
+        if (speed <= 0) {
+            return off_;
+        }
+        const float wanted = base_ + (speed - least_speed_) * rise_;
+        const float limited = wanted < least_ ? least_ : wanted > most_ ? most_ : wanted;
+        return static_cast<std::uint16_t>(limited + 0.5F);
+    }
+
+private:
+    std::uint16_t off_;
+    float least_speed_;  // rpm
+    float least_;        // while it is on
+    float most_;
+    float base_{0};  // at the least speed
+    float rise_{0};  // with each rpm
+};
+
 // Servo ticks until the spindle is up once it was switched on: $394.
 std::uint32_t spindle_ticks(const Settings& settings) noexcept;
 

@@ -127,7 +127,10 @@ void Machine::guard_limits() noexcept
 // Updates the state after changes that motion makes by itself.
 bool Machine::follow_motion() noexcept
 {
-    outputs_.follow();
+    if (!outputs_.follow()) {
+        raise(Alarm::kSpindle);
+        return true;
+    }
     if (jog_cancelled_) {
         if (!motion_.at_rest()) {
             return false;

@@ -29,6 +29,7 @@ enum class Alarm : std::uint8_t {
     kHomingPullOff = 8,      // a switch stayed closed after the pull-off
     kHomingApproach = 9,     // no switch within the search distance
     kEmergencyStop = 10,     // grblHAL's number; the input is on until it is cleared, then a reset
+    kSpindle = 14,           // grblHAL's number; the spindle did not come up in time, see $797
     kSquaringApproach = 15,  // grblHAL's number; one of an axis's two switches within $347 to $349
     kMotorFault = 17,        // grblHAL's number; a drive says that it has failed
 };
@@ -51,6 +52,7 @@ constexpr bool loses_position(Alarm alarm) noexcept
         case Alarm::kSoftLimit:
         case Alarm::kProbeInitial:
         case Alarm::kProbeContact:
+        case Alarm::kSpindle:
             break;
     }
     return false;

@@ -56,11 +56,12 @@ void Motion::configure(const Settings& settings) noexcept
     const unsigned limit_bits = settings.on(Setting::kLimitInvert) ? kLimitInputs : 0U;
     const unsigned probe_bit = settings.on(Setting::kProbeInvert) ? unsigned{kProbe} : 0U;
     const unsigned control_bits = control_inputs(settings.whole(Setting::kControlInvert));
-    inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits);
+    inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits | kAtSpeed);
     second_motor_axis_ = settings.second_motor_axis();
     const bool squares = second_motor_axis_ && settings.squares(*second_motor_axis_);
-    used_inputs_ =
-        static_cast<std::uint16_t>(squares ? 0xFFFFU : 0xFFFFU & ~unsigned{kSecondLimit});
+    const unsigned unused = (squares ? 0U : unsigned{kSecondLimit}) |
+                            (settings.on(Setting::kAtSpeedInput) ? 0U : unsigned{kAtSpeed});
+    used_inputs_ = static_cast<std::uint16_t>(0xFFFFU & ~unused);
     filter_ticks_ = static_cast<std::uint8_t>(settings.whole(Setting::kLimitFilter));
     inputs_.set_ticks(filter_ticks_);
     stand_still(false);

@@ -21,15 +21,25 @@ OutputLevels OutputControl::levels(bool stopped) const noexcept
     return output_levels(accessories_, overrides_.spindle, drives, settings_);
 }
 
-void OutputControl::follow() noexcept
+bool OutputControl::follow() noexcept
 {
     if (!motion_.settled()) {
         still_since_ = motion_.ticks();
         has_moved_ = true;
     }
-    if (coming_up_ && static_cast<std::int32_t>(motion_.ticks() - up_at_) >= 0) {
-        coming_up_ = false;
+    if (!coming_up_) {
+        return true;
     }
+    const bool time_is_over = static_cast<std::int32_t>(motion_.ticks() - up_at_) >= 0;
+    if (!waits_for_spindle()) {
+        coming_up_ = !time_is_over;
+        return true;
+    }
+    // Its drive needs a moment to take back what it said of the speed before.
+    constexpr std::uint32_t kHeedless = 100;
+    const bool heeds = motion_.ticks() - switched_at_ >= kHeedless;
+    coming_up_ = !heeds || (motion_.inputs().steady() & kAtSpeed) == 0;
+    return !coming_up_ || !time_is_over;
 }
 
 void OutputControl::override_by(RealtimeCommand command) noexcept
@@ -57,7 +67,8 @@ bool OutputControl::set_spindle(gcode::SpindleMode mode, float speed) noexcept
     reporter_.overrides_changed();
     const bool starts = accessories_.spindle_starts_after(before);
     if (starts) {
-        wait_until_up(spindle_ticks(settings_));
+        wait_until_up(waits_for_spindle() ? restoring_ticks(accessories_, settings_)
+                                          : spindle_ticks(settings_));
     }
     return starts;
 }
@@ -141,7 +152,8 @@ void OutputControl::end_tool_change() noexcept
 void OutputControl::wait_until_up(std::uint32_t ticks) noexcept
 {
     coming_up_ = true;
-    up_at_ = motion_.ticks() + ticks;
+    switched_at_ = motion_.ticks();
+    up_at_ = switched_at_ + ticks;
 }
 
 }  // namespace cusp::machine

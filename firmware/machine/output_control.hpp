@@ -32,8 +32,9 @@ public:
     // `stopped`: the drives are off, whatever $1 says.
     OutputLevels levels(bool stopped) const noexcept;
 
-    // Once a slice: the clocks of what comes up and of the drives.
-    void follow() noexcept;
+    // Once a slice: the clocks of what comes up and of the drives. False if the spindle, which says when
+    // it is up (setting 797), did not come up in time.
+    bool follow() noexcept;
 
     // A realtime command that may be an override.
     void override_by(protocol::RealtimeCommand command) noexcept;
@@ -69,6 +70,10 @@ public:
 
 private:
     void wait_until_up(std::uint32_t ticks) noexcept;
+    bool waits_for_spindle() const noexcept
+    {
+        return settings_.on(Setting::kAtSpeedInput) && accessories_.spindle_on();
+    }
 
     Motion& motion_;
     gcode::Interpreter& interpreter_;
@@ -76,6 +81,7 @@ private:
     const Settings& settings_;
     Overrides overrides_;
     Accessories accessories_;
+    std::uint32_t switched_at_{0};
     std::uint32_t up_at_{0};
     std::uint32_t still_since_{0};  // tick when motion settled last
     bool coming_up_{false};

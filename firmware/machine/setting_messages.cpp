@@ -33,7 +33,7 @@ void tell_fault(const SettingFault& fault, protocol::ReplyQueue& out) noexcept
     }
     if (fault.second == 0) {
         (void)out.text("[MSG:$").number(fault.first);
-        (void)out.text(": this board has no second motor]").end_line();
+        (void)out.text(": this board has no pin for it]").end_line();
         return;
     }
     if (fault.of_board) {

@@ -57,6 +57,10 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {15, 0, 0, 0, 3},
     {16, 0, 0, 0, 7},
     {29, 0, 5, 1, 100},
+    {33, 0, 1000, 1, 100000, 7},
+    {34, 3, 0, 0, 100, 7},
+    {35, 3, 0, 0, 100, 7},
+    {36, 3, 100, 0, 100, 7},
     {170, 3, 0, -10, 10, 3},
     {171, 3, 0, -10, 10, 3},
     {172, 3, 0, -10, 10, 3},
@@ -75,6 +79,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {794, 0, 0, 0, 1, 3},
     {795, 0, 0, 0, 1, 5},
     {796, 0, 1, 0, 1, 6},
+    {797, 0, 0, 0, 1, 7},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
@@ -152,6 +157,10 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
     if (on(Setting::kSecondMotor) && !board.second_motor) {
         return SettingFault{Error::kSettingDisabled,
                             kTable[index_of(Setting::kSecondMotor)].number};
+    }
+    if (on(Setting::kAtSpeedInput) && !board.at_speed_input) {
+        return SettingFault{Error::kSettingDisabled,
+                            kTable[index_of(Setting::kAtSpeedInput)].number};
     }
     const auto most_rate = static_cast<float>(board.most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;

@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 and $394 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $170 to $172 and $341 to $349 and $394 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -52,6 +52,10 @@ enum class Setting : std::uint8_t {
     kCoolantInvert,               // $15 mask: 1 flood, 2 mist
     kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
     kDirectionSetup,              // $29 us
+    kSpindleFrequency,            // $33 Hz, of the spindle's pulses
+    kSpindleOffDuty,              // $34 %: of the time that they are high while it is off
+    kSpindleLeastDuty,            // $35 %: and at $31
+    kSpindleMostDuty,             // $36 %: and at $30
     kSquareOffset,                // $170 mm: offset of the second motor towards plus
     kToolChangeMode = kSquareOffset + 3,  // $341; see ToolChangeMode
     kToolSearch,                          // $342 mm: the longest way down to the tool setter
@@ -68,6 +72,7 @@ enum class Setting : std::uint8_t {
     kSquaring,                // $794: the second motor has a switch of its own
     kOptionalStop,            // $795: M1 stops
     kHoldWhenLeft,            // $796: a sender that leaves while something moves
+    kAtSpeedInput,            // $797: the spindle's drive says when it is at speed
     kJerk,                    // $800 mm/s^3
     kShaperType = kJerk + 3,  // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz
@@ -93,7 +98,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 6;
+inline constexpr std::uint8_t kSettingsLayout = 7;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -113,7 +118,8 @@ struct SettingFault {
 struct BoardLimits {
     // On each axis while all three move. By default a step each microsecond: nothing asks for more.
     std::uint32_t most_steps_per_second{1000000};
-    bool second_motor{true};  // it has pins for one
+    bool second_motor{true};    // it has pins for one
+    bool at_speed_input{true};  // it has a pin for the spindle's at-speed signal
 };
 
 class Settings {
@@ -149,7 +155,7 @@ public:
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms, or $810 to $832 for
     //                          shapers over planner::kMostShaperTicks together
     //   kSoftLimitError        soft limits without homing
-    //   kSettingDisabled       a second motor on a board without pins for it
+    //   kSettingDisabled       a second motor, or an at-speed signal, on a board without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
     // Every value is in its range.

@@ -66,7 +66,7 @@ void write_pins(std::uint16_t inputs, ReplyQueue& out) noexcept
                                          {kStartButton, 'S'},
                                          {kEmergencyStop, 'E'},
                                          {kMotorFault, 'M'}}};
-    if (inputs == 0) {
+    if ((inputs & ~unsigned{kAtSpeed}) == 0) {
         return;
     }
     (void)out.text("|Pn:");

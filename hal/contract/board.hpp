@@ -77,6 +77,7 @@ constexpr bool is_byte_link()
 // The words of the panel are firmware/base/panel.hpp's. Inputs are raw: machine/ inverts and
 // filters them as the settings say.
 using cusp::InputBit;
+using cusp::kAtSpeed;
 using cusp::kDoor;
 using cusp::kEmergencyStop;
 using cusp::kHoldButton;
@@ -126,13 +127,15 @@ constexpr bool is_settings_store()
 }
 
 // A Board bundles the four: an object of each, named pulse_player, byte_link, panel,
-// settings_store; kMostStepsPerSecond, the steps that it plays on each axis while all three move; and
-// kSecondMotor, whether it has pins for the second motor of an axis.
+// settings_store; kMostStepsPerSecond, the steps that it plays on each axis while all three move;
+// kSecondMotor, whether it has pins for the second motor of an axis; and kAtSpeedInput, whether it has
+// one for the spindle's at-speed signal.
 template <class Board>
 constexpr bool is_board()
 {
     static_assert(std::is_same_v<decltype(Board::kMostStepsPerSecond), const std::uint32_t>);
     static_assert(std::is_same_v<decltype(Board::kSecondMotor), const bool>);
+    static_assert(std::is_same_v<decltype(Board::kAtSpeedInput), const bool>);
     return is_pulse_player<decltype(Board::pulse_player)>() &&
            is_byte_link<decltype(Board::byte_link)>() && is_panel<decltype(Board::panel)>() &&
            is_settings_store<decltype(Board::settings_store)>();

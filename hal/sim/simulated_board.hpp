@@ -41,6 +41,7 @@ struct SimulatedBoard {
     // Bounded by the pulse's width alone.
     static constexpr std::uint32_t kMostStepsPerSecond = 1000000;
     static constexpr bool kSecondMotor = true;
+    static constexpr bool kAtSpeedInput = true;
 
     SimulatedMill mill;
     SimulatedPlayer pulse_player;

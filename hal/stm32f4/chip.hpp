@@ -31,9 +31,12 @@ struct Chip {
     static Timer<Word>& timer1() noexcept { return block_at<Timer<Word>>(0x40010000); }
     static Timer<Word>& timer2() noexcept { return block_at<Timer<Word>>(0x40000000); }
     static Timer<Word>& timer3() noexcept { return block_at<Timer<Word>>(0x40000400); }
+    static Timer<Word>& timer4() noexcept { return block_at<Timer<Word>>(0x40000800); }
     static Timer<Word>& timer5() noexcept { return block_at<Timer<Word>>(0x40000C00); }
     static Timer<Word>& timer8() noexcept { return block_at<Timer<Word>>(0x40010400); }
+    static Timer<Word>& timer9() noexcept { return block_at<Timer<Word>>(0x40014000); }
     static Timer<Word>& timer11() noexcept { return block_at<Timer<Word>>(0x40014800); }
+    static Timer<Word>& timer12() noexcept { return block_at<Timer<Word>>(0x40001800); }
     static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
     static Usart<Word>& usart2() noexcept { return block_at<Usart<Word>>(0x40004400); }
     static UsbCore<Word>& usb() noexcept { return block_at<UsbCore<Word>>(0x50000000); }

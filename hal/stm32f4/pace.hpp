@@ -33,6 +33,7 @@ struct Timer8Pace {
         {3, 7, detail::compare_request(2)},
         {4, 7, detail::compare_request(3)},
     }};
+    static constexpr unsigned kTimer = 8;
     static constexpr unsigned kClockBit = 1;   // of RCC_APB2ENR
     static constexpr unsigned kFreezeBit = 1;  // of DBGMCU_APB2_FZ
     static auto& timer() noexcept { return Chip::timer8(); }
@@ -44,6 +45,7 @@ struct Timer1Pace {
         {1, 6, detail::compare_request(1)},
         {6, 6, detail::compare_request(3)},
     }};
+    static constexpr unsigned kTimer = 1;
     static constexpr unsigned kClockBit = 0;
     static constexpr unsigned kFreezeBit = 0;
     static auto& timer() noexcept { return Chip::timer1(); }

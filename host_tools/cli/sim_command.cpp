@@ -171,8 +171,9 @@ std::uint16_t inputs_of(const std::vector<std::string>& names, const char* optio
     for (const std::string& name : names) {
         const std::uint16_t bit = input_named(name);
         if (bit == 0) {
-            throw InputError{fmt::format(
-                "{} {}: is none of x, y, z, probe, door, hold, start, reset", option, name)};
+            throw InputError{
+                fmt::format("{} {}: is none of x, y, z, probe, door, hold, start, reset, at-speed",
+                            option, name)};
         }
         bits |= bit;
     }

@@ -21,8 +21,10 @@ WRONG = {
     "an output on the crystal": ("mist = {'C', 8}", "mist = {'H', 0}", "PH0 and PH1 are the crystal's"),
     "the door on the serial port": ("door = {'B', 8}", "door = {'A', 10}", "a pin is the serial port's"),
     "a direction on USB": ("{'C', 5}}}", "{'A', 12}}}", "PA11 and PA12 are the USB plug's"),
-    "pulses where timer 3 is not": ("{{'A', 6}, 1}", "{{'A', 0}, 1}", "does not have that channel of timer 3"),
-    "pulses on another channel": ("{{'A', 6}, 1}", "{{'A', 6}, 2}", "does not have that channel of timer 3"),
+    "pulses where timer 3 is not": ("{{'A', 6}, 1}", "{{'A', 0}, 1}", "does not have that channel of that timer"),
+    "pulses on another channel": ("{{'A', 6}, 1}", "{{'A', 6}, 2}", "does not have that channel of that timer"),
+    "pulses on another timer": ("{{'A', 6}, 1}", "{{'A', 6}, 1, 4}", "does not have that channel of that timer"),
+    "pulses on the timer of the steps": ("{{'A', 6}, 1}", "{{'C', 9}, 4, 8}", "asks for the step pulses"),
     "no reset button": ("        pins.reset = {'B', 7};\n", "", "a line, input or output has no pin"),
     "a port that is not there": ("flood = {'C', 7}", "flood = {'J', 7}", "a pin is none of A0 to I15"),
     "a pin that is not there": ("flood = {'C', 7}", "flood = {'C', 16}", "a pin is none of A0 to I15"),
@@ -37,7 +39,8 @@ def compile_table(name, text):
     source = text.replace("#pragma once\n", "") + f"""
 #include "boards/mill3/pin_rules.hpp"
 static_assert(cusp::boards::PinRules<cusp::boards::{name},
-    cusp::boards::{name}::SerialPort<cusp::hal::stm32f4::Chip>>::kHold);
+    cusp::boards::{name}::SerialPort<cusp::hal::stm32f4::Chip>,
+    cusp::boards::{name}::Pace<cusp::hal::stm32f4::Chip>>::kHold);
 """
     run = subprocess.run([COMPILER, "-std=c++17", "-fsyntax-only", "-x", "c++", "-I", ROOT, "-"],
                          input=source, capture_output=True, text=True, cwd=ROOT)

@@ -105,7 +105,7 @@ constexpr CodeText kErrors[]{
     {2, "a number is missing or malformed"},
     {3, "this $ command is not known"},
     {4, "a value is negative"},
-    {5, "homing is switched off, or the board has no second motor"},
+    {5, "homing is switched off, or the board lacks the pins"},
     {6, "the step pulse is too short"},
     {7, "the stored settings could not be read"},
     {8, "the controller is not idle"},
@@ -152,6 +152,7 @@ constexpr CodeText kAlarms[]{
     {8, "homing could not clear the switch"},
     {9, "homing did not find the switch"},
     {10, "the emergency stop is pressed"},
+    {14, "the spindle did not come up to speed in time"},
     {15, "a switch of an axis with two motors did not close in time"},
     {17, "a motor driver reports a fault"},
 };

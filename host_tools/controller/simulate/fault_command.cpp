@@ -140,7 +140,7 @@ std::optional<hal::LineFaults> parse_line_faults(std::string_view text)
 
 std::uint16_t input_named(std::string_view name)
 {
-    constexpr std::array<std::pair<std::string_view, std::uint16_t>, 8> kNames{{
+    constexpr std::array<std::pair<std::string_view, std::uint16_t>, 9> kNames{{
         {"x", kLimitX},
         {"y", kLimitY},
         {"z", kLimitZ},
@@ -149,6 +149,7 @@ std::uint16_t input_named(std::string_view name)
         {"hold", kHoldButton},
         {"start", kStartButton},
         {"reset", kResetButton},
+        {"at-speed", kAtSpeed},
     }};
     for (const auto& [known, bit] : kNames) {
         if (known == name) {

@@ -248,8 +248,8 @@ private:
             "iron {:.4f},{:.4f},{:.4f} steps {},{},{} inputs {} spindle {} flood {} "
             "mist {} power {}",
             at.x, at.y, at.z, mill.steps()[0], mill.steps()[1], mill.steps()[2], mill.inputs(),
-            outputs.spindle_on ? int{outputs.spindle_pwm} : 0, int{outputs.flood},
-            int{outputs.mist}, controller_.is_on() ? "on" : "off");
+            outputs.spindle_on ? int{outputs.spindle_pwm} / (kFullDuty / 1000) : 0,
+            int{outputs.flood}, int{outputs.mist}, controller_.is_on() ? "on" : "off");
     }
 
     // A change of the store may be a change of settings. A power cut stops the controller.

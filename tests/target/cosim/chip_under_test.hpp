@@ -55,11 +55,12 @@ public:
     void make_usb_the_line(bool on) { usb_is_line_ = on; }
     PortModel& port(char letter);
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
-    // Duty of a channel of timer 3, 1 to 4.
-    std::uint32_t spindle_compare(unsigned channel) const
+    // Duty cycle of a channel of timer 3, 1 to 4, in parts of a million; and its rate, Hz.
+    std::uint32_t spindle_duty(unsigned channel) const
     {
-        return timers_.at("TIM3")->compare(channel - 1);
+        return timers_.at("TIM3")->duty_ppm(channel - 1);
     }
+    std::uint32_t spindle_hz() const { return timers_.at("TIM3")->pulses_hz(); }
 
     // The core executes nothing more; `debugger`: as a debugger halts it, which DBGMCU knows of.
     void stop_core(bool debugger);

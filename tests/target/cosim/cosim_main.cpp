@@ -216,8 +216,9 @@ void Console::tell_pins() const
         }
     }
     for (unsigned channel = 1; channel <= 4; ++channel) {
-        std::cout << "spindle " << channel << " " << chip_.spindle_compare(channel) << "\n";
+        std::cout << "spindle " << channel << " " << chip_.spindle_duty(channel) << "\n";
     }
+    std::cout << "rate TIM3 " << chip_.spindle_hz() << "\n";
 }
 
 void Console::tell_changes() const

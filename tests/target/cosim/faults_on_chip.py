@@ -137,7 +137,17 @@ class Pins(unittest.TestCase):
                 self.assertEqual(on(), wanted, line)
             pulses = machine.pins["spindle pulses"]
             self.assertEqual(machine.answered("function")[pulses], 2)
-            self.assertEqual(machine.answered("spindle")[TIMER3[pulses]], 500)
+            self.assertEqual(machine.answered("spindle")[TIMER3[pulses]], 500000)
+            self.assertEqual(machine.answered("rate")["TIM3"], 1000)
+            # Off at 5 %, full speed at 80 %, ten times as many of them.
+            for setting in ("$34=5", "$36=80", "$33=10000"):
+                machine.ask("M5")
+                machine.ask(setting)
+            self.assertAlmostEqual(machine.answered("spindle")[TIMER3[pulses]], 50000, delta=300)
+            self.assertAlmostEqual(machine.answered("rate")["TIM3"], 10000, delta=3)
+            machine.ask("M3 S24000")
+            machine.run(5)
+            self.assertAlmostEqual(machine.answered("spindle")[TIMER3[pulses]], 800000, delta=300)
             if "drives power" in machine.pins:
                 self.assertEqual(machine.levels()[machine.pins["drives power"]], 1)
 

@@ -31,7 +31,16 @@ public:
     void freeze(bool on);
     bool enabled() const { return (registers_[kCr1] & 1U) != 0; }
     void set_listener(TimerModel* listener) { listener_ = listener; }
-    std::uint32_t compare(unsigned channel) const { return registers_[kCcr1 + channel]; }
+    // Parts of a million that the output of a channel, 0 to 3, is high; and pulses a second.
+    std::uint32_t duty_ppm(unsigned channel) const
+    {
+        return static_cast<std::uint32_t>(std::uint64_t{registers_[kCcr1 + channel]} * 1000000 /
+                                          (std::uint64_t{top()} + 1));
+    }
+    std::uint32_t pulses_hz() const
+    {
+        return static_cast<std::uint32_t>(hz_ / (std::uint64_t{top()} + 1) / (prescaler_ + 1));
+    }
 
 private:
     enum Register : unsigned {

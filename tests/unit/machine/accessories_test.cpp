@@ -30,15 +30,15 @@ TEST(SpindleOutput, RisesFromTheLeastToTheGreatestSpeed)
     UNSIGNED_LONGS_EQUAL(0, pwm(0));
     UNSIGNED_LONGS_EQUAL(1, pwm(100));
     UNSIGNED_LONGS_EQUAL(1, pwm(2000));
-    UNSIGNED_LONGS_EQUAL(500, pwm(6000));
-    UNSIGNED_LONGS_EQUAL(1000, pwm(10000));
-    UNSIGNED_LONGS_EQUAL(1000, pwm(99999));
+    UNSIGNED_LONGS_EQUAL(25000, pwm(6000));
+    UNSIGNED_LONGS_EQUAL(50000, pwm(10000));
+    UNSIGNED_LONGS_EQUAL(50000, pwm(99999));
 }
 
 TEST(SpindleOutput, FollowsTheOverrideWithinItsSpeeds)
 {
-    UNSIGNED_LONGS_EQUAL(500, pwm(5000, 120));
-    UNSIGNED_LONGS_EQUAL(1000, pwm(9000, 200));
+    UNSIGNED_LONGS_EQUAL(25000, pwm(5000, 120));
+    UNSIGNED_LONGS_EQUAL(50000, pwm(9000, 200));
     UNSIGNED_LONGS_EQUAL(1, pwm(3000, 10));
 }
 
@@ -49,6 +49,41 @@ TEST(SpindleOutput, IsOffWhilePausedAndWhenOff)
     CHECK_FALSE(output_levels(accessories, 100, true, settings).spindle_on);
     accessories = Accessories{};
     UNSIGNED_LONGS_EQUAL(0, pwm(6000));
+}
+
+// The pulses of a motor's controller that is off at 5 %, turns from 10 % on and is at full speed at 90 %.
+TEST(SpindleOutput, LiesBetweenTheLeastAndTheGreatestDutyWhileItIsOn)
+{
+    CHECK(!settings.put(34, 5));
+    CHECK(!settings.put(35, 10));
+    CHECK(!settings.put(36, 90));
+    UNSIGNED_LONGS_EQUAL(2500, pwm(0));
+    UNSIGNED_LONGS_EQUAL(5000, pwm(1));
+    UNSIGNED_LONGS_EQUAL(5000, pwm(2000));
+    UNSIGNED_LONGS_EQUAL(25000, pwm(6000));
+    UNSIGNED_LONGS_EQUAL(35000, pwm(8000));
+    UNSIGNED_LONGS_EQUAL(45000, pwm(20000));
+    accessories.spindle = SpindleMode::kOff;
+    UNSIGNED_LONGS_EQUAL(2500, pwm(6000));
+    UNSIGNED_LONGS_EQUAL(2500, output_levels(accessories, 100, true, settings).spindle_off_pwm);
+}
+
+TEST(SpindleOutput, IsConstantWhereTheSettingsLeaveNoRange)
+{
+    CHECK(!settings.put(35, 60));
+    CHECK(!settings.put(36, 40));
+    UNSIGNED_LONGS_EQUAL(30000, pwm(2000));
+    UNSIGNED_LONGS_EQUAL(30000, pwm(9000));
+    CHECK(!settings.put(31, 10000));
+    UNSIGNED_LONGS_EQUAL(30000, pwm(9000));
+}
+
+TEST(SpindleOutput, HasTheRateOfItsSetting)
+{
+    UNSIGNED_LONGS_EQUAL(1000, output_levels(accessories, 100, true, settings).spindle_hz);
+    CHECK(!settings.put(33, 20000));
+    UNSIGNED_LONGS_EQUAL(20000, output_levels(accessories, 100, true, settings).spindle_hz);
+    CHECK(settings.put(33, 0) && settings.put(33, 100001) && settings.put(36, 100.5F));
 }
 
 TEST(SpindleOutput, TellsTheBoardWhichLinesToInvert)

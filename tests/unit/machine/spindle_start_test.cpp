@@ -169,3 +169,57 @@ TEST(SpindleStart, AfterM3IsHeldAndGoesOnOnceItIsUp)
     CHECK(mill.steps() == 0 && !mill.spindle_on());
     is_about(2000, mill.ticks_to_motion("~"), "after M3, a hold and a stop");
 }
+
+// $797: the spindle's drive says when it is up; its contact is open (high) until then.
+TEST(SpindleStart, WaitsForTheSpindleThatSaysWhenItIsUp)
+{
+    for (const float delay : {0.0F, 2.0F}) {
+        SpindleMill mill{delay};
+        (void)mill.bench.exchange("$797=1\n", 50);
+        mill.bench.board.mill.force_high(kAtSpeed);
+        mill.bench.board.byte_link.send("M3 S1000\nG0 X1\n");
+        mill.bench.run(1200);
+        CHECK(mill.spindle_on() && mill.steps() == 0);
+        mill.bench.board.mill.force_high(0);
+        is_about(0, mill.ticks_to_motion(""), "at speed");
+        // Another speed of a spindle that turns needs no wait.
+        mill.bench.board.mill.force_high(kAtSpeed);
+        (void)mill.bench.finish();
+        is_about(0, mill.ticks_to_motion("S2000 G0 X2\n"), "another speed");
+        // Turned about it is not at speed, though its drive says so for some ticks yet.
+        mill.bench.board.mill.force_high(0);
+        (void)mill.bench.finish();
+        mill.bench.board.byte_link.send("M4 G0 X1\n");
+        const std::uint64_t before = mill.steps();
+        mill.bench.run(20);
+        mill.bench.board.mill.force_high(kAtSpeed);
+        mill.bench.run(500);
+        CHECK(mill.steps() == before);
+    }
+}
+
+TEST(SpindleStart, RaisesAnAlarmIfTheSpindleDoesNotComeUpInTime)
+{
+    for (const float delay : {0.0F, 1.5F}) {
+        const unsigned longest = delay > 0 ? 1500 : kGrblsTicks;
+        SpindleMill mill{delay};
+        (void)mill.bench.exchange("$797=1\n", 50);
+        mill.bench.board.mill.force_high(kAtSpeed);
+        mill.bench.board.byte_link.send("M3 S1000\nG0 X1\n");
+        mill.bench.run(longest - 10);
+        CHECK(mill.spindle_on() && mill.state() != State::kAlarm);
+        const std::string said = mill.bench.exchange("", 60);
+        CHECK_TEXT(said.find("ALARM:14") != std::string::npos, said.c_str());
+        CHECK_TEXT(said.find("error:9") != std::string::npos, said.c_str());
+        CHECK(!mill.spindle_on() && mill.state() == State::kAlarm && mill.steps() == 0);
+        (void)mill.bench.exchange("$X\n", 50);
+        CHECK(mill.state() == State::kIdle);
+    }
+}
+
+TEST(SpindleStart, DoesNotAskAnInputThatNoSettingNames)
+{
+    SpindleMill mill;
+    mill.bench.board.mill.force_high(kAtSpeed);
+    is_about(0, mill.ticks_to_motion("M3 S1000\nG0 X1\n"), "not asked");
+}

@@ -117,13 +117,16 @@ void check_carried_over(const PowerCycle& mill, double rate)
     DOUBLES_EQUAL(0, value_of(mill, 394), 0);
     DOUBLES_EQUAL(0, value_of(mill, 795), 0);
     DOUBLES_EQUAL(1, value_of(mill, 796), 0);
+    DOUBLES_EQUAL(1000, value_of(mill, 33), 0);
+    DOUBLES_EQUAL(100, value_of(mill, 36), 0);
     const cusp::gcode::Parameters& parameters = mill.app->machine().parameters();
     CHECK(parameters.work_offsets[1].x == 177800000);  // in inches, by $N1
     LONGS_EQUAL(-114300000, parameters.tools.length_nm(3));
 }
 
-// The settings that layout 6, 5, 4 and 3 brought, as `$` numbers.
+// The settings that layout 7, 6, 5, 4 and 3 brought, as `$` numbers.
 const std::vector<std::vector<std::uint16_t>> kBrought{
+    {33, 34, 35, 36, 797},
     {796},
     {394, 795},
     {810, 811, 812, 820, 821, 822, 830, 831, 832},
@@ -142,8 +145,8 @@ std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, uns
     for (std::size_t i = 0; i < cusp::machine::kSettingCount; ++i) {
         const std::uint16_t number = cusp::machine::setting_entry(i).number;
         bool lacks = false;
-        for (unsigned later = 6; later > layout; --later) {
-            const auto& brought = kBrought[6 - later];
+        for (unsigned later = 7; later > layout; --later) {
+            const auto& brought = kBrought[7 - later];
             lacks = lacks || std::find(brought.begin(), brought.end(), number) != brought.end();
         }
         const float value = state.settings.value_at(i);
