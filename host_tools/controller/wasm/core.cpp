@@ -72,6 +72,14 @@ std::string error_line(char origin, std::uint64_t line, int code, const std::str
            text + "\n";
 }
 
+constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
+bool is_held()
+{
+    const auto& script = the_run().options.script;
+    return !script.empty() && script.back().tick == kNever;
+}
+
 void take_figures(Run& run)
 {
     const RunResult& result = run.run->result();
@@ -168,6 +176,32 @@ CUSP_EXPORT(cusp_run_advance) int cusp_run_advance(std::uint32_t ticks)
         }
     }
     return run.run ? 1 : 0;
+}
+
+// Feed hold, as the operator's byte before the next tick. It lasts until one of the two below: the run ends a hold by itself
+// where the script has no byte left, so that a cycle start follows which is due at no time.
+CUSP_EXPORT(cusp_run_hold) void cusp_run_hold()
+{
+    if (!is_held()) {
+        the_run().options.script.push_back({0, static_cast<std::uint8_t>('!')});
+        the_run().options.script.push_back({kNever, static_cast<std::uint8_t>('~')});
+    }
+}
+// Cycle start after a hold.
+CUSP_EXPORT(cusp_run_resume) void cusp_run_resume()
+{
+    if (is_held()) {
+        the_run().options.script.back().tick = 0;
+    }
+}
+// The controller's reset: the program is lost, and the run ends.
+CUSP_EXPORT(cusp_run_reset) void cusp_run_reset()
+{
+    constexpr std::uint8_t kReset = 0x18;
+    if (is_held()) {
+        the_run().options.script.pop_back();
+    }
+    the_run().options.script.push_back({0, kReset});
 }
 
 CUSP_EXPORT(cusp_run_fraction) double cusp_run_fraction()

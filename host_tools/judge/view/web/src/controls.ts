@@ -99,7 +99,7 @@ export function sceneTools(scene: Scene, timeline: Timeline, choices: Choices, c
 }
 
 // Keys of the whole page, except those that a focused control handles.
-export function listenToKeys(timeline: Timeline, scene: Scene | null, charts: Charts, nextColouring: () => void, help: () => void): void {
+export function listenToKeys(timeline: Timeline, scene: Scene | null, charts: Charts, nextColouring: () => void, help: () => void, signal: AbortSignal): void {
   const toLine = (step: 1 | -1) => {
     const line = timeline.neighbourLine(timeline.lineOf(timeline.tick), step), ticks = line === null ? null : timeline.ticksOfLine(line);
     if (ticks) timeline.seekTick(ticks[1]);
@@ -119,14 +119,15 @@ export function listenToKeys(timeline: Timeline, scene: Scene | null, charts: Ch
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target as HTMLElement, tag = target.tagName;
-    if (tag === "SELECT" || document.querySelector("dialog[open]")) return;
+    if (tag === "SELECT" || tag === "TEXTAREA" || document.querySelector("dialog[open]")) return;
     if (tag === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
     if (tag === "INPUT" && (event.key === " " && (target as HTMLInputElement).type === "checkbox" || /^(Arrow|Home|End)/.test(event.key))) return;
+    if (tag === "INPUT" && !["checkbox", "range"].includes((target as HTMLInputElement).type)) return;
     const act = keys[event.key] as ((event: KeyboardEvent) => void) | undefined;
     if (!act) return;
     event.preventDefault();
     act(event);
-  });
+  }, { signal });
 }
 
 export const keyHelp: [string, string][] = [

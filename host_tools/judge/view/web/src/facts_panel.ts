@@ -83,6 +83,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
   const { facts: f, run } = facts, out: HTMLElement[] = [];
   const warned = warnings(facts, actions);
   if (warned.length > 0) out.push(section("Warnings", element("ul", { class: "warnings" }, ...warned)));
+  if (facts.verification) out.push(section("Bounds of the job, as cut", table(["Bound", "Measured", "Allowed", "Verdict"], boundRows(facts))));
   const farthest = run.max_deviation_line > 0
     ? element("span", {}, `${figure(run.max_deviation_mm * 1000, 3)} µm `, button(`line ${run.max_deviation_line}`, "Go to this line", () => actions.toLine(run.max_deviation_line)))
     : `${figure(run.max_deviation_mm * 1000, 3)} µm`;
@@ -99,7 +100,6 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
   limits.append(element("p", { class: "note" }, "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding."));
   out.push(limits);
   if (facts.verification) {
-    out.push(section("Bounds of the job, as cut", table(["Bound", "Measured", "Allowed", "Verdict"], boundRows(facts))));
     const worst = f.worst ?? [];
     const places = worst.map((place) => {
       const label = element("span", { class: "kind kind-" + place.kind }, { gouge: "gouge", left: "left", uncut: "uncut" }[place.kind]);

@@ -1,7 +1,7 @@
-// Extracts facts and data from the page, and unpacks the data in a worker.
+// Facts and data of a run: those that stand in the page, and the worker that unpacks any.
 import workerText from "worker:./unpack_worker.ts";
 import type { PageFacts, Run } from "./run_data";
-import type { UnpackAnswer, UnpackRequest } from "./unpack_worker";
+import type { Block, UnpackAnswer, UnpackRequest } from "./unpack_worker";
 
 // Facts precede the script.
 export function pageFacts(): PageFacts {
@@ -9,7 +9,7 @@ export function pageFacts(): PageFacts {
 }
 
 // Removes a block of data from the page, so that its text can be freed, and returns it.
-function takeBlock(name: string): string {
+export function takeBlock(name: string): string {
   const block = document.getElementById("data-" + name);
   const text = block?.textContent ?? "";
   block?.remove();
@@ -17,22 +17,23 @@ function takeBlock(name: string): string {
 }
 
 // Resolves when the document is complete.
-function documentRead(): Promise<void> {
+export function documentRead(): Promise<void> {
   return new Promise((done) => {
     if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", () => done());
     else done();
   });
 }
 
-// Unpacks the run. `begun` is called when the worker has the data: a worker starts only while this thread is free.
-export async function loadRun(facts: PageFacts, begun: () => void): Promise<Run> {
+// Unpacks the run. `blocks` is asked for each block, by its name, once `ready` has resolved. `begun` is called when the worker
+// has the data: a worker starts only while this thread is free.
+export async function loadRun(facts: PageFacts, blocks: (name: string) => Block, begun: () => void, ready: Promise<void> = Promise.resolve()): Promise<Run> {
   const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
-  const worker = new Worker(address);  // it starts while the document is still being read
+  const worker = new Worker(address);  // it starts while the document may still be being read
   try {
-    await documentRead();
+    await ready;
     const request: UnpackRequest = {
-      samples: takeBlock("samples"), lines: takeBlock("lines"), path: takeBlock("path"), program: takeBlock("program"),
-      rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"), engagement: takeBlock("engagement"),
+      samples: blocks("samples"), lines: blocks("lines"), path: blocks("path"), program: blocks("program"),
+      rapid: blocks("rapid"), stock: blocks("stock"), left: blocks("left"), engagement: blocks("engagement"),
       limits: [facts.limits.velocity, facts.limits.acceleration, facts.limits.jerk],
       farthest: facts.farthest_nm,
     };

@@ -1,27 +1,32 @@
-// The worker that unpacks a run from the page's text to arrays.
+// The worker that unpacks a run to arrays.
 import { inflate } from "./inflate";
 import type { Run, Triple } from "./run_data";
 import { bytesOfText, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
 
+// The text of a page, or the bytes that it stands for; empty: the run has none.
+export type Block = string | Uint8Array;
+
 export interface UnpackRequest {
-  samples: string; lines: string; path: string; program: string; rapid: string; stock: string; left: string; engagement: string;
+  samples: Block; lines: Block; path: Block; program: Block; rapid: Block; stock: Block; left: Block; engagement: Block;
   limits: Triple[];  // velocity, acceleration, jerk
   farthest: number;  // nm from the first set point
 }
 export type UnpackAnswer = { begun: true } | { run: Run } | { failed: string };
 
+const bytesOf = (block: Block): Uint8Array => typeof block === "string" ? bytesOfText(block) : block;
+
 async function unpack(request: UnpackRequest): Promise<Run> {
-  const inflated = (text: string) => inflate(bytesOfText(text));
-  const samples = await unpackSamples(bytesOfText(request.samples), request.farthest);
+  const inflated = (block: Block) => inflate(bytesOf(block));
+  const samples = await unpackSamples(bytesOf(request.samples), request.farthest);
   const path = unpackPath(await inflated(request.path));
   const program = await inflated(request.program);
-  const stock = request.stock ? await unpackStock(bytesOfText(request.stock)) : null;
-  const engagement = request.engagement ? await inflated(request.engagement) : null;
+  const stock = request.stock.length > 0 ? await unpackStock(bytesOf(request.stock)) : null;
+  const engagement = request.engagement.length > 0 ? await inflated(request.engagement) : null;
   return {
     ...samples, ...unpackLineRuns(await inflated(request.lines)), ...path,
     ...measure(samples, path.vertexTick, request.limits, engagement), engagement,
     program, lineStart: lineStarts(program), rapid: await inflated(request.rapid), stock,
-    left: stock && request.left ? await unpackLeft(bytesOfText(request.left), stock.nx * stock.ny) : null,
+    left: stock && request.left.length > 0 ? await unpackLeft(bytesOf(request.left), stock.nx * stock.ny) : null,
   };
 }
 

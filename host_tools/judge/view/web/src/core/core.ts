@@ -66,6 +66,9 @@ interface Exports {
   cusp_take_settings(): void;
   cusp_run_begin(withSetPoints: number): number;
   cusp_run_advance(ticks: number): number;
+  cusp_run_hold(): void;
+  cusp_run_resume(): void;
+  cusp_run_reset(): void;
   cusp_run_fraction(): number;
   cusp_run_line(): number;
   cusp_run_seconds(): number;
@@ -112,6 +115,11 @@ export class Core {
   advance(ticks: number): boolean {
     return this.exports.cusp_run_advance(ticks) !== 0;
   }
+
+  /** Feed hold, cycle start and reset, as the controller's realtime bytes; before the next tick. A hold lasts until one of the others. */
+  hold() { this.exports.cusp_run_hold(); }
+  resume() { this.exports.cusp_run_resume(); }
+  reset() { this.exports.cusp_run_reset(); }
 
   progress(): Progress {
     const e = this.exports;

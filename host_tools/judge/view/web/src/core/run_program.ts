@@ -28,7 +28,7 @@ async function compile(): Promise<WebAssembly.Module> {
   return WebAssembly.compile(bytes);
 }
 
-function coreModule(): Promise<WebAssembly.Module> {
+export function coreModule(): Promise<WebAssembly.Module> {
   compiled ??= compile();
   return compiled;
 }

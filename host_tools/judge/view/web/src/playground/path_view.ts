@@ -18,6 +18,7 @@ export class PathView {
   private zoom = 1;
   private shift = [0, 0];
   private pending = false;
+  private tool: [number, number, number] | null = null;  // mm
 
   constructor(host: HTMLElement, private readonly isDark: () => boolean) {
     const views: [string, number, number][] = [["Top", 0, Math.PI / 2], ["Front", 0, 0], ["Right", Math.PI / 2, 0], ["3-D", -0.6, 0.6]];
@@ -41,6 +42,14 @@ export class PathView {
     this.pending = true;
     requestAnimationFrame(() => { this.pending = false; this.draw(fast); });
   }
+
+  /** Marks a place on the path, mm; null: none. */
+  mark(at: [number, number, number] | null): void {
+    this.tool = at;
+    this.redraw(this.speedStep.length > DRAGGED_SEGMENTS);
+  }
+
+  look3d(): void { this.look(-0.6, 0.6); }
 
   private look(turn: number, tilt: number): void {
     [this.turn, this.tilt, this.zoom, this.shift] = [turn, tilt, 1, [0, 0]];
@@ -82,12 +91,13 @@ export class PathView {
     [canvas.width, canvas.height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
     const pen = canvas.getContext("2d")!, scale = 0.92 * Math.min(canvas.width, canvas.height) / this.size * this.zoom;
     const [cosTurn, sinTurn, cosTilt, sinTilt] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
-    const place = (at: number): [number, number] => {
-      const x = this.path[at] - this.centre[0], y = this.path[at + 1] - this.centre[1], z = this.path[at + 2] - this.centre[2];
+    const placed = (...at: [number, number, number]): [number, number] => {
+      const [x, y, z] = at.map((value, k) => value - this.centre[k]);
       const across = x * cosTurn + y * sinTurn, away = -x * sinTurn + y * cosTurn;
       return [canvas.width / 2 + this.shift[0] * ratio + across * scale,
         canvas.height / 2 + this.shift[1] * ratio - (away * sinTilt + z * cosTilt) * scale];
     };
+    const place = (at: number) => placed(this.path[at], this.path[at + 1], this.path[at + 2]);
     const lines = Array.from({ length: STEPS }, () => new Path2D()), count = this.speedStep.length;
     const stride = fast ? Math.max(1, Math.ceil(count / DRAGGED_SEGMENTS)) : 1;
     for (let k = 0; k < count; k += stride) {
@@ -98,6 +108,11 @@ export class PathView {
     pen.lineWidth = 1.3 * ratio;
     const table = this.table();
     lines.forEach((line, k) => { pen.strokeStyle = cssOf(table, Math.round(k * 255 / (STEPS - 1))); pen.stroke(line); });
+    if (!this.tool) return;
+    pen.fillStyle = this.isDark() ? "#ffd166" : "#b3261e";
+    pen.beginPath();
+    pen.arc(...placed(...this.tool), 5 * ratio, 0, 2 * Math.PI);
+    pen.fill();
   }
 
   private listen(): void {
