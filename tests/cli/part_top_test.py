@@ -86,10 +86,10 @@ class PartTop(CuspCase):
 
     def test_holes_of_a_mesh_are_closed_and_named(self):
         for heights, hole, words in (
-                (squares(TOP), {(4, 3)}, "1 hole of the mesh open above: 4 x 4 mm at x 18 y 14 z 12 mm"),
-                (POCKET, {(4, 3), (5, 3)}, "1 hole of the mesh open above: 8 x 4 mm at x 20 y 14 z 6 mm"),
-                (POCKET, {(4, 3), (9, 7)}, "2 holes of the mesh open above: 4 x 4 mm at x "),
-                (STEP, {(0, 3)}, "1 hole of the mesh open above: 4 x 4 mm at x 2 y 14 z 8 mm")):
+                (squares(TOP), {(4, 3)}, "1 hole of the part open above: 4 x 4 mm at x 18 y 14 z 12 mm"),
+                (POCKET, {(4, 3), (5, 3)}, "1 hole of the part open above: 8 x 4 mm at x 20 y 14 z 6 mm"),
+                (POCKET, {(4, 3), (9, 7)}, "2 holes of the part open above: 4 x 4 mm at x "),
+                (STEP, {(0, 3)}, "1 hole of the part open above: 4 x 4 mm at x 2 y 14 z 8 mm")):
             program, said = self.planned(stl(plate(heights, hole)))
             self.assertIn("p.stl: facets are missing: " + words, said)
             whole, _ = self.planned(stl(plate(heights)))

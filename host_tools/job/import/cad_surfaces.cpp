@@ -1,10 +1,16 @@
 // Loads libcusp_cad.so when the first CAD file is read.
 #include "host_tools/job/import/cad_surfaces.hpp"
 
+#include <array>
 #include <dlfcn.h>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/facets.hpp"
+#include "host_tools/job/import/mesh_holes.hpp"
+#include "host_tools/job/import/mesh_patches.hpp"
 #include "host_tools/job/import/turning_knots.hpp"
 
 #include "fmt/format.h"
@@ -59,6 +65,30 @@ CadModel read_model(const std::string& file, const Similarity& placed, bool all_
     return model;
 }
 
+// Surfaces over the holes that the faces leave open above.
+std::vector<Surface> hole_covers(const std::string& file,
+                                 const CadModel& model,
+                                 std::vector<std::string>& notes)
+{
+    constexpr double kOff = 1e-3;  // mm
+    Facets covers;
+    for (std::array<Vec3d, 3> t : covers_of_holes(file, "faces", model.open_faces, notes)) {
+        if (cross(t[1] - t[0], t[2] - t[0]).z < 0) {
+            std::swap(t[1], t[2]);
+        }
+        add_facet(t, covers);
+    }
+    if (covers.triangles.empty()) {
+        return {};
+    }
+    std::optional<MeshPatches> patches = mesh_patches(covers, kOff);
+    if (!patches) {
+        throw InputError(file +
+                         ": faces are missing, and what they leave open above can't be closed");
+    }
+    return std::move(patches->surfaces);
+}
+
 }  // namespace
 
 std::vector<Surface> read_cad_surfaces(const std::string& file,
@@ -66,9 +96,12 @@ std::vector<Surface> read_cad_surfaces(const std::string& file,
                                        std::vector<std::string>* notes)
 {
     CadModel model = read_model(file, placed, false);
+    std::vector<std::string> said = notes_of(model, file);
+    for (Surface& cover : hole_covers(file, model, said)) {
+        model.faces.push_back(std::move(cover));
+    }
     if (notes != nullptr) {
-        const std::vector<std::string> found = notes_of(model, file);
-        notes->insert(notes->end(), found.begin(), found.end());
+        notes->insert(notes->end(), said.begin(), said.end());
     }
     return std::move(model.faces);
 }

@@ -5,6 +5,7 @@
 // installed.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace cusp::import {
 // before any face is left out. Analytic faces become rational B-splines, exactly; the trimming
 // curves in (u, v) are those of Open CASCADE. Faces of solids without an upward normal are left out:
 // a tool from above cannot reach them, and the faces above them are in the model. Loose faces that
-// close a volume count as a solid.
+// close a volume count as a solid. A hole that faces leave open above is closed, as in a mesh
+// (mesh_holes.hpp).
 //
 // Errors: InputError with the file and the reason: no such file, not STEP, IGES or BREP, no upward
 // face, contradicting trims, no libcusp_cad.so.
@@ -59,8 +61,10 @@ struct CadModel {
     FaceFault lobes;       // cut off where edges cross each other
     FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1
-                                        // if into it; 0: the face belongs to no solid
+    // Triangles of all faces where these do not close, for the search for holes (mesh_holes.hpp).
+    std::vector<std::array<Vec3d, 3>> open_faces;
+    std::vector<double> outwards;  // of each face: +1 if du x dv points out of its solid, -1
+                                   // if into it; 0: the face belongs to no solid
 };
 
 // The faults of the file that were mended, in words.

@@ -2,6 +2,7 @@
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/cad_face.hpp"
 #include "host_tools/job/import/cad_face_repair.hpp"
+#include "host_tools/job/import/cad_open_faces.hpp"
 #include "host_tools/job/import/cad_shape.hpp"
 #include "host_tools/job/import/cad_surfaces.hpp"
 
@@ -93,6 +94,7 @@ CadModel model_of(const std::string& file,
     if (faces.empty()) {
         throw InputError(file + ": the file holds no face");
     }
+    model.open_faces = triangles_of_open_faces(faces);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
     }

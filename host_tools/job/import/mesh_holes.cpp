@@ -236,17 +236,16 @@ std::vector<MeshHole> holes_from_above(const std::vector<Triangle>& triangles)
     return seen;
 }
 
-void cover_holes(const std::string& files,
-                 std::vector<Triangle>& triangles,
-                 std::vector<std::string>& notes)
+std::vector<Triangle> covers_of_holes(const std::string& files,
+                                      const char* what,
+                                      const std::vector<Triangle>& triangles,
+                                      std::vector<std::string>& notes)
 {
     const std::vector<MeshHole> holes = holes_from_above(triangles);
-    if (holes.empty()) {
-        return;
-    }
+    std::vector<Triangle> covers;
     std::vector<std::string> places;
     for (const MeshHole& hole : holes) {
-        triangles.insert(triangles.end(), hole.cover.begin(), hole.cover.end());
+        covers.insert(covers.end(), hole.cover.begin(), hole.cover.end());
         if (places.size() < kListed) {
             places.push_back(words_of(hole));
         }
@@ -254,10 +253,21 @@ void cover_holes(const std::string& files,
     if (holes.size() > kListed) {
         places.push_back(fmt::format("{} more", holes.size() - kListed));
     }
-    notes.push_back(fmt::format(
-        "{}: facets are missing: {} of the mesh open above: {}; closed, so that nothing is milled "
-        "through: an opening of the part needs walls in the model",
-        files, counted(holes.size(), "hole"), fmt::join(places, "; ")));
+    if (!holes.empty()) {
+        notes.push_back(fmt::format(
+            "{}: {} are missing: {} of the part open above: {}; closed, so that nothing is "
+            "milled through: an opening of the part needs walls in the model",
+            files, what, counted(holes.size(), "hole"), fmt::join(places, "; ")));
+    }
+    return covers;
+}
+
+void cover_holes(const std::string& files,
+                 std::vector<Triangle>& triangles,
+                 std::vector<std::string>& notes)
+{
+    const std::vector<Triangle> covers = covers_of_holes(files, "facets", triangles, notes);
+    triangles.insert(triangles.end(), covers.begin(), covers.end());
 }
 
 }  // namespace cusp::import

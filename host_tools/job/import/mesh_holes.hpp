@@ -23,9 +23,17 @@ std::vector<MeshHole> holes_from_above(const std::vector<std::array<Vec3d, 3>>& 
 
 inline constexpr double kCrack = 0.1;  // mm
 
-// Appends the covers of those holes to the mesh, and a sentence on them to the notes.
+// The covers of those holes; appends a sentence on them to the notes.
 //
-// files  names of the mesh, for the sentence
+// files  names of the part, for the sentence
+// what   of which the part consists: facets or faces
+std::vector<std::array<Vec3d, 3>> covers_of_holes(
+    const std::string& files,
+    const char* what,
+    const std::vector<std::array<Vec3d, 3>>& triangles,
+    std::vector<std::string>& notes);
+
+// Appends covers_of_holes() to a mesh.
 void cover_holes(const std::string& files,
                  std::vector<std::array<Vec3d, 3>>& triangles,
                  std::vector<std::string>& notes);

@@ -25,11 +25,8 @@
 #include "opencascade/Geom_BSplineSurface.hxx"
 #include "opencascade/Geom_Plane.hxx"
 #include "opencascade/Geom_SphericalSurface.hxx"
-#include "opencascade/IGESControl_Controller.hxx"
-#include "opencascade/IGESControl_Writer.hxx"
 #include "opencascade/Interface_Static.hxx"
 #include "opencascade/STEPControl_Controller.hxx"
-#include "opencascade/STEPControl_Writer.hxx"
 #include "opencascade/TColStd_Array1OfInteger.hxx"
 #include "opencascade/TColStd_Array1OfReal.hxx"
 #include "opencascade/TColgp_Array2OfPnt.hxx"
@@ -55,6 +52,7 @@
 #include "host_tools/job/import/import.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/unit/import/cad_writing.hpp"
 #include "tests/unit/import/seen_from_above.hpp"
 
 using namespace cusp;
@@ -108,22 +106,14 @@ TEST_GROUP(CadSurfaces)
     cusp::test::TemporaryFolder folder;
     std::string step(const TopoDS_Shape& shape, const char* unit = "MM")
     {
-        STEPControl_Controller::Init();
-        Interface_Static::SetCVal("write.step.unit", unit);  // asked when the writer is made
-        STEPControl_Writer writer;
-        writer.Transfer(shape, STEPControl_AsIs);
-        const std::string file = folder.file("part.step");
-        CHECK_EQUAL(IFSelect_RetDone, writer.Write(file.c_str()));
+        std::string file = folder.file("part.step");
+        CHECK(cusp::test::write_step(shape, file, unit));
         return file;
     }
     std::string iges(const TopoDS_Shape& shape, bool solids)
     {
-        IGESControl_Controller::Init();
-        IGESControl_Writer writer{"MM", solids ? 1 : 0};
-        writer.AddShape(shape);
-        writer.ComputeModel();
-        const std::string file = folder.file("part.igs");
-        CHECK(writer.Write(file.c_str()));
+        std::string file = folder.file("part.igs");
+        CHECK(cusp::test::write_iges(shape, file, solids));
         return file;
     }
     void check_block(const std::string& file)
@@ -294,8 +284,8 @@ TEST(CadSurfaces, OfABallWithAHoleWithoutASeamAreAllButTheHole)
     Interface_Static::SetIVal("write.surfacecurve.mode", 1);
     constexpr double kPi = 3.141592653589793;
     // both halves, without the cap's disc seen from above
-    DOUBLES_EQUAL(kPi * (2 * 100 - 19 * towards.Z()), seen_from_above(read_surfaces(file)).area,
-                  1.0);
+    DOUBLES_EQUAL(kPi * (2 * 100 - 19 * towards.Z()),
+                  seen_from_above(read_cad_model(file).faces).area, 1.0);
 }
 
 // A square of 10 whose side at y = 10 is said to be a point, as Open CASCADE leaves fillets that run out.

@@ -306,7 +306,7 @@ TEST(MeshHoles, AreNamedWithPlaceAndSizeAndClosedForPlanners)
     cover_holes("p.stl", mesh, notes);
     UNSIGNED_LONGS_EQUAL(facets + 2, mesh.size());
     UNSIGNED_LONGS_EQUAL(1, notes.size());
-    CHECK(notes[0].find("p.stl: facets are missing: 1 hole of the mesh open above: "
+    CHECK(notes[0].find("p.stl: facets are missing: 1 hole of the part open above: "
                         "4 x 4 mm at x 18 y 14 z 12 mm") == 0);
     cover_holes("p.stl", mesh, notes);
     UNSIGNED_LONGS_EQUAL(1, notes.size());

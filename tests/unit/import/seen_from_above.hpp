@@ -16,8 +16,10 @@ struct Seen {
     double high{-1e9};
 };
 
-// By places spread evenly in (u, v), not in rows: trims that run along rows would count whole rows.
-inline Seen seen_from_above(const std::vector<nurbs::Surface>& surfaces)
+// Calls visit(point, du x dv of a place) at places of what the trims leave. They are spread evenly in (u, v), not
+// in rows: trims that run along rows would count whole rows.
+template <typename Visit>
+void for_places(const std::vector<nurbs::Surface>& surfaces, const Visit& visit)
 {
     constexpr int kLooks = 200;
     constexpr double kGolden = 0.61803398874989485;
@@ -25,7 +27,6 @@ inline Seen seen_from_above(const std::vector<nurbs::Surface>& surfaces)
         const double shift = kGolden * row;
         return at + shift - std::floor(shift);
     };
-    Seen seen;
     for (const nurbs::Surface& s : surfaces) {
         std::vector<std::vector<Vec2d>> loops;
         for (const auto& loop : s.trims) {
@@ -42,12 +43,20 @@ inline Seen seen_from_above(const std::vector<nurbs::Surface>& surfaces)
             }
             const nurbs::SurfacePoint p = derivatives_at(s, u, v);
             if (inside) {
-                seen.area += std::abs(cross(p.du, p.dv).z) * du * dv;
-                seen.low = std::min(seen.low, p.point.z);
-                seen.high = std::max(seen.high, p.point.z);
+                visit(p.point, cross(p.du, p.dv) * (du * dv));
             }
         }
     }
+}
+
+inline Seen seen_from_above(const std::vector<nurbs::Surface>& surfaces)
+{
+    Seen seen;
+    for_places(surfaces, [&](Vec3d point, Vec3d area) {
+        seen.area += std::abs(area.z);
+        seen.low = std::min(seen.low, point.z);
+        seen.high = std::max(seen.high, point.z);
+    });
     return seen;
 }
 
