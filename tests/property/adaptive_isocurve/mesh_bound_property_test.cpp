@@ -159,7 +159,7 @@ void hold_all(const Way& way, int usual)
 TEST_GROUP(MeshBoundProperty){};
 
 // Nowhere that a ball reaches is more left than the plan claims.
-TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({&kAdaptiveIsocurve, false}, 8); }
+TEST(MeshBoundProperty, HoldsOverMeshes) { hold_all({&kAdaptiveIsocurve, false}, 4); }
 
 TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({&kAdaptiveIsocurve, true}, 2); }
 
@@ -167,7 +167,7 @@ TEST(MeshBoundProperty, HoldsOverFaces) { hold_all({&kAdaptiveIsocurve, true}, 2
 // something reaches them.
 TEST(MeshBoundProperty, HoldsBesideUprightWalls)
 {
-    hold_all({&kAdaptiveIsocurve, false, Walls::kUpright}, 4);
+    hold_all({&kAdaptiveIsocurve, false, Walls::kUpright}, 2);
 }
 
 // Here the ball rests on an edge, its axis beyond the part: nothing else brings it to the wall.
@@ -179,17 +179,17 @@ TEST(MeshBoundProperty, HoldsBesideWallsOverNarrowLedges)
 // Pierced walls, cylinders and fins on the border of a plate.
 TEST(MeshBoundProperty, HoldsBesideStandingWalls)
 {
-    hold_all({&kAdaptiveIsocurve, false, Walls::kStanding}, 4);
+    hold_all({&kAdaptiveIsocurve, false, Walls::kStanding}, 2);
 }
 
 TEST(MeshBoundProperty, HoldsBesideUprightFaces)
 {
-    hold_all({&kAdaptiveIsocurve, true, Walls::kUpright}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kUpright}, 1);
 }
 
 TEST(MeshBoundProperty, HoldsBesideStandingWallsOfFaces)
 {
-    hold_all({&kAdaptiveIsocurve, true, Walls::kStanding}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kStanding}, 1);
 }
 
 // Four that kept 0.087 to 0.5 mm while walls of faces were not looked at.
@@ -207,12 +207,12 @@ TEST(MeshBoundProperty, HoldsBesideRoundFacesOnTheBorder)
 // Cylinders and arched sheets, which hardly lean.
 TEST(MeshBoundProperty, HoldsBesideRoundFaces)
 {
-    hold_all({&kAdaptiveIsocurve, true, Walls::kRound}, 2);
+    hold_all({&kAdaptiveIsocurve, true, Walls::kRound}, 1);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesBesideRoundFaces)
 {
-    hold_all({&kParallelPlanes, true, Walls::kRound}, 2);
+    hold_all({&kParallelPlanes, true, Walls::kRound}, 1);
 }
 
 TEST(MeshBoundProperty, HoldsForPlanesBesideStandingWallsOfFaces)
