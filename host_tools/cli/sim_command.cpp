@@ -1,5 +1,4 @@
 // `cusp sim`: runs a program through the firmware's core, or serves a virtual controller.
-#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
@@ -75,8 +74,10 @@ void show_progress(const SimulationProgress& progress)
 // points are whole nanometres; `rounding`, nm a tick to the power of the order, bounds the effect.
 void print_limited(const char* name, int order, double rounding, Vec3d value, Vec3f limit)
 {
-    const double added = rounding / kNanometresPerMillimetre *
-                         std::pow(static_cast<double>(kServoTicksPerSecond), order);
+    double added = rounding / kNanometresPerMillimetre;
+    for (int k = 0; k < order; ++k) {
+        added *= kServoTicksPerSecond;
+    }
     fmt::print("{:<10} X {:.3f}  Y {:.3f}  Z {:.3f} mm/s{} at most", name, value.x, value.y,
                value.z, order == 1 ? "" : fmt::format("^{}", order));
     fmt::print(" (limits {:g}, {:g}, {:g}; up to {:g} is rounding to nanometres)\n", limit.x,

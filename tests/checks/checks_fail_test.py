@@ -207,6 +207,10 @@ class ChecksOfTheTree(unittest.TestCase):
                             ("constexpr double kFar{-kUnbounded};", "a second name"),
                             ("double least = std::numeric_limits<double>::max();", "numeric_limits<double>::max is"),
                             ("double left = std::nan(\"\");", "std::nan( is"), ("double unit = inch ? 25.4 : 1.0;", "25.4 is"),
+                            ("double x = elementary::sin(angle) + cosine(2) + arc.cos(3);", None),
+                            ("double x = radius * std::sin(angle);", "std::sin() is not the same"),
+                            ("double x = 2 * atan2(way.y, way.x);", "atan2() is not the same"),
+                            ("double x = std::pow(10.0, digits);", "std::pow() is not the same"),
                             ("out << stats.dump(1);", "dump() is json_text::written()")):
             self.write(place, f"\n{line}\n")
             status, said = self.run_check("constants.py")

@@ -19,6 +19,8 @@ struct InputFault {
     std::string key{};
     std::string value{};  // as written
     std::string limit{};  // in words
+    std::string
+        place{};  // the table of the key as messages name it, "operation 2"; "": the top of a job
 };
 
 // Input that can't be used: exit status 2. The text names file, line or key, quantity, value and

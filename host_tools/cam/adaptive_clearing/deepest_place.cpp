@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -54,7 +55,7 @@ Vec2d deepest_near(Vec2d place, double step, const RegionOffset& walls)
         bool found = false;
         for (int i = 0; i < kWays; ++i) {
             const double angle = 2.0 * kPi * i / kWays;
-            const Vec2d to = from + Vec2d{std::cos(angle), std::sin(angle)} * step;
+            const Vec2d to = from + Vec2d{elementary::cos(angle), elementary::sin(angle)} * step;
             const double room = walls.nearest(to, kUnbounded);
             if (room > best && walls.contains(to)) {
                 best = room;

@@ -2,8 +2,9 @@
 #include "host_tools/cam/adaptive_clearing/entry_spiral.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -32,7 +33,7 @@ constexpr double kSteps[] = {1.6, 1.2, 1.1, 1.03, 1.01, 1.0, 0.99, 0.97, 0.9, 0.
 double first_turn(double tool_radius, double most, double tolerance)
 {
     const double missed = kMissedBeside * tool_radius + tolerance;
-    return std::max(kFirstTurn * tool_radius, 4.0 * missed / (1.0 - std::cos(most)));
+    return std::max(kFirstTurn * tool_radius, 4.0 * missed / (1.0 - elementary::cos(most)));
 }
 
 // Half a turn to the left from `from` to `to` mm on alternating sides of the centre.

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/clearing/clear_path.hpp"
 
 namespace cusp::adaptive_clearing {
@@ -56,7 +57,8 @@ bool KeepDownLinks::is_room(Vec2d place) const
     constexpr int kFirst = 8;
     for (int i = 0; i < kFirst; ++i) {
         const double angle = 2 * kPi * i / kFirst;
-        if (!swept_.contains(place + Vec2d{std::cos(angle), std::sin(angle)} * radius_)) {
+        if (!swept_.contains(place +
+                             Vec2d{elementary::cos(angle), elementary::sin(angle)} * radius_)) {
             return false;
         }
     }
@@ -122,7 +124,8 @@ std::optional<Vec2d> KeepDownLinks::beside(Vec2d place) const
     for (const double far : kBeside) {
         for (int i = 0; i < kSides; ++i) {
             const double angle = 2 * kPi * i / kSides;
-            const Vec2d p = place + Vec2d{std::cos(angle), std::sin(angle)} * (far * radius_);
+            const Vec2d p =
+                place + Vec2d{elementary::cos(angle), elementary::sin(angle)} * (far * radius_);
             if (is_room(p) && is_open(place, p)) {
                 return p;
             }

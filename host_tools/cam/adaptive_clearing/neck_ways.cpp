@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -60,7 +61,7 @@ TouchingCircle touching_circle(const RegionOffset& walls, Vec2d at, Vec2d inward
     const Vec2d centre = at + inward * radius;
     const Vec2d u = at - centre;
     const Vec2d v = other - centre;
-    return {radius, std::abs(std::atan2(cross(u, v), dot(u, v)))};
+    return {radius, std::abs(elementary::atan2(cross(u, v), dot(u, v)))};
 }
 
 class NeckFinder {
@@ -109,13 +110,14 @@ private:
     // About a corner that points into the region the circles turn.
     void visit_corner(Vec2d before, Vec2d after, Vec2d corner)
     {
-        const double turn = std::atan2(cross(before, after), dot(before, after));
+        const double turn = elementary::atan2(cross(before, after), dot(before, after));
         const double reach = limits_.wall_clearance + limits_.most_room_beside;
         const int n = static_cast<int>(std::ceil(-turn * reach / limits_.pitch));
         for (int i = 0; i < n; ++i) {
             const double angle = turn * (i + 0.5) / n;
             const Vec2d n0 = left_normal(before);
-            visit_place(corner, n0 * std::cos(angle) + left_normal(n0) * std::sin(angle));
+            visit_place(corner,
+                        n0 * elementary::cos(angle) + left_normal(n0) * elementary::sin(angle));
         }
     }
 

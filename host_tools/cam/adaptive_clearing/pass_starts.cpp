@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
@@ -110,7 +111,7 @@ std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space)
         std::array<Vec2d, kDirections> t;
         for (std::size_t i = 0; i < kDirections; ++i) {
             const double angle = 2 * kPi * static_cast<double>(i) / kDirections;
-            t[i] = {std::cos(angle), std::sin(angle)};
+            t[i] = {elementary::cos(angle), elementary::sin(angle)};
         }
         return t;
     }();
@@ -134,7 +135,7 @@ std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space)
         }
         for (const double share : {0.5, 0.25, 0.75, 0.0, 1.0}) {
             const double angle = 2 * kPi * (i + share * (n - 1)) / kDirections;
-            const Pose pose{place, left_normal({std::cos(angle), std::sin(angle)})};
+            const Pose pose{place, left_normal({elementary::cos(angle), elementary::sin(angle)})};
             if (has_room_to_turn(space, pose)) {
                 return pose;
             }

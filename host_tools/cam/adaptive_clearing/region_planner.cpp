@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/adaptive_clearing/deepest_place.hpp"
 #include "host_tools/cam/adaptive_clearing/entry_spiral.hpp"
 #include "host_tools/cam/adaptive_clearing/neck_ways.hpp"
@@ -74,7 +75,7 @@ public:
           swept_{box_, settings.tool_radius},
           links_{swept_, walls_, settings.wall_clearance},
           expected_{kMoreLength * area(region) /
-                    (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))},
+                    (settings.tool_radius * (1.0 - elementary::cos(settings.max_engagement)))},
           open_{sweep_open(swept_, settings.open)},
           places_{open_}
     {
@@ -188,9 +189,9 @@ private:
         }
         for (int i = 0; i < 16; ++i) {
             const double angle = 2 * kPi * i / 16;
-            const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * reached;
-            starts.add(place);
-            places_.push_back(place);
+            const Vec2d way{elementary::cos(angle), elementary::sin(angle)};
+            places_.push_back(pole + way * reached);
+            starts.add(places_.back());
         }
     }
 
@@ -456,8 +457,7 @@ private:
     {
         AdaptiveRun run;
         run.path = path;
-        run.link = std::move(link_);
-        link_.clear();
+        run.link = std::exchange(link_, {});
         for (const Edge& edge : path) {
             const int n =
                 std::max(1, static_cast<int>(std::ceil(length(edge) / (2.0 * kPiece * radius_))));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -44,7 +45,8 @@ Edge step_from(Pose pose, double curvature, double radius)
     const Vec2d n = left_normal(pose.heading);
     const Vec2d centre = pose.at + n * (1.0 / curvature);
     const Vec2d end =
-        centre + (pose.heading * std::sin(angle) - n * std::cos(angle)) * (1.0 / curvature);
+        centre +
+        (pose.heading * elementary::sin(angle) - n * elementary::cos(angle)) * (1.0 / curvature);
     return arc_edge(pose.at, end, centre, curvature > 0.0 ? 1 : -1);
 }
 

@@ -2,9 +2,9 @@
 #include "host_tools/cam/adaptive_clearing/stock_spots.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -30,8 +30,8 @@ Box2d around(const Box2d& a, const Box2d& b)
 
 double distance_to(const Box2d& box, Vec2d p)
 {
-    return std::hypot(std::max({box.x0 - p.x, 0.0, p.x - box.x1}),
-                      std::max({box.y0 - p.y, 0.0, p.y - box.y1}));
+    return elementary::hypot(std::max({box.x0 - p.x, 0.0, p.x - box.x1}),
+                             std::max({box.y0 - p.y, 0.0, p.y - box.y1}));
 }
 
 std::vector<Box2d> joined(const std::vector<Box2d>& boxes)

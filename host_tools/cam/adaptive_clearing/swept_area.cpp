@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::adaptive_clearing {
 
@@ -29,7 +30,7 @@ std::array<Vec2d, kArcs> in_arcs(double share)
     std::array<Vec2d, kArcs> table;
     for (int i = 0; i < kArcs; ++i) {
         const double angle = 2 * kPi * (i + share) / kArcs;
-        table[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+        table[static_cast<std::size_t>(i)] = {elementary::cos(angle), elementary::sin(angle)};
     }
     return table;
 }
@@ -61,7 +62,8 @@ double diamond_angle(Vec2d v)
 double true_angle(double diamond)
 {
     const double size = std::abs(diamond);
-    return std::atan2(size <= 1.0 ? diamond : std::copysign(2.0 - size, diamond), 1.0 - size);
+    return elementary::atan2(size <= 1.0 ? diamond : std::copysign(2.0 - size, diamond),
+                             1.0 - size);
 }
 
 constexpr double kFront = 1.0;     // a quarter turn, as a diamond angle
@@ -298,7 +300,7 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
     ++query_;
     covered_.clear();
     const double arc = 2 * kPi / kArcs;
-    const double at = std::atan2(heading.y, heading.x);
+    const double at = elementary::atan2(heading.y, heading.x);
     const int first = static_cast<int>(std::floor((at - most) / arc));
     const int last = static_cast<int>(std::floor((at + most) / arc));
     const std::array<Vec2d, kArcs>& table = directions();
@@ -336,8 +338,8 @@ double SweptArea::open_angle(const Pose2d& pose, double most, const Cover& cover
             }
         }
     }
-    return open_between_covered(most > 0.5 * kPi ? diamond_angle({std::cos(most), std::sin(most)})
-                                                 : kFront);
+    return open_between_covered(
+        most > 0.5 * kPi ? diamond_angle({elementary::cos(most), elementary::sin(most)}) : kFront);
 }
 
 // A point of the circle keeps its angle from the heading, so it moves along an arc about the edge's
@@ -350,7 +352,7 @@ double SweptArea::engagement_of_piece(const Edge& edge,
 {
     const double turn = (to - from) * sweep(edge);
     const double height =
-        edge.turn != 0 ? (edge.radius + radius_) * (1.0 - std::cos(0.5 * turn)) : 0.0;
+        edge.turn != 0 ? (edge.radius + radius_) * (1.0 - elementary::cos(0.5 * turn)) : 0.0;
     const double shrink = height + (edge.turn != 0 ? tolerance : 0.0);
     const double middle = 0.5 * (from + to);
     const Pose2d poses[2] = {{point_on(edge, from), tangent_on(edge, from)},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/clearing/clear_path.hpp"
 
 namespace cusp::adaptive_clearing {
@@ -50,7 +51,7 @@ Turn turn_about(Vec2d centre, double most_room, const TrochoidSpace& space)
 
 Vec2d on(const Turn& turn, double angle)
 {
-    return turn.centre + Vec2d{std::cos(angle), std::sin(angle)} * turn.radius;
+    return turn.centre + Vec2d{elementary::cos(angle), elementary::sin(angle)} * turn.radius;
 }
 
 // To the left, in arcs of less than half a turn.
@@ -79,7 +80,8 @@ bool has_stock(const Turn& turn, const TrochoidSpace& space)
 {
     for (int i = 0; i < kLooks; ++i) {
         const double angle = 2 * kPi * i / kLooks;
-        if (space.swept.engagement(on(turn, angle), {-std::sin(angle), std::cos(angle)},
+        if (space.swept.engagement(on(turn, angle),
+                                   {-elementary::sin(angle), elementary::cos(angle)},
                                    -kSliverOfTurn * space.swept.radius()) > kBarelyInTurn) {
             return true;
         }
@@ -110,7 +112,7 @@ std::optional<double> tangent_angle(const Turn& a, const Turn& b)
     if (std::abs(sine) > 0.9) {
         return std::nullopt;
     }
-    return std::atan2(way.y, way.x) + std::asin(sine) - 0.5 * kPi;
+    return elementary::atan2(way.y, way.x) + elementary::asin(sine) - 0.5 * kPi;
 }
 
 // Places along a way by their distance from its beginning.

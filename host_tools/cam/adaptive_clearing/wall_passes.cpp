@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/clearing/clear_path.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
@@ -93,7 +94,8 @@ std::optional<Edge> lead_in(const Edge& first, const WallSpace& space)
     for (const double size : {0.4, 0.2, 0.1, 0.05}) {
         const double r = size * radius;
         const Vec2d centre = first.start + n * r;
-        const Vec2d start = centre - (n * std::cos(kLeadAngle) + t * std::sin(kLeadAngle)) * r;
+        const Vec2d start =
+            centre - (n * elementary::cos(kLeadAngle) + t * elementary::sin(kLeadAngle)) * r;
         const Edge arc = arc_edge(start, first.start, centre, 1);
         if (is_path_clear(space.walls, arc, space.wall_clearance - kOnContour) &&
             space.swept.engagement(start, tangent_at_start(arc), -space.sliver, 0.5 * kPi) <
@@ -111,7 +113,8 @@ std::optional<Edge> lead_out(const Edge& last, const WallSpace& space)
     for (const double size : {0.4, 0.2, 0.1, 0.05}) {
         const double r = size * space.swept.radius();
         const Vec2d centre = last.end + n * r;
-        const Vec2d end = centre - (n * std::cos(kLeadAngle) - t * std::sin(kLeadAngle)) * r;
+        const Vec2d end =
+            centre - (n * elementary::cos(kLeadAngle) - t * elementary::sin(kLeadAngle)) * r;
         const Edge arc = arc_edge(last.end, end, centre, 1);
         if (is_path_clear(space.walls, arc, space.wall_clearance - kOnContour)) {
             return arc;

@@ -2,11 +2,11 @@
 #include "host_tools/cam/adaptive_isocurve/mesh_pencil_curves.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/geometry/part_model/cell_chains.hpp"
 
@@ -119,7 +119,7 @@ private:
         Dropped b = *at_to;
         Vec2d low = from;
         Vec2d high = to;
-        while (std::hypot(high.x - low.x, high.y - low.y) > kFound) {
+        while (elementary::hypot(high.x - low.x, high.y - low.y) > kFound) {
             const Vec2d middle = (low + high) * 0.5;
             const std::optional<Dropped> m = drop_at(middle);
             if (!m) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host_tools/base/cancellation/cancellation.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
@@ -76,8 +77,8 @@ constexpr double kMargin = 6e-3;
 
 double beside(const Box2d& box, Vec2d p)
 {
-    return std::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.0}),
-                      std::max({box.y0 - p.y, p.y - box.y1, 0.0}));
+    return elementary::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.0}),
+                             std::max({box.y0 - p.y, p.y - box.y1, 0.0}));
 }
 
 class WaterlineRougher {

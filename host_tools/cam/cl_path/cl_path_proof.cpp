@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::cl_path {
 
 using nurbs::Curve;
@@ -61,16 +63,16 @@ Chords chords_of(Vec3d start, const ClMove& move, double fine)
     const Vec2d a = in_plan(start) - move.centre;
     const Vec2d b = in_plan(move.end) - move.centre;
     const double radius = std::sqrt(dot(a, a));
-    const double angle = std::atan2(cross(a, b), dot(a, b));
+    const double angle = elementary::atan2(cross(a, b), dot(a, b));
     const double step = std::sqrt(8.0 * fine / radius);
     const int n = 1 + static_cast<int>(std::abs(angle) / step);
     Chords chords;
     for (int i = 0; i <= n; ++i) {
         const double t = angle * i / n;
-        const Vec2d p = move.centre + a * std::cos(t) + left_normal(a) * std::sin(t);
+        const Vec2d p = move.centre + a * elementary::cos(t) + left_normal(a) * elementary::sin(t);
         chords.points.push_back({p.x, p.y, start.z + (move.end.z - start.z) * i / n});
     }
-    chords.sagitta = radius * (1.0 - std::cos(0.5 * angle / n));
+    chords.sagitta = radius * (1.0 - elementary::cos(0.5 * angle / n));
     return chords;
 }
 
@@ -107,7 +109,7 @@ double allowed_clearance(const ClPathSettings& settings)
 // passed. Raising a steep move does not help.
 bool is_steep(Vec3d start, const ClMove& move)
 {
-    const double along = std::hypot(move.end.x - start.x, move.end.y - start.y);
+    const double along = elementary::hypot(move.end.x - start.x, move.end.y - start.y);
     const double rise = std::abs(move.end.z - start.z);
     return move.turn == 0 && move.curve.points.empty() && along > 0.0 &&
            rise > 2.0 * along + 10.0 * kWrittenStep;
@@ -128,9 +130,10 @@ ClMove first_half(Vec3d start, const ClMove& move)
         const Vec2d a = in_plan(start) - move.centre;
         const Vec2d b = in_plan(move.end) - move.centre;
         const double radius = std::sqrt(dot(a, a));
-        const double turn = 0.5 * std::atan2(cross(a, b), dot(a, b));
+        const double turn = 0.5 * elementary::atan2(cross(a, b), dot(a, b));
         const Vec2d p =
-            move.centre + unit(a * std::cos(turn) + left_normal(a) * std::sin(turn)) * radius;
+            move.centre +
+            unit(a * elementary::cos(turn) + left_normal(a) * elementary::sin(turn)) * radius;
         half.end = written({p.x, p.y, half.end.z});
     }
     return half;
@@ -166,7 +169,7 @@ Raised raised_off(
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // then larger steps
     for (int round = 0; clearance < allowed && round < kRounds; ++round) {
-        const double factor = std::exp2(std::max(0, round - kGentleRounds));
+        const double factor = std::ldexp(1.0, std::max(0, round - kGentleRounds));
         const Vec3d raise{0.0, 0.0, factor * (kWrittenStep + 1.5 * (allowed - clearance))};
         start = written(start + raise);
         move.end = written(move.end + raise);
@@ -191,7 +194,8 @@ void add_vertical_moves(std::vector<ClMove>& moves, std::size_t i, const Raised&
 bool is_long(Vec3d start, const ClMove& move, double radius)
 {
     return move.curve.points.empty() &&
-           std::hypot(move.end.x - start.x, move.end.y - start.y) > kGrazes[0].shortest * radius;
+           elementary::hypot(move.end.x - start.x, move.end.y - start.y) >
+               kGrazes[0].shortest * radius;
 }
 
 // Halves the moves before and after the move i until its neighbours are short. Returns by how many
@@ -231,7 +235,7 @@ double certify(ClPath& path, const PathFloor& floor, const ClPathSettings& setti
             path.least_clearance = std::min(path.least_clearance, clearance);
             continue;
         }
-        const double along = std::hypot(end.x - start.x, end.y - start.y);
+        const double along = elementary::hypot(end.x - start.x, end.y - start.y);
         const Raised raised = raised_off(start, path.moves[i], clearance, floor, allowed, fine);
         const double lift = raised.end - end.z;
         const bool steep = is_steep(start, path.moves[i]);

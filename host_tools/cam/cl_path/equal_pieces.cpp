@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::cl_path {
 
@@ -36,7 +37,7 @@ public:
             return 1;
         }
         const double share = std::min(1.0, settings_.band.plan_tolerance / edge_.radius);
-        double angle = 2.0 * std::acos(1.0 - share);
+        double angle = 2.0 * elementary::acos(1.0 - share);
         if (0.5 * edge_.radius * angle * angle < kOffTangent) {
             const double blunt =
                 std::clamp(kShortestPiece / edge_.radius, kBlunt * kDegree, kBluntest * kDegree);

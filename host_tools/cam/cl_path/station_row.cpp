@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/clearing/corner_cleanup.hpp"
 
 namespace cusp::cl_path {
@@ -37,7 +38,7 @@ public:
         step_ = (edge.end - edge.start) * (1.0 / n);
         if (edge.turn != 0) {
             const double angle = edge.turn * whole / (edge.radius * n);
-            step_ = {std::cos(angle), std::sin(angle)};
+            step_ = {elementary::cos(angle), elementary::sin(angle)};
         }
     }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::cl_path {
 
 using offset::left_normal;
@@ -241,7 +243,7 @@ private:
         const double radius = std::sqrt(dot(arm, arm));
         const int turn = bend > 0.0 ? 1 : -1;
         const auto angle_of = [&](Vec2d p) {
-            return std::atan2(cross(arm, p - centre), dot(arm, p - centre)) * turn;
+            return elementary::atan2(cross(arm, p - centre), dot(arm, p - centre)) * turn;
         };
         // A smaller one is none of the floor's noise where the plan path itself is that arc.
         const bool drawn =

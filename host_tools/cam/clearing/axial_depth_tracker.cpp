@@ -2,9 +2,9 @@
 #include "host_tools/cam/clearing/axial_depth_tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 namespace cusp::clearing {
@@ -121,7 +121,9 @@ double AxialDepthTracker::stock_top_around(Vec2d centre, double radius) const
     double z = -kUnbounded;
     for (int i = 0; i < kPlaces; ++i) {
         const double angle = 2 * kPi * i / kPlaces;
-        z = std::max(z, stock_top_at(centre + Vec2d{std::cos(angle), std::sin(angle)} * radius));
+        z = std::max(
+            z,
+            stock_top_at(centre + Vec2d{elementary::cos(angle), elementary::sin(angle)} * radius));
     }
     return z;
 }

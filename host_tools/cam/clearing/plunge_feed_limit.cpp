@@ -2,8 +2,8 @@
 #include "host_tools/cam/clearing/plunge_feed_limit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/clearing/stock_height_map.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
@@ -109,7 +109,7 @@ private:
         for (; n < ahead_.size() && (least <= 0.0 || apart(ahead_[n]) > least); ++n) {
             const Vec3d to = ahead_[n];
             // Stock elsewhere is never queried.
-            const double way = std::hypot(to.x - cut_to_.x, to.y - cut_to_.y);
+            const double way = elementary::hypot(to.x - cut_to_.x, to.y - cut_to_.y);
             if (moves_.any_nearer({to.x, to.y}, 2.0 * largest_ + way)) {
                 stock_.cut(cut_to_, to);
             }
@@ -118,7 +118,7 @@ private:
         ahead_.erase(ahead_.begin(), ahead_.begin() + static_cast<std::ptrdiff_t>(n));
     }
 
-    double apart(Vec3d p) const { return std::hypot(p.x - at_.x, p.y - at_.y); }
+    double apart(Vec3d p) const { return elementary::hypot(p.x - at_.x, p.y - at_.y); }
 
     bool is_in_stock() const
     {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 
 namespace cusp::clearing {
@@ -186,8 +187,9 @@ void StockHeightMap::cut_at(const Sample& sample, const std::optional<Position>&
     const Position& position = sample.position;
     const Vec3d tip = position.tip;
     const double squared = profile_of(position).reach;
-    const bool onward = last && (position.shrunk || !last->shrunk) &&
-                        std::hypot(tip.x - last->tip.x, tip.y - last->tip.y) < std::sqrt(squared);
+    const bool onward =
+        last && (position.shrunk || !last->shrunk) &&
+        elementary::hypot(tip.x - last->tip.x, tip.y - last->tip.y) < std::sqrt(squared);
     double& deepest = cuts.deepest[sample.move];
     const std::size_t end = std::min(sample.columns.end, cuts.columns.end);
     for (std::size_t i = std::max(sample.columns.begin, cuts.columns.begin); i < end; ++i) {

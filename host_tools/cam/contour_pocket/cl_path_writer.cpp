@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -31,7 +32,7 @@ constexpr double kSamePoint = 1e-6;   // mm in plan
 constexpr int kHelixSides = 48;
 constexpr int kMostPoints = 100000;  // of one entry: a limit where a pass is too short for a slope
 
-double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double plan_distance(Vec3d a, Vec3d b) { return elementary::hypot(a.x - b.x, a.y - b.y); }
 
 ToolMove tool_move(MoveKind kind, const ClMove& move)
 {
@@ -183,7 +184,8 @@ double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
     double deepest = kUnbounded;
     for (int i = 1; i <= kHelixSides; ++i) {
         const double angle = 2 * kPi * i / kHelixSides;
-        const Vec2d at = in_plan(centre) + Vec2d{std::cos(angle), std::sin(angle)} * helix.radius;
+        const Vec2d at =
+            in_plan(centre) + Vec2d{elementary::cos(angle), elementary::sin(angle)} * helix.radius;
         sides.push_back({at.x, at.y, std::max(floor.lowest(at) + kOver, centre.z)});
         highest = std::max(highest, sides.back().z);
         deepest = std::min(deepest, sides.back().z);

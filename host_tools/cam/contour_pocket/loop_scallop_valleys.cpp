@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/contour_pocket/loop_scallop.hpp"
 
 namespace cusp::contour_pocket {
@@ -73,7 +74,7 @@ double LoopScallop::left_under_flat(const Probe& a, const Probe& b) const
     double highest = lowest.height;
     for (int i = 0; i <= kRound; ++i) {
         const double angle = 2 * kPi * i / kRound;
-        const Vec2d way{std::cos(angle), std::sin(angle)};
+        const Vec2d way{elementary::cos(angle), elementary::sin(angle)};
         const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
         const double left =
             std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/contour_pocket/plan_stepover.hpp"
 
 namespace cusp::contour_pocket {
@@ -135,8 +136,11 @@ double LoopSpacing::with_partial_loops(const Region2d& ring, double step) const
         const double wide = intervals[intervals.size() * static_cast<std::size_t>(tenth) / 10];
         double passes = 0.0;
         for (const double interval : intervals) {
-            const double halvings = std::max(0.0, std::ceil(std::log2(wide / interval)));
-            passes += 1.0 + 2.0 * (std::exp2(halvings) - 1.0);
+            int halvings =
+                0;  // the smallest number after which `wide` is no more than the interval
+            const double share = std::frexp(wide / interval, &halvings);
+            halvings = std::max(0, share > 0.5 ? halvings : halvings - 1);
+            passes += 1.0 + 2.0 * (std::ldexp(1.0, halvings) - 1.0);
         }
         const double cost = passes / (static_cast<double>(intervals.size()) * wide);
         if (cost < least_cost) {
@@ -282,7 +286,7 @@ void LoopSpacing::around(Vec2d at)
     const Contact here = contact(at);
     for (int i = 0; i < kDirections; ++i) {
         const double angle = 2 * kPi * i / kDirections;
-        across(at, here, {std::cos(angle), std::sin(angle)});
+        across(at, here, {elementary::cos(angle), elementary::sin(angle)});
     }
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/pattern_search.hpp"
 
 namespace cusp::contour_pocket {
@@ -369,7 +370,7 @@ private:
         std::vector<PencilPoint> found;
         const auto place = [&](int i) {
             const double angle = 2 * kPi * (i + 0.37) / kPlaces;
-            return sample(centre + Vec2d{std::cos(angle), std::sin(angle)} * out);
+            return sample(centre + Vec2d{elementary::cos(angle), elementary::sin(angle)} * out);
         };
         std::optional<Sample> last = place(0);
         for (int i = 1; i <= kPlaces; ++i) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/contour_pocket/height_after_passes.hpp"
 #include "host_tools/cam/contour_pocket/pencil_curves.hpp"
 
@@ -167,7 +168,7 @@ private:
             const double cut = cl.z + profile_height(tool, out);
             for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
                 const double angle = 2 * kPi * spoke / kSpokes;
-                const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;
+                const Vec2d p = q + Vec2d{elementary::cos(angle), elementary::sin(angle)} * out;
                 if ((leavings_->height(p) - cut) * cos_slope > settings_.max_uncut) {
                     return true;
                 }

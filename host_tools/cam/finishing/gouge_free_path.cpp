@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/contact_tracker.hpp"
 #include "host_tools/cam/finishing/hermite_spans.hpp"
 
@@ -217,7 +218,7 @@ Points GougeFreePathFitter::sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc
         }
         return found ? found->tip : Vec3d{p.x, p.y, std::min(a.z, b.z)};
     };
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double length = elementary::hypot(b.x - a.x, b.y - a.y);
     const double dip = std::sqrt(8 * tool_.radius * band_.half_width);
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / (kDropPiece * dip))));
     std::vector<double> breaks;

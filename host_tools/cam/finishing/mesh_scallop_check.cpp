@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/walls_over_nothing.hpp"
 #include "host_tools/geometry/part_model/facet_distance.hpp"
 
@@ -117,8 +118,8 @@ bool MeshScallopCheck::falls_off_beside(Vec3d point) const
     for (const double away : {0.4 * radius, radius}) {
         for (int k = 0; k < kWaysAround; ++k) {
             const double turn = 2 * kPi * k / kWaysAround;
-            const auto top = path_fitter_.model().height_at(point.x + away * std::cos(turn),
-                                                            point.y + away * std::sin(turn));
+            const auto top = path_fitter_.model().height_at(point.x + away * elementary::cos(turn),
+                                                            point.y + away * elementary::sin(turn));
             if (!top || top->point.z < point.z - kFallsOff * radius) {
                 return true;
             }

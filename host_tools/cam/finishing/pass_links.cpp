@@ -3,9 +3,9 @@
 #include "host_tools/cam/finishing/pass_links.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <variant>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/geometry/toolpath/toolpath_writer.hpp"
@@ -26,7 +26,7 @@ constexpr double kSamePlace = 1e-6;      // mm
 constexpr std::size_t kLinksAtOnce = 8;  // of one thread
 constexpr double kLongestDetour = 3;     // times the distance; beyond it a retract is better
 
-double plan_distance(Vec3d a, Vec3d b) { return std::hypot(b.x - a.x, b.y - a.y); }
+double plan_distance(Vec3d a, Vec3d b) { return elementary::hypot(b.x - a.x, b.y - a.y); }
 
 // From the end of the last move back to `start`.
 std::vector<ToolMove> reversed_moves(Vec3d start, const std::vector<ToolMove>& moves)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::finishing {
 
@@ -163,8 +164,8 @@ std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
         std::optional<Position> best;
         for (int k = 0; k < kWays; ++k) {
             const double turn = 2 * kPi * k / kWays;
-            const double x = brink.x + distance * std::cos(turn);
-            const double y = brink.y + distance * std::sin(turn);
+            const double x = brink.x + distance * elementary::cos(turn);
+            const double y = brink.y + distance * elementary::sin(turn);
             if (search_.height_under(drop_at(x, y, edges).centre, place) > exact_below) {
                 continue;
             }

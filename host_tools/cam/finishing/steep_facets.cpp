@@ -1,7 +1,7 @@
 // Facets steeper than 87 degrees: the stock left over them and beside them, and passes along them.
 #include <algorithm>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 #include "host_tools/geometry/part_model/facet_distance.hpp"
 
@@ -16,7 +16,7 @@ constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
 
 Vec3d level_along(Vec3d normal)
 {
-    return Vec3d{-normal.y, normal.x, 0} / std::hypot(normal.x, normal.y);
+    return Vec3d{-normal.y, normal.x, 0} / elementary::hypot(normal.x, normal.y);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::finishing {
 namespace {
 
@@ -70,7 +72,7 @@ void SweptVolume::add(const std::vector<Vec3d>& tips)
     for (std::size_t k = 1; k < tips.size(); ++k) {
         const Vec3d from = tips[k - 1] + up;
         const Vec3d to = tips[k] + up;
-        const double length = std::hypot(to.x - from.x, to.y - from.y);
+        const double length = elementary::hypot(to.x - from.x, to.y - from.y);
         const Move move{from, to, length};
         const std::uint32_t number = static_cast<std::uint32_t>(moves_.size());
         moves_.push_back(move);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/finishing/column_outlines.hpp"
 #include "host_tools/cam/finishing/face_samples.hpp"
@@ -123,7 +124,7 @@ public:
 private:
     static Frame frame_of(Vec3d normal, Vec3d point)
     {
-        const double level = std::hypot(normal.x, normal.y);
+        const double level = elementary::hypot(normal.x, normal.y);
         return {point, normal, Vec3d{-normal.y, normal.x, 0} / level, 0, 0};
     }
 
@@ -206,7 +207,7 @@ private:
                 frame.normal +
                 frame.along * (frame.bend * (dot(at.points[k], frame.along) - middle));
             const Vec3d turned = at.normals[k] * side - out / norm(out);
-            turn = std::max(turn, std::hypot(turned.x, turned.y));
+            turn = std::max(turn, elementary::hypot(turned.x, turned.y));
             rise = std::max(rise, std::min(std::abs(turned.z), 2 * most_z_));
         }
         turn += rise * slope_of_ball();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::finishing {
 
 namespace {
@@ -304,8 +306,9 @@ bool WallCell::leans_more_than(double z) const
     if (!(least > 0)) {
         return false;
     }
-    const double level = std::hypot(magnitude(normal_[0].range()), magnitude(normal_[1].range()));
-    return least > z * std::hypot(level, least);
+    const double level =
+        elementary::hypot(magnitude(normal_[0].range()), magnitude(normal_[1].range()));
+    return least > z * elementary::hypot(level, least);
 }
 
 std::array<double, 2> WallCell::along(Vec3d from, Vec3d way) const

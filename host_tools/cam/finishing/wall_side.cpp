@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::finishing {
 
 using toolpath::Tool;
@@ -43,7 +45,7 @@ WallSide::WallSide(const WallFacet& facet, bool turned, const GougeFreePathFitte
       beside_{kBeside + facet.off + fitter.model().edge_error()},
       fitter_{fitter}
 {
-    const double level = std::hypot(out_.x, out_.y);
+    const double level = elementary::hypot(out_.x, out_.y);
     along_ = Vec3d{-out_.y, out_.x, 0} / level;
     upward_ = Vec3d{-out_.x * out_.z, -out_.y * out_.z, level * level} / (level * level);
     begin_ = kInfinite;
@@ -207,7 +209,8 @@ bool WallSide::KnownReach::holds(Vec3d place, double away, double top) const
 {
     return std::any_of(spots_.begin(), spots_.end(), [&](const Spot& spot) {
         return spot.lowest >= top &&
-               std::hypot(place.x - spot.place.x, place.y - spot.place.y) + away <= spot.wide;
+               elementary::hypot(place.x - spot.place.x, place.y - spot.place.y) + away <=
+                   spot.wide;
     });
 }
 
@@ -277,7 +280,7 @@ bool WallSide::is_cut_between(
     for (const double along : {from, to}) {
         for (const double z : leans_ ? std::array{low, top} : std::array{low, low}) {
             const Vec3d off = centre_beside(along, z) - centre;
-            away = std::max(away, std::hypot(off.x, off.y) + kReachSlack);
+            away = std::max(away, elementary::hypot(off.x, off.y) + kReachSlack);
         }
     }
     if (radius - away < kLeastBall * radius) {
@@ -469,7 +472,8 @@ std::vector<WallSide> wall_sides_of(const WallFacet& facet, const GougeFreePathF
         high = std::max(high, corner.z);
     }
     std::vector<WallSide> out;
-    if (!(high - low > kLeastHeight) || !(std::hypot(facet.normal.x, facet.normal.y) > 0.5)) {
+    if (!(high - low > kLeastHeight) ||
+        !(elementary::hypot(facet.normal.x, facet.normal.y) > 0.5)) {
         return out;
     }
     out.emplace_back(facet, false, fitter);

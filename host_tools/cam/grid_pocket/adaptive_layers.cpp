@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/waterline_slices/fitted_edges.hpp"
@@ -177,7 +178,7 @@ std::vector<LayerReach> reach_of(const AdaptiveLayer& layer,
         return out;
     }
     const RegionOffset region{layer.region};
-    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
+    const double half = elementary::hypot(grid.gx(), grid.gy()) / 2;
     const double near_sliver = pocket.operation.tool.radius + half;
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const Cell cell = grid.cell(i);

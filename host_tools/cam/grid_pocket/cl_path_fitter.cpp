@@ -8,6 +8,7 @@
 
 #include "firmware/base/math.hpp"
 #include "firmware/segmenter/arc_fitter.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/cl_path/cl_path_proof.hpp"
 #include "host_tools/cam/cl_path/station_row.hpp"
 
@@ -232,19 +233,19 @@ double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvatur
     // Chords of the arc, moved by the sagitta towards the arc's bulge if that is downward.
     const double radius = 1 / std::abs(curvature);
     const double chord = norm(arc.end - from);
-    const double angle = 2 * std::asin(std::min(1.0, chord / 2 / radius));
+    const double angle = 2 * elementary::asin(std::min(1.0, chord / 2 / radius));
     const int pieces = std::max(
         1, static_cast<int>(
                std::ceil(angle / std::sqrt(8 * kArcSagitta * settings_.arc_tolerance / radius))));
-    const double sagitta = radius * (1 - std::cos(angle / pieces / 2));
+    const double sagitta = radius * (1 - elementary::cos(angle / pieces / 2));
     const double needed = curvature > 0 ? sagitta : 0;
     Vec3d spoke = from - arc.centre;
     const bool along_x = arc.plane == ArcPlane::kZX;
     double& across = along_x ? spoke.y : spoke.x;
     across = 0;
-    const double start = std::atan2(spoke.z, along_x ? spoke.x : spoke.y);
+    const double start = elementary::atan2(spoke.z, along_x ? spoke.x : spoke.y);
     const Vec3d end_spoke = arc.end - arc.centre;
-    double sweep = std::atan2(end_spoke.z, along_x ? end_spoke.x : end_spoke.y) - start;
+    double sweep = elementary::atan2(end_spoke.z, along_x ? end_spoke.x : end_spoke.y) - start;
     sweep += sweep > kPi ? -2 * kPi : sweep < -kPi ? 2 * kPi : 0;
     Vec3d before = from;
     double least = 0;
@@ -252,8 +253,9 @@ double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvatur
         const double a = start + sweep * i / pieces;
         Vec3d p = arc.end;
         if (i < pieces) {
-            (along_x ? p.x : p.y) = (along_x ? arc.centre.x : arc.centre.y) + radius * std::cos(a);
-            p.z = arc.centre.z + radius * std::sin(a);
+            (along_x ? p.x : p.y) =
+                (along_x ? arc.centre.x : arc.centre.y) + radius * elementary::cos(a);
+            p.z = arc.centre.z + radius * elementary::sin(a);
         }
         least = std::min(least, bulged_clearance(before, p, needed));
         if (least < kProven - allowed_gouge()) {
@@ -279,9 +281,10 @@ std::vector<Vec3d> ClPathFitter::arc_vertices(Vec2d a, Vec2d b) const
             // along the axis.
             const double slope = dot(station.gradient, way);
             const double between = is_ball() ? kBallBetweenStations : kRimBetweenStations;
-            const double rise = between * std::pow(1 + slope * slope, 1.5);
+            const double steep = std::sqrt(1 + slope * slope);
+            const double rise = between * steep * steep * steep;
             const double low = std::min(reserve() + rise * tolerance, tolerance / 3);
-            const double height = tolerance / 2 * std::sqrt(1 + slope * slope);
+            const double height = tolerance / 2 * steep;
             z += std::max((low + tolerance) / 2, low + kArcSagitta * tolerance + height);
         }
         out.push_back({station.at.x, station.at.y, z});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::grid_pocket {
 
@@ -43,7 +44,8 @@ FlatEndSteps::FlatEndSteps(const CellGrid& grid,
       step_y_{grid.gy() / ny_},
       sub_x_{parts_of(step_x_, radius)},
       sub_y_{parts_of(step_y_, radius)},
-      short_by_{std::hypot(step_x_ / sub_x_, step_y_ / sub_y_) / 2 + kPi * radius / kDirections}
+      short_by_{elementary::hypot(step_x_ / sub_x_, step_y_ / sub_y_) / 2 +
+                kPi * radius / kDirections}
 {
 }
 
@@ -66,7 +68,7 @@ FlatEndSteps::Lattice FlatEndSteps::read(Cell c, Square& out, int& evaluations) 
                 lattice.at(i, j) = surface_.height(p).value_or(kNoValue);
                 ++evaluations;
             }
-            if (inside < std::hypot(step_x_, step_y_)) {
+            if (inside < elementary::hypot(step_x_, step_y_)) {
                 const Vec2d wall = surface_.on_wall_pass(p);
                 if (const auto low = surface_.height(wall)) {
                     out.tips.push_back({wall.x, wall.y, *low});
@@ -181,7 +183,7 @@ double FlatEndSteps::left_about(Vec3d place) const
         std::array<Vec2d, kDirections> out{};
         for (std::size_t k = 0; k < kDirections; ++k) {
             const double angle = 2 * kPi * static_cast<double>(k) / kDirections;
-            out[k] = {std::cos(angle), std::sin(angle)};
+            out[k] = {elementary::cos(angle), elementary::sin(angle)};
         }
         return out;
     }();

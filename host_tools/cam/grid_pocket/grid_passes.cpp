@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/cam/grid_pocket/run_entry.hpp"
 #include "host_tools/cam/grid_pocket/zigzag_runs.hpp"
@@ -40,7 +41,7 @@ void append_chords(const Edge& edge,
     if (edge.turn != 0) {
         const double step = 2 * std::sqrt(2 * std::min(tolerance / edge.radius, 0.5));
         const int pieces = static_cast<int>(std::ceil(sweep(edge) / step));
-        const double out = 1 / std::cos(sweep(edge) / pieces / 2);
+        const double out = 1 / elementary::cos(sweep(edge) / pieces / 2);
         for (int i = 0; around_corner && i < pieces; ++i) {
             const Vec2d on = point_on(edge, (i + 0.5) / pieces);
             corners.push_back(edge.centre + (on - edge.centre) * out);
@@ -270,7 +271,7 @@ double GridPasses::stock_top_under(Vec2d at) const
     const CellGrid& grid = pocket_.grid;
     const Tool& tool = pocket_.operation.tool;
     // Between cells the stock has scallops, and a cell's own height extends to its corners.
-    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
+    const double half = elementary::hypot(grid.gx(), grid.gy()) / 2;
     const double corner = tool.corner_radius;
     const double in = std::min(half, corner);
     const double scallop_height = corner - std::sqrt(corner * corner - in * in);
@@ -369,15 +370,15 @@ ToolpathWriter::HelixFloor GridPasses::circle_over(const ClPathFitter& floor) co
     return [this, &floor](Vec2d centre, double radius) -> std::optional<double> {
         constexpr int kSides = 16;
         constexpr int kMostLifts = 12;
-        const double sagitta = radius * (1 - std::cos(kPi / kSides));
+        const double sagitta = radius * (1 - elementary::cos(kPi / kSides));
         if (pocket_.walls.clearance(centre) < pocket_.kept + radius + sagitta) {
             return std::nullopt;
         }
         // Chords outside the circle: whatever clearance they have, the arcs have too.
-        const double out = (radius + sagitta) / std::cos(kPi / kSides);
+        const double out = (radius + sagitta) / elementary::cos(kPi / kSides);
         const auto at = [&](int i) {
             const double angle = 2 * kPi * i / kSides;
-            return centre + Vec2d{std::cos(angle), std::sin(angle)} * out;
+            return centre + Vec2d{elementary::cos(angle), elementary::sin(angle)} * out;
         };
         std::optional<double> highest;
         for (int i = 0; i < kSides; ++i) {

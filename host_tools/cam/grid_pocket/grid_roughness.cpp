@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/grid_pocket/flat_end_steps.hpp"
 
 namespace cusp::grid_pocket {
@@ -200,7 +201,7 @@ private:
     {
         const double middle =
             surface_.to_wall_pass((grid_.centre(c) + grid_.centre(cells[3])) * 0.5);
-        const double half = std::hypot(grid_.gx(), grid_.gy()) / 2;
+        const double half = elementary::hypot(grid_.gx(), grid_.gy()) / 2;
         if (middle < -half) {
             return 0;
         }
@@ -218,7 +219,7 @@ private:
         farthest += half / 6;
         const double steep = steepest(cells);
         const double reach = tool_.corner_radius > 0 ? tool_.corner_radius : tool_.radius;
-        const double way = std::min(farthest * std::hypot(1.0, steep), reach);
+        const double way = std::min(farthest * elementary::hypot(1.0, steep), reach);
         return reach - std::sqrt(reach * reach - way * way) +
                (tool_.corner_radius < tool_.radius ? steep * farthest : 0);
     }
@@ -385,7 +386,8 @@ private:
         double most = 0;
         for (int k = 0; k < kPlaces; ++k) {
             const double angle = 2 * kPi * k / kPlaces;
-            const Vec2d touch = in_plan(here) + Vec2d{std::cos(angle), std::sin(angle)} * rim;
+            const Vec2d touch =
+                in_plan(here) + Vec2d{elementary::cos(angle), elementary::sin(angle)} * rim;
             double least = kUnbounded;
             for (const Vec3d& tip : tips_) {
                 const double away = norm(in_plan(tip) - touch);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 
 namespace cusp::grid_pocket {
@@ -39,7 +40,7 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     for (int i = 0; i < pieces; ++i) {
         const Vec2d middle = point_on(arc, (i + 0.5) / pieces);
         const Vec2d out_of_centre = (middle - arc.centre) * (1 / arc.radius);
-        const double apex = arc.radius / std::cos(angle / pieces / 2) + kOutside;
+        const double apex = arc.radius / elementary::cos(angle / pieces / 2) + kOutside;
         out.push_back(arc.centre + out_of_centre * apex);
     }
     for (const double share : {0.0, 0.5, 1.0}) {

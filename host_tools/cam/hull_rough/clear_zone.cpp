@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::hull_rough {
 namespace {
 
@@ -12,7 +14,7 @@ double distance(Vec2d p, const Rectangle& box)
 {
     const double dx = std::max({box.x_min - p.x, p.x - box.x_max, 0.0});
     const double dy = std::max({box.y_min - p.y, p.y - box.y_max, 0.0});
-    return std::hypot(dx, dy);
+    return elementary::hypot(dx, dy);
 }
 
 double distance(Vec2d p, Vec2d a, Vec2d b)

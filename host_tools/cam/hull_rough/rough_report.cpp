@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "host_tools/cam/hull_rough/roughing.hpp"
 
@@ -25,7 +26,7 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
         step = std::max(step, layer_settings(work, layer, tool).step);
     }
-    const double degrees = std::acos(std::max(-1.0, 1 - step / tool.radius)) * 180 / kPi;
+    const double degrees = elementary::acos(std::max(-1.0, 1 - step / tool.radius)) * 180 / kPi;
     OperationStats& stats = operation.stats;
     if (work.operation.passes.max_engagement) {
         stats.warnings.push_back("cuts are at most " + plain_number(work.deepest_cut()) +

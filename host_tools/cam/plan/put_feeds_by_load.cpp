@@ -1,8 +1,8 @@
 // Wanted feeds at positions become stretches of one feed, stretches become parts of moves.
 #include <algorithm>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/plan/chip_load.hpp"
 #include "host_tools/cam/plan/stages.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
@@ -195,8 +195,9 @@ double feed_by_load(double feed, double degrees, const ChipLoad& limits)
     constexpr double kSlot = 0.5;  // of the feed
     const double low = limits.feed_min.value_or(feed);
     const double high = std::max(low, limits.feed_max.value_or(2 * feed));
-    const double share = degrees <= 90.0 ? 1.0 / std::max(1e-6, std::sin(degrees / 180.0 * kPi))
-                                         : 1.0 - (1.0 - kSlot) * (degrees - 90.0) / 90.0;
+    const double share = degrees <= 90.0
+                             ? 1.0 / std::max(1e-6, elementary::sin(degrees / 180.0 * kPi))
+                             : 1.0 - (1.0 - kSlot) * (degrees - 90.0) / 90.0;
     return std::clamp(feed * share, low, high);
 }
 

@@ -1,7 +1,7 @@
 // The flank passes through the upper edge moved inward by the width: the tip runs beside the wall.
 #include <algorithm>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/prismatic/common_edges.hpp"
 #include "host_tools/cam/prismatic/contour_run.hpp"
@@ -47,7 +47,7 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
                         operation_text(job, operation), cut.width, tool.number,
                         std::max(0.0, tool.radius - away)));
     }
-    const double z = cut.top - (cut.width + kTipClearance) / std::tan(tool.tip_angle / 2);
+    const double z = cut.top - (cut.width + kTipClearance) / elementary::tan(tool.tip_angle / 2);
     const Region2d centres =
         RegionOffset{opposite(without_common_edges(material_of(cut)).region)}.at(away);
     if (centres.contours.empty()) {

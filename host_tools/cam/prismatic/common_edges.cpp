@@ -2,7 +2,8 @@
 #include "host_tools/cam/prismatic/common_edges.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::prismatic {
 
@@ -207,7 +208,7 @@ private:
             }
             const Vec2d before = tangent_at_end(edge);
             const Vec2d after = tangent_at_start(pieces_[n].edge);
-            const double turn = std::atan2(cross(before, after), dot(before, after));
+            const double turn = elementary::atan2(cross(before, after), dot(before, after));
             if (found == pieces_.size() || turn > best) {
                 best = turn;
                 found = n;

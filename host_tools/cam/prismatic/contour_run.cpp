@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::prismatic {
 
@@ -30,14 +31,14 @@ void add_lines(const Edge& arc, const EdgeForm& form, std::vector<Vec2d>& points
     // an arc to the left has its hollow side on its left
     const bool tangents = !form.exact && (arc.turn > 0) != form.waste_on_left;
     const double share = std::clamp(1 - form.tolerance / arc.radius, -0.5, 1 - 1e-9);
-    const double step = 2 * std::acos(share);
+    const double step = 2 * elementary::acos(share);
     const int pieces = std::max(1, static_cast<int>(std::ceil(sweep(arc) / step)));
     if (!tangents) {
         for (int i = 1; i < pieces; ++i) {
             points.push_back(point_on(arc, static_cast<double>(i) / pieces));
         }
     } else {
-        const double out = 1 / std::cos(sweep(arc) / pieces / 2);
+        const double out = 1 / elementary::cos(sweep(arc) / pieces / 2);
         for (int i = 0; i < pieces; ++i) {
             const Vec2d middle = point_on(arc, (i + 0.5) / pieces);
             points.push_back(arc.centre + (middle - arc.centre) * out);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 
@@ -60,9 +61,10 @@ void count_moves(const ToolpathWriter& writer, int passes, int levels, PlannedOp
 double chord_tolerance(const Operation& operation)
 {
     const double across = operation.tolerance.plan / 2;
-    return is_conical(operation.tool) ? std::min(across, operation.tolerance.floor / 2 *
-                                                             std::tan(operation.tool.tip_angle / 2))
-                                      : across;
+    return is_conical(operation.tool)
+               ? std::min(across, operation.tolerance.floor / 2 *
+                                      elementary::tan(operation.tool.tip_angle / 2))
+               : across;
 }
 
 std::string operation_text(const Job& job, const Operation& operation)

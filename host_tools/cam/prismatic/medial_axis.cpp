@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
 namespace cusp::prismatic {
@@ -73,7 +74,7 @@ public:
         : edges_{edges_of(region)}, tree_{edges_}, reflex_(edges_.size()), before_(edges_.size())
     {
         const Box2d box = box_of(region);
-        largest_ = std::hypot(box.x1 - box.x0, box.y1 - box.y0);
+        largest_ = elementary::hypot(box.x1 - box.x0, box.y1 - box.y0);
         std::size_t first = 0;
         for (const Contour& contour : region.contours) {
             const std::size_t size = contour.size();
@@ -81,7 +82,8 @@ public:
                 const std::size_t next = first + (k + 1) % size;
                 const Vec2d from = tangent_at_end(edges_[first + k]);
                 const Vec2d to = tangent_at_start(edges_[next]);
-                reflex_[first + k] = std::max(0.0, -std::atan2(cross(from, to), dot(from, to)));
+                reflex_[first + k] =
+                    std::max(0.0, -elementary::atan2(cross(from, to), dot(from, to)));
                 before_[next] = first + k;
             }
             first += size;
@@ -170,7 +172,8 @@ private:
         const Vec2d first = left_normal(tangent_at_end(edges_[k]));
         const auto at = [&](double share) {
             const double angle = -share * reflex_[k];
-            const Vec2d normal = first * std::cos(angle) + left_normal(first) * std::sin(angle);
+            const Vec2d normal =
+                first * elementary::cos(angle) + left_normal(first) * elementary::sin(angle);
             return disc(corner, normal, largest_, 2 * k + 1);
         };
         walk(at, 2 + static_cast<int>(reflex_[k] / kWidest), 0.0);

@@ -2,8 +2,8 @@
 // floor, the tip stays on the floor, and loops along the walls clear the rest.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/prismatic/contour_run.hpp"
@@ -183,7 +183,7 @@ public:
         : job_{job},
           operation_{operation},
           cut_{*operation.prismatic},
-          slope_{1 / std::tan(operation.tool.tip_angle / 2)},
+          slope_{1 / elementary::tan(operation.tool.tip_angle / 2)},
           tip_{operation.tool.tip_radius},
           region_{material_of(cut_)},
           axis_{medial_axis(region_.source())}

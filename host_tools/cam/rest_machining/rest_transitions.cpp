@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/job/job/fixture_clearance.hpp"
 
@@ -118,8 +118,9 @@ std::optional<RestTransitions::Entry> RestTransitions::entry_beside(Vec3d place)
     for (const double share : {0.25, 0.6, 1.0}) {
         for (int i = 0; i < kDirections; ++i) {
             const double angle = 2 * kPi * i / kDirections;
-            const Vec2d beside = in_plan(place) + Vec2d{std::cos(angle), std::sin(angle)} *
-                                                      (share * path_.tool.radius);
+            const Vec2d beside =
+                in_plan(place) +
+                Vec2d{elementary::cos(angle), elementary::sin(angle)} * (share * path_.tool.radius);
             if (is_open_at_first(beside, place.z + kOverGround) &&
                 is_way_in_clear({beside.x, beside.y, place.z}, place) &&
                 keeps_off_fixtures(beside, place.z)) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::rest_machining {
 
 using toolpath::Tool;
@@ -26,18 +28,18 @@ EndProfile::EndProfile(const Tool& tool, double shrink)
         return;
     }
     const double half = tool.tip_angle / 2;
-    rise = 1 / std::tan(half);
+    rise = 1 / elementary::tan(half);
     if (corner > 0) {
-        join = corner * std::cos(half);
-        joined = corner * (1 - std::sin(half));
+        join = corner * elementary::cos(half);
+        joined = corner * (1 - elementary::sin(half));
         return;
     }
     if (tool.corner_radius > 0) {  // of its ball nothing is left
-        raised = tool.corner_radius + (shrink - tool.corner_radius) / std::sin(half);
+        raised = tool.corner_radius + (shrink - tool.corner_radius) / elementary::sin(half);
         return;
     }
     // the flank moves inward by `shrink` square to itself
-    flat = tool.tip_radius - shrink * (1 - std::sin(half)) / std::cos(half);
+    flat = tool.tip_radius - shrink * (1 - elementary::sin(half)) / elementary::cos(half);
     if (flat < 0) {
         raised -= flat * rise;
         flat = 0;
@@ -107,7 +109,7 @@ double ToolSweep::numeric_place(double along, double away, double low, double hi
     double end = high;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = (begin + end) / 2;
-        const double distance = std::hypot(away, middle - along);
+        const double distance = elementary::hypot(away, middle - along);
         const double climb =
             distance > kShortest ? end_.slope(distance) * (middle - along) / distance : 0.0;
         (slope_ + climb < 0 ? begin : end) = middle;
@@ -192,7 +194,7 @@ bool ToolSweep::holds_end(const ToolSweep& other, Vec3d tip) const
     const double flat = other.end_.radius - corner;
     const double beside = std::max(0.0, norm(in_plan(tip) - in_plan(here)) + flat - end_.flat);
     const double below = std::max(0.0, here.z + end_.corner - tip.z - corner);
-    return std::hypot(beside, below) <= end_.corner - corner;
+    return elementary::hypot(beside, below) <= end_.corner - corner;
 }
 
 bool ToolSweep::contains(const ToolSweep& other) const

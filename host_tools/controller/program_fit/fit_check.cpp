@@ -2,11 +2,11 @@
 #include "host_tools/controller/program_fit/fit_check.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "firmware/gcode/interpreter.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::program_fit {
 namespace {
@@ -24,15 +24,15 @@ double distance_to_arc(Vec3d p, const path::Arc& arc, Vec3d end)
     const Vec3d from_centre = p - arc.centre;
     const double x = dot(from_centre, arc.u);
     const double y = dot(from_centre, arc.v);
-    double angle = std::atan2(y, x);
-    angle += angle < 0 ? 2 * std::acos(-1.0) : 0;
+    double angle = elementary::atan2(y, x);
+    angle += angle < 0 ? 2 * elementary::acos(-1.0) : 0;
     if (angle > arc.sweep) {
         return std::min(norm(p), norm(p - end));
     }
     const double share = angle / arc.sweep;
     const Vec3d on_arc = arc.centre +
                          (arc.radius + share * arc.radius_change) *
-                             (std::cos(angle) * arc.u + std::sin(angle) * arc.v) +
+                             (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
                          share * arc.axial;
     return norm(p - on_arc);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::program_run {
 namespace {
@@ -29,8 +30,8 @@ ArcPoint arc_at(const path::Arc& arc, double t)
 {
     const double angle = t * arc.sweep;
     const double radius = arc.radius + t * arc.radius_change;
-    const Vec3d out = arc.u * std::cos(angle) + arc.v * std::sin(angle);
-    const Vec3d along = arc.v * std::cos(angle) - arc.u * std::sin(angle);
+    const Vec3d out = arc.u * elementary::cos(angle) + arc.v * elementary::sin(angle);
+    const Vec3d along = arc.v * elementary::cos(angle) - arc.u * elementary::sin(angle);
     return {arc.centre + out * radius + arc.axial * t,
             out * arc.radius_change + along * (radius * arc.sweep) + arc.axial,
             along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
@@ -57,7 +58,7 @@ PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
 PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
 {
     const Vec3d from_centre = point - arc.centre;
-    double angle = std::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
+    double angle = elementary::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
     if (angle < 0) {
         angle += 2.0 * kPi;
     }
@@ -67,7 +68,7 @@ PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
         nearest = at_end;
     }
     // The turn whose height and radius are nearest to the point's.
-    const double outwards = std::hypot(dot(from_centre, arc.u), dot(from_centre, arc.v));
+    const double outwards = elementary::hypot(dot(from_centre, arc.u), dot(from_centre, arc.v));
     const double change = dot(arc.axial, arc.axial) + arc.radius_change * arc.radius_change;
     const double nearest_t =
         change > 0
@@ -193,8 +194,8 @@ void PathDeviation::add_turns(const path::Move& move, const path::Arc& arc)
         const double turned = begin * arc.sweep;
         path::Arc part = arc;
         part.centre = arc.centre + arc.axial * begin;
-        part.u = arc.u * std::cos(turned) + arc.v * std::sin(turned);
-        part.v = arc.v * std::cos(turned) - arc.u * std::sin(turned);
+        part.u = arc.u * elementary::cos(turned) + arc.v * elementary::sin(turned);
+        part.v = arc.v * elementary::cos(turned) - arc.u * elementary::sin(turned);
         part.axial = arc.axial / parts;
         part.radius = arc.radius + begin * arc.radius_change;
         part.radius_change = arc.radius_change / parts;

@@ -2,7 +2,6 @@
 #include "host_tools/controller/simulate/program_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
@@ -116,10 +115,7 @@ void add_move(const path::Move& move, LineSummary& summary)
                         move.end.z > move.start.z;
     }
     summary.moves = true;
-    const double chord = std::hypot(static_cast<double>(move.end.x - move.start.x),
-                                    static_cast<double>(move.end.y - move.start.y),
-                                    static_cast<double>(move.end.z - move.start.z)) /
-                         kNanometresPerMillimetre;
+    const double chord = norm(to_millimetres(move.end - move.start));
     const double way = std::holds_alternative<path::Arc>(move.path) ? path::length(move) : chord;
     summary.seconds += way / (rapid ? kRapidSpeed : static_cast<double>(move.feed));
 }

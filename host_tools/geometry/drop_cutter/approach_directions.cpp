@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::drop_cutter {
 namespace {
 
@@ -30,7 +32,7 @@ std::size_t ApproachDirections::add(Vec3d contact)
     contacts_.push_back(contact);
     const BlockedCap added = blocked_cap(contacts_.size() - 1);
     const Vec3d way = added.direction;
-    const double horizontal = std::hypot(way.x, way.y);
+    const double horizontal = elementary::hypot(way.x, way.y);
     const double most = way.z > 0 ? norm(way) : horizontal;
     const bool shank = way.z > 0 && horizontal < radius_ + contact_radius_;
     if (most > added.least || shank) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter_state.hpp"
 
 namespace cusp::drop_cutter {
@@ -306,7 +307,7 @@ void DropCutter::State::measure_plane(Piece& piece) const
 // normal  across its corners, of any length
 void DropCutter::State::measure_wall(Piece& piece, Vec3d normal) const
 {
-    const double level = std::hypot(normal.x, normal.y);
+    const double level = elementary::hypot(normal.x, normal.y);
     if (!(level > 0.0)) {
         return;
     }

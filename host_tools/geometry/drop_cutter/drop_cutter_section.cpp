@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/geometry/offset/contour.hpp"
 
@@ -91,7 +92,7 @@ std::optional<DropCutter::CcPoint> DropCutter::State::exact_cc_point(Vec2d at, d
     for (int i = 0; i < kSteps && contact; ++i) {
         const SurfacePoint& s = contact->surface;
         const Vec3d n = contact->normal;
-        const double steep = std::hypot(n.x, n.y);
+        const double steep = elementary::hypot(n.x, n.y);
         const double out = steep > 0.0 ? (tool_.radius - corner) / steep + corner : corner;
         const Vec2d aside = at - in_plan(n) * out - in_plan(s.point);
         const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/pattern_search.hpp"
 
 namespace cusp::drop_cutter {
@@ -136,8 +137,8 @@ std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Ve
     std::vector<Position> out;
     for (const Position& start : all) {
         const bool apart = std::all_of(out.begin(), out.end(), [&](const Position& other) {
-            return std::hypot(start.centre.x - other.centre.x, start.centre.y - other.centre.y) >
-                   kApart * radius_;
+            return elementary::hypot(start.centre.x - other.centre.x,
+                                     start.centre.y - other.centre.y) > kApart * radius_;
         });
         if (apart) {
             out.push_back(start);
@@ -468,7 +469,7 @@ LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, d
     }
     const Tool& tool = floor.tool();
     const Vec2d touched = floor.cc_place({x, y}, *cl);
-    const double away = std::min(tool.radius, std::hypot(touched.x - x, touched.y - y));
+    const double away = std::min(tool.radius, elementary::hypot(touched.x - x, touched.y - y));
     return {{x, y, cl->z + tool.corner_radius},
             {touched.x, touched.y, cl->z + profile_height(tool, away)}};
 }

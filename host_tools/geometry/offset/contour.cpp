@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::offset {
 
 namespace {
@@ -42,7 +44,7 @@ double sweep(const Edge& edge)
     }
     const Vec2d a = edge.start - edge.centre;
     const Vec2d b = edge.end - edge.centre;
-    return std::abs(std::atan2(cross(a, b), dot(a, b)));
+    return std::abs(elementary::atan2(cross(a, b), dot(a, b)));
 }
 
 double length(const Edge& edge)
@@ -57,7 +59,7 @@ Vec2d point_on(const Edge& edge, double share)
     }
     const double angle = sweep(edge) * share * edge.turn;
     const Vec2d arm = edge.start - edge.centre;
-    return edge.centre + arm * std::cos(angle) + left_normal(arm) * std::sin(angle);
+    return edge.centre + arm * elementary::cos(angle) + left_normal(arm) * elementary::sin(angle);
 }
 
 Vec2d tangent_on(const Edge& edge, double share)
@@ -136,7 +138,7 @@ double area(const Contour& contour)
         twice += cross(edge.start - origin, edge.end - origin);
         if (edge.turn != 0) {
             const double angle = sweep(edge);
-            twice += edge.turn * edge.radius * edge.radius * (angle - std::sin(angle));
+            twice += edge.turn * edge.radius * edge.radius * (angle - elementary::sin(angle));
         }
     }
     return 0.5 * twice;

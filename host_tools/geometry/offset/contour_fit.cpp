@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::offset {
 
 using nurbs::Curve;
@@ -46,7 +48,7 @@ std::vector<Vec2d> samples(const Curve& curve)
 bool is_line(const std::vector<Vec2d>& points)
 {
     const Vec2d chord = points.back() - points.front();
-    const double size = std::hypot(chord.x, chord.y);
+    const double size = elementary::hypot(chord.x, chord.y);
     double along = 0.0;
     for (const Vec2d p : points) {
         const Vec2d arm = p - points.front();
@@ -90,7 +92,7 @@ std::vector<Edge> as_arcs(const std::vector<Vec2d>& points)
         }
         const Vec2d a = points[i - 1] - *centre;
         const Vec2d b = points[i] - *centre;
-        const double step = std::atan2(cross(a, b), dot(a, b)) * turn;
+        const double step = elementary::atan2(cross(a, b), dot(a, b)) * turn;
         if (step < 0.0) {
             return {};
         }

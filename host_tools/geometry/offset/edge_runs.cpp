@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::offset {
 
@@ -36,7 +37,7 @@ std::optional<std::size_t> next_run(const std::vector<Run>& runs,
             continue;
         }
         const Vec2d leaving = tangent_at_start(runs[*at].edges.front());
-        const double turn = std::atan2(cross(arriving, leaving), dot(arriving, leaving));
+        const double turn = elementary::atan2(cross(arriving, leaving), dot(arriving, leaving));
         if (turn > best_turn) {
             best = *at;
             best_turn = turn;

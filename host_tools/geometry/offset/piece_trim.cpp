@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::offset {
 
@@ -40,7 +41,8 @@ public:
             return edge_.start + way_ * t;
         }
         const Vec2d aside = left_normal(way_) * edge_.turn;
-        return edge_.centre + (way_ * std::cos(t) + aside * std::sin(t)) * edge_.radius;
+        return edge_.centre +
+               (way_ * elementary::cos(t) + aside * elementary::sin(t)) * edge_.radius;
     }
 
     Edge part(double from, double to) const { return between(edge_, at(from), at(to)); }
@@ -67,8 +69,8 @@ public:
         if (!(cosine > -1.0)) {
             return {0.0, size_};
         }
-        const double half = std::acos(std::min(cosine, 1.0));
-        double middle = std::atan2(cross(way_, arm) * edge_.turn, dot(way_, arm));
+        const double half = elementary::acos(std::min(cosine, 1.0));
+        double middle = elementary::atan2(cross(way_, arm) * edge_.turn, dot(way_, arm));
         middle += middle < t - kPi ? 2.0 * kPi : middle > t + kPi ? -2.0 * kPi : 0.0;
         return {middle - half, middle + half};
     }

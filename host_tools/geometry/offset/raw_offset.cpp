@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::offset {
 
@@ -39,9 +40,10 @@ void add_corner(std::vector<RawPiece>& pieces,
     if (dot(a, b) < -0.5) {
         // Half way round clockwise; for an exact reversal the sum of a and b has no direction.
         const Vec2d ahead = left_normal(a) * -1.0;
-        const double turned = std::atan2(cross(b, a), dot(a, b));
+        const double turned = elementary::atan2(cross(b, a), dot(a, b));
         const double half = 0.5 * (turned < 0.0 ? turned + 2 * kPi : turned);
-        const Vec2d middle = corner + (a * std::cos(half) + ahead * std::sin(half)) * distance;
+        const Vec2d middle =
+            corner + (a * elementary::cos(half) + ahead * elementary::sin(half)) * distance;
         pieces.push_back({{from, middle, corner, distance, -1}, true, false, origin});
         pieces.push_back({{middle, to, corner, distance, -1}, true, false, origin + 1});
         return;

@@ -2,8 +2,8 @@
 #include "host_tools/geometry/part_model/bend_bounds.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/enclosure.hpp"
 
 namespace cusp::part_model {
@@ -59,9 +59,9 @@ BendBounds bend_bounds(const BezierCell& cell, const BezierCell::Spread& e)
     const Enclosure xy = st * (qy * px + qx * py) - ss * (qx * qy) - tt * (px * py);
     const Enclosure yy = ss * (qx * qx) - 2.0 * (st * (qx * px)) + tt * (px * px);
     const auto largest = [&](double a, double b) {
-        return 0.5 * (a + b) + std::hypot(0.5 * (a - b), magnitude(xy));
+        return 0.5 * (a + b) + elementary::hypot(0.5 * (a - b), magnitude(xy));
     };
-    return {std::hypot(magnitude(unit.x), magnitude(unit.y)),
+    return {elementary::hypot(magnitude(unit.x), magnitude(unit.y)),
             std::max(0.0, largest(xx.high, yy.high)), std::max(0.0, largest(-xx.low, -yy.low))};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/nearest_search.hpp"
 
 namespace cusp::part_model {
@@ -86,7 +87,7 @@ public:
         const double tilt = lean / (1 - lean);
         const double straight = 1 - skew;
         const double shorter =
-            std::hypot(across_u_ / long_u, across_v_ / long_v) / std::sqrt(straight);
+            elementary::hypot(across_u_ / long_u, across_v_ / long_v) / std::sqrt(straight);
         if (!(lean < 0.5) || !(normal_.z > tilt) || !(shorter < kMostShorter)) {
             return;
         }
@@ -98,8 +99,8 @@ public:
                     dot(normal_, middle_.dvv)};
         box.nearness = (1 - shorter) * (1 - shorter);
         box.extra_bend = (std::max(uu, vv) + uv) / straight;
-        box.climb = std::hypot(normal_.x, normal_.y) +
-                    std::hypot(climb_u_ / long_u, climb_v_ / long_v) / std::sqrt(straight);
+        box.climb = elementary::hypot(normal_.x, normal_.y) +
+                    elementary::hypot(climb_u_ / long_u, climb_v_ / long_v) / std::sqrt(straight);
     }
 
 private:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/nearest_search.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 
@@ -118,12 +119,12 @@ std::optional<CcPoint> PartModel::cc_point_under(
         at.point = p.point;
         at.normal = facing_up(surface, at.u, at.v, p);
         const Vec3d miss = at.centre() - Vec3d{x, y, 0};
-        if (std::hypot(miss.x, miss.y) < kUnderSlack) {
+        if (elementary::hypot(miss.x, miss.y) < kUnderSlack) {
             return at;
         }
         const auto [by_u, by_v] = centre_slopes(p, at.normal, distance);
         const double det = by_u.x * by_v.y - by_u.y * by_v.x;
-        const double size = std::hypot(by_u.x, by_u.y) * std::hypot(by_v.x, by_v.y);
+        const double size = elementary::hypot(by_u.x, by_u.y) * elementary::hypot(by_v.x, by_v.y);
         if (!(std::abs(det) > kLeastLean * size)) {
             return std::nullopt;
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 
 namespace cusp::part_model {
@@ -51,7 +52,7 @@ Vec3d vector_to_core(Vec3d centre, Vec3d a, Vec3d b)
 // to b; kInfinite if it misses p.
 double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
 {
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double length = elementary::hypot(b.x - a.x, b.y - a.y);
     const Vec2d arm{p.x - a.x, p.y - a.y};
     const Vec2d way = length > 0 ? Vec2d{b.x - a.x, b.y - a.y} * (1 / length) : Vec2d{1, 0};
     const double along = dot(arm, way);
@@ -338,7 +339,7 @@ double EdgeGougeCheck::cut(Vec3d from, Vec3d to, double margin) const
 {
     const Vec3d way = to - from;
     // Squares are searched around a point, so a long move is divided.
-    const double length = std::hypot(way.x, way.y);
+    const double length = elementary::hypot(way.x, way.y);
     const int parts = std::max(1, static_cast<int>(std::ceil(length / radius_)));
     // Between the ends of a piece the ball may reach lower: as low as one larger by this sagitta.
     const double round = radius_ * (1 + 0.125 * kPiece * kPiece) + edge_error_ + margin;

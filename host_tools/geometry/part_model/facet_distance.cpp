@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::part_model {
 namespace {
 
@@ -65,7 +67,7 @@ double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place, do
 {
     Vec3d n = facet.normal;
     Vec3d from = core.end;
-    const double tilt = std::hypot(n.x, n.y);
+    const double tilt = elementary::hypot(n.x, n.y);
     if (n.z < kUpright && dot(from - facet.corners[0], n) < 0) {
         n = -n;
     }

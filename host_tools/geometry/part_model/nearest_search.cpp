@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::part_model {
 
 using nurbs::SurfacePoint;
@@ -65,8 +67,8 @@ double distance_from_axis(const ToolCore& core, const BezierCell& cell)
 {
     const Vec3d low = cell.low();
     const Vec3d high = cell.high();
-    return std::hypot(std::max({low.x - core.end.x, core.end.x - high.x, 0.0}),
-                      std::max({low.y - core.end.y, core.end.y - high.y, 0.0}));
+    return elementary::hypot(std::max({low.x - core.end.x, core.end.x - high.x, 0.0}),
+                             std::max({low.y - core.end.y, core.end.y - high.y, 0.0}));
 }
 
 // A lower bound of the stiffness everywhere in the cell.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/bernstein_patch.hpp"
 
 namespace cusp::part_model {
@@ -149,7 +150,7 @@ double bound_of(const Terms& terms, double distance, double side)
     }
     const double across_error =
         std::max(distance - std::sqrt(least), std::sqrt(square + radial) - distance);
-    return std::hypot(across_error, along);
+    return elementary::hypot(across_error, along);
 }
 
 double bound_quartered(

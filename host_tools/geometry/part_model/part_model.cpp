@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 #include "host_tools/geometry/part_model/facet_search.hpp"
 #include "host_tools/geometry/part_model/move_clearance_bound.hpp"
@@ -59,7 +60,7 @@ void add_cells(const Surface& surface, int number, PartModel::State& state)
 // it passes the point.
 std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p, double fat = 0)
 {
-    const double away = std::hypot(p.x - x, p.y - y);
+    const double away = elementary::hypot(p.x - x, p.y - y);
     if (away > tool.radius + fat) {
         return std::nullopt;
     }

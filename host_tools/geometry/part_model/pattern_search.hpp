@@ -2,8 +2,7 @@
 // step where none leads lower.
 #pragma once
 
-#include <cmath>
-
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/nurbs.hpp"
 
 namespace cusp::part_model {
@@ -22,7 +21,7 @@ Vec2d pattern_search(Vec2d at, double step, double finest, const Lower& lower)
     constexpr double kTurn = 0.41;                   // radians: rounds try different directions
     for (double turn = 0; step > finest; turn += kTurn) {
         bool moved = false;
-        Vec2d way{step * std::cos(turn), step * std::sin(turn)};
+        Vec2d way{step * elementary::cos(turn), step * elementary::sin(turn)};
         for (int k = 0; k < kDirections && !moved; ++k) {
             const Vec2d to{at.x + way.x, at.y + way.y};
             way = {kEighth * (way.x - way.y), kEighth * (way.x + way.y)};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/surface_length.hpp"
 
 namespace cusp::part_model {
@@ -135,8 +136,8 @@ std::optional<double> SurfaceHeightMap::at(double x, double y) const
             }
         } else {
             const auto nearer = [&](const Sample& a, const Sample& b) {
-                return std::hypot(a.point.x - x, a.point.y - y) <
-                       std::hypot(b.point.x - x, b.point.y - y);
+                return elementary::hypot(a.point.x - x, a.point.y - y) <
+                       elementary::hypot(b.point.x - x, b.point.y - y);
             };
             raise(piece, *std::min_element(piece.samples.begin(), piece.samples.end(), nearer), x,
                   y, height);
@@ -156,7 +157,7 @@ void SurfaceHeightMap::raise(
         const SurfacePoint s = derivatives_at(bezier, u, v);
         const double off_x = x - s.point.x;
         const double off_y = y - s.point.y;
-        if (std::hypot(off_x, off_y) < kMeet) {
+        if (elementary::hypot(off_x, off_y) < kMeet) {
             const TrimRegion& region = regions_[patch.surface];
             if (s.point.z > height && (!region.trimmed() || region.inside(u, v))) {
                 height = s.point.z;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::part_model {
 
 using toolpath::Tool;
@@ -48,7 +50,7 @@ double oriented_distance(const ToolCore& core, const BezierCell& cell)
 {
     const Vec3d from = core.end - cell.middle().point;
     const Vec3d normal = cell.axes()[0];
-    const double tilt = core.radius > 0 ? core.radius * std::hypot(normal.x, normal.y) : 0;
+    const double tilt = core.radius > 0 ? core.radius * elementary::hypot(normal.x, normal.y) : 0;
     const double above = dot(from, normal) - tilt - cell.box_high(0);
     if (core.radius > 0 || cell.high().z > core.end.z) {
         return std::max(0.0, above);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/bezier_cell.hpp"
 #include "host_tools/geometry/toolpath/tool.hpp"
 
@@ -23,7 +24,7 @@ struct ToolCore {
     {
         Vec3d r{p.x - end.x, p.y - end.y, std::min(0.0, p.z - end.z)};
         if (radius > 0) {
-            const double away = std::hypot(r.x, r.y);
+            const double away = elementary::hypot(r.x, r.y);
             const double left = away > radius ? (away - radius) / away : 0;
             r.x *= left;
             r.y *= left;

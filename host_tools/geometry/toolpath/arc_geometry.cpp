@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::toolpath {
 namespace {
@@ -43,10 +44,10 @@ ArcShape arc_shape(Vec3d start, const ArcTo& arc)
     const double second = arc.centre[axes[1]];
     const Vec2d from{start[axes[0]] - first, start[axes[1]] - second};
     const Vec2d to{arc.end[axes[0]] - first, arc.end[axes[1]] - second};
-    const double begin = std::atan2(from.y, from.x);
+    const double begin = elementary::atan2(from.y, from.x);
     const bool whole = norm(to - from) < kSamePoint;
     const double sweep = whole ? (arc.clockwise ? -kTurn : kTurn)
-                               : swept(begin, std::atan2(to.y, to.x), arc.clockwise);
+                               : swept(begin, elementary::atan2(to.y, to.x), arc.clockwise);
     return {axes, start, arc.end, first, second, begin, sweep, norm(from), norm(to)};
 }
 
@@ -62,8 +63,8 @@ Vec3d point_on(const ArcShape& arc, double share)
     const double radius = arc.start_radius + share * (arc.end_radius - arc.start_radius);
     const double travel = arc.end[arc.axes[2]] - arc.start[arc.axes[2]];
     Vec3d p;
-    p[arc.axes[0]] = arc.centre_first + radius * std::cos(angle);
-    p[arc.axes[1]] = arc.centre_second + radius * std::sin(angle);
+    p[arc.axes[0]] = arc.centre_first + radius * elementary::cos(angle);
+    p[arc.axes[1]] = arc.centre_second + radius * elementary::sin(angle);
     p[arc.axes[2]] = arc.start[arc.axes[2]] + share * travel;
     return p;
 }
@@ -73,8 +74,8 @@ Vec3d tangent_on(const ArcShape& arc, double share)
     const double angle = arc.start_angle + share * arc.sweep;
     const double radius = arc.start_radius + share * (arc.end_radius - arc.start_radius);
     Vec3d t;
-    t[arc.axes[0]] = -radius * std::sin(angle) * arc.sweep;
-    t[arc.axes[1]] = radius * std::cos(angle) * arc.sweep;
+    t[arc.axes[0]] = -radius * elementary::sin(angle) * arc.sweep;
+    t[arc.axes[1]] = radius * elementary::cos(angle) * arc.sweep;
     t[arc.axes[2]] = arc.end[arc.axes[2]] - arc.start[arc.axes[2]];
     const double size = norm(t);
     return size > 0 ? t / size : t;
@@ -83,7 +84,7 @@ Vec3d tangent_on(const ArcShape& arc, double share)
 double length(const ArcShape& arc)
 {
     const double round = (arc.start_radius + arc.end_radius) / 2 * std::abs(arc.sweep);
-    return std::hypot(round, arc.end[arc.axes[2]] - arc.start[arc.axes[2]]);
+    return elementary::hypot(round, arc.end[arc.axes[2]] - arc.start[arc.axes[2]]);
 }
 
 }  // namespace cusp::toolpath

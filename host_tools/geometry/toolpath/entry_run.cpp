@@ -2,9 +2,9 @@
 #include "host_tools/geometry/toolpath/entry_run.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::toolpath {
 
@@ -16,7 +16,7 @@ double sweep_of(Vec2d from, const RunPiece& arc)
     constexpr double kSamePlace = 1e-12;  // radians
     const Vec2d a = from - arc.centre;
     const Vec2d b = in_plan(arc.end) - arc.centre;
-    const double sweep = arc.turn * std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+    const double sweep = arc.turn * elementary::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
     return sweep > kSamePlace ? sweep : sweep + 2 * kPi;
 }
 
@@ -28,8 +28,8 @@ RunPiece part_of(Vec3d from, const RunPiece& piece, double share)
     if (piece.turn != 0) {
         const double angle = piece.turn * sweep_of(in_plan(from), piece) * share;
         const Vec2d a = in_plan(from) - piece.centre;
-        part.end.x = piece.centre.x + a.x * std::cos(angle) - a.y * std::sin(angle);
-        part.end.y = piece.centre.y + a.x * std::sin(angle) + a.y * std::cos(angle);
+        part.end.x = piece.centre.x + a.x * elementary::cos(angle) - a.y * elementary::sin(angle);
+        part.end.y = piece.centre.y + a.x * elementary::sin(angle) + a.y * elementary::cos(angle);
     }
     return part;
 }

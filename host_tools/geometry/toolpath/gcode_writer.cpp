@@ -10,6 +10,7 @@
 
 #include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 #include "host_tools/geometry/toolpath/arc_geometry.hpp"
 #include "host_tools/geometry/toolpath/drilled_holes.hpp"
@@ -46,7 +47,7 @@ public:
           post_{form.post},
           unit_{form.inch ? kMillimetresPerInch : 1.0},
           decimals_{form.post.decimals(form.inch)},
-          scale_{std::llround(std::pow(10.0, decimals_))},
+          scale_{std::llround(elementary::power_of_ten(decimals_))},
           grain_{unit_ / static_cast<double>(scale_)},
           measures_arcs_{added_rounding(form.post, form.inch) > 0 ||
                          form.post.arcs == ArcForm::kRadius}
@@ -346,8 +347,8 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
         return;
     }
     const bool same = (*at_)[axes[0]] == end[axes[0]] && (*at_)[axes[1]] == end[axes[1]];
-    const double sagitta =
-        shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kPi) / 2));
+    const double half_sweep = std::min(std::abs(shape.sweep), kPi) / 2;
+    const double sagitta = shape.start_radius * (1 - elementary::cos(half_sweep));
     const double least =
         measures_arcs_ ? std::max(kLeastSagitta, kLeastRoundedSagitta * grain_) : kLeastSagitta;
     if ((same && std::abs(shape.sweep) < kPi) || sagitta < least) {
@@ -451,12 +452,11 @@ void ProgramWriter::cycles(const Toolpath& path)
         const bool first = at[2] == clearance;
         const Place to = rounded(hole.bottom);
         std::string text = first ? peck > 0 ? "G98 G83 " : "G98 G81 " : "";
-        text += "X" + coordinate(to[0]) + " Y" + coordinate(to[1]);
-        text += to[2] != at[2] ? " Z" + coordinate(to[2]) : "";
+        text += "X" + coordinate(to[0]) + " Y" + coordinate(to[1]) +
+                (to[2] != at[2] ? " Z" + coordinate(to[2]) : "");
         text += first || hole.above != r ? " R" + coordinate(rounded({0, 0, hole.above})[2]) : "";
-        text += first && peck > 0 ? " Q" + coordinate(peck) : "";
         r = hole.above;
-        put(text + feed_word(hole.feed));
+        put(text + (first && peck > 0 ? " Q" + coordinate(peck) : "") + feed_word(hole.feed));
         at = to;
     }
     put("G80");

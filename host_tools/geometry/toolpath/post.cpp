@@ -2,9 +2,9 @@
 #include "host_tools/geometry/toolpath/post.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::toolpath {
 namespace {
@@ -30,7 +30,7 @@ std::string in_form(const std::string& text, CommentForm form)
 double rounding_of(const Post& post, bool inch)
 {
     const double unit = inch ? kMillimetresPerInch : 1.0;
-    return kMostRounding * unit * std::pow(10.0, -post.decimals(inch));
+    return kMostRounding * unit * elementary::power_of_ten(-post.decimals(inch));
 }
 
 double added_rounding(const Post& post, bool inch)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::toolpath {
 
 std::array<std::int64_t, 2> fitted_centre(Vec2d start, Vec2d end, Vec2d wanted)
@@ -47,8 +49,8 @@ double arc_deviation(const ArcShape& written, const ArcTo& planned)
     constexpr int kPlaces = 32;
     const auto axes = axes_of(planned.plane);
     const auto from_centre = [&](Vec3d p) {
-        return std::hypot(p[axes[0]] - planned.centre[axes[0]],
-                          p[axes[1]] - planned.centre[axes[1]]);
+        return elementary::hypot(p[axes[0]] - planned.centre[axes[0]],
+                                 p[axes[1]] - planned.centre[axes[1]]);
     };
     const double radius = from_centre(planned.end);
     double most = 0;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/toolpath/tool.hpp"
 
@@ -58,9 +59,9 @@ double profile_height(const Tool& tool, double d)
     const double corner = tool.corner_radius;
     if (is_conical(tool)) {
         const double half = tool.tip_angle / 2;
-        const double on_flank = beyond_flat - corner * std::cos(half);
+        const double on_flank = beyond_flat - corner * elementary::cos(half);
         if (on_flank >= 0) {
-            return corner * (1 - std::sin(half)) + on_flank / std::tan(half);
+            return corner * (1 - elementary::sin(half)) + on_flank / elementary::tan(half);
         }
     }
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond_flat * beyond_flat));

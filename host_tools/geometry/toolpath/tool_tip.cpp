@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::toolpath {
 
 double radius_at_height(const Tool& tool, double height)
 {
     const double corner = tool.corner_radius;
     const double half = is_conical(tool) ? tool.tip_angle / 2 : 0.0;
-    const double joined = corner * (1 - std::sin(half));
+    const double joined = corner * (1 - elementary::sin(half));
     if (is_conical(tool) && height >= joined) {
-        return std::min(tool.radius, flat_radius(tool) + corner * std::cos(half) +
-                                         (height - joined) * std::tan(half));
+        return std::min(tool.radius, flat_radius(tool) + corner * elementary::cos(half) +
+                                         (height - joined) * elementary::tan(half));
     }
     const double below = std::max(0.0, corner - height);
     return flat_radius(tool) + std::sqrt(std::max(0.0, corner * corner - below * below));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/toolpath/arc_geometry.hpp"
 
@@ -130,7 +131,7 @@ double rest_to_rest(double length, double velocity, double acceleration, double 
     // The speed at which the two ramps take all of the length.
     double peak = std::sqrt(acceleration * length + 0.25 * gained * gained) - 0.5 * gained;
     if (peak < gained) {
-        peak = std::cbrt(0.25 * length * length * jerk);
+        peak = elementary::cbrt(0.25 * length * length * jerk);
     }
     peak = std::min(peak, velocity);
     const double ramp = peak > gained ? peak / acceleration + rise : 2 * std::sqrt(peak / jerk);
@@ -206,7 +207,7 @@ void count(const ToolMove& move, MoveCounts& counts)
 void add_arc_points(const ArcShape& arc, double tolerance, std::vector<Vec3d>& out)
 {
     const double radius = std::max({arc.start_radius, arc.end_radius, tolerance});
-    const double step = 2 * std::acos(std::max(0.0, 1 - tolerance / radius));
+    const double step = 2 * elementary::acos(std::max(0.0, 1 - tolerance / radius));
     const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep) / step)));
     for (int i = 1; i <= steps; ++i) {
         out.push_back(point_on(arc, static_cast<double>(i) / steps));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 namespace cusp::toolpath {
@@ -99,7 +100,8 @@ bool ToolpathWriter::helix(Vec3d start, const HelixFloor& floor)
     Vec2d centre{};
     for (int i = 0; i < kSides; ++i) {
         const double angle = 2 * kPi * i / kSides;
-        const Vec2d c = in_plan(start) + Vec2d{std::cos(angle), std::sin(angle)} * radius;
+        const Vec2d c =
+            in_plan(start) + Vec2d{elementary::cos(angle), elementary::sin(angle)} * radius;
         const std::optional<double> z = floor(c, radius);
         if (z && (!lowest || *z < *lowest)) {
             lowest = z;

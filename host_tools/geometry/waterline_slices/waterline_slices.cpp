@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 
 namespace cusp::waterline_slices {
@@ -110,7 +111,7 @@ Vec2d WaterlineSlices::node(std::size_t i, std::size_t j) const
 bool WaterlineSlices::buried(Vec2d middle, double reach, const Levels& levels) const
 {
     Tool smaller = tool_;
-    smaller.radius -= reach + std::hypot(pitch_x_, pitch_y_);
+    smaller.radius -= reach + elementary::hypot(pitch_x_, pitch_y_);
     constexpr double kCertain = 0.01;  // mm: smaller distances count as an intersection
     return smaller.radius >= tool_.corner_radius &&
            model_.distance_within(smaller, {middle.x, middle.y, levels.z},
@@ -149,7 +150,7 @@ void WaterlineSlices::fill_block(const Block& whole, Levels& levels) const
         const double half = 0.5 * static_cast<double>(block.size - 1);
         const Vec2d corner = node(block.i, block.j);
         const Vec2d middle{corner.x + half * pitch_x_, corner.y + half * pitch_y_};
-        const double reach = half * std::hypot(pitch_x_, pitch_y_);
+        const double reach = half * elementary::hypot(pitch_x_, pitch_y_);
         const double low = std::max(kBlockSlack * reach, max_excess());
         // Below `deep` it only matters whether the tool intersects the model.
         const double within = std::max(0.0, levels.deep - reach - low - 1e-9);
@@ -283,7 +284,7 @@ private:
 
 Region2d WaterlineSlices::at(double z, double extra) const
 {
-    const double side = std::hypot(pitch_x_, pitch_y_);
+    const double side = elementary::hypot(pitch_x_, pitch_y_);
     const double keep = tool_.corner_radius + settings_.clearance + extra + kNearestEnd * side;
     Levels levels{};
     levels.z = z;

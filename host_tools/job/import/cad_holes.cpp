@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 
 namespace cusp::import {
@@ -86,7 +87,7 @@ double angle_around(const SampledFace& face, Vec2d axis)
         return in_plan(face.samples[static_cast<std::size_t>(i * kHoleLooks + j)].point) - axis;
     };
     const auto between = [](Vec2d a, Vec2d b) {
-        return std::abs(std::atan2(cross(a, b), dot(a, b)));
+        return std::abs(elementary::atan2(cross(a, b), dot(a, b)));
     };
     double along_u = 0;
     double along_v = 0;

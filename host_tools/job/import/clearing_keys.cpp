@@ -2,10 +2,10 @@
 #include "host_tools/job/import/clearing_keys.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 #include "fmt/format.h"
 
@@ -26,9 +26,9 @@ void read_clearing(JobTable& table, const job::Strategy& strategy, Operation& op
         if (strategy.traits.pocket && operation.passes.step_over &&
             *operation.passes.step_over < radius) {
             // A straight cut of this width has this angle.
-            operation.passes.max_engagement =
-                std::min(*operation.passes.max_engagement,
-                         std::acos(1.0 - *operation.passes.step_over / radius) * 180.0 / kPi);
+            operation.passes.max_engagement = std::min(
+                *operation.passes.max_engagement,
+                elementary::acos(1.0 - *operation.passes.step_over / radius) * 180.0 / kPi);
         }
         if (*operation.passes.max_engagement < least) {
             table.refuse("step_over",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::import {
 
@@ -35,8 +36,8 @@ Curve bulged_curve(Vec2d from, Vec2d to, double bulge)
     const double offset = (1 - bulge * bulge) / (4 * bulge);
     const Vec2d centre = 0.5 * (from + to) + offset * Vec2d{-chord.y, chord.x};
     const Vec2d spoke = from - centre;
-    Curve curve =
-        arc_curve(centre, norm(spoke), std::atan2(spoke.y, spoke.x), 4 * std::atan(bulge));
+    Curve curve = arc_curve(centre, norm(spoke), elementary::atan2(spoke.y, spoke.x),
+                            4 * elementary::atan(bulge));
     curve.points.front() = {from.x, from.y, 0};
     curve.points.back() = {to.x, to.y, 0};
     return curve;
@@ -47,9 +48,10 @@ Curve arc_curve(Vec2d centre, double radius, double start, double sweep)
     constexpr double kMostPerPiece = kPi / 2 + 1e-9;
     const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / kMostPerPiece)));
     const double step = sweep / pieces;
-    const double middle_weight = std::cos(step / 2);
+    const double middle_weight = elementary::cos(step / 2);
     const auto on_circle = [&](double angle, double r) {
-        return Vec3d{centre.x + r * std::cos(angle), centre.y + r * std::sin(angle), 0};
+        return Vec3d{centre.x + r * elementary::cos(angle), centre.y + r * elementary::sin(angle),
+                     0};
     };
     Curve curve{2, {0, 0, 0}, {on_circle(start, radius)}, {1}};
     for (int i = 0; i < pieces; ++i) {

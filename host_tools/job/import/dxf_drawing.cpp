@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/dxf_text.hpp"
@@ -184,7 +185,9 @@ double DxfDrawing::resolution() const
             most = std::max(most, exponent ? group.value.size() : last - point);
         }
     });
-    return most == 0 ? 0 : unit_ * std::pow(10.0, -static_cast<double>(most));
+    constexpr std::size_t kMostDigits = 22;
+    const auto digits = static_cast<int>(std::min(most, kMostDigits));
+    return digits == 0 ? 0 : unit_ * elementary::power_of_ten(-digits);
 }
 
 bool DxfDrawing::has_depth() const

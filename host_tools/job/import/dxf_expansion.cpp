@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/dxf_entities.hpp"
 #include "host_tools/job/import/dxf_plane.hpp"
@@ -138,8 +138,8 @@ Reference Expander::reference_of(const DxfEntity& entity, const DxfBlock& block)
                          drawing_.value(block.head, 30, 0)},
             point_of(drawing_, entity, 10),
             scale,
-            std::cos(angle),
-            std::sin(angle),
+            elementary::cos(angle),
+            elementary::sin(angle),
             object_axes(extrusion_of(drawing_, entity)),
             std::max(1U, drawing_.flags(entity, 70, 1)),
             std::max(1U, drawing_.flags(entity, 71, 1)),

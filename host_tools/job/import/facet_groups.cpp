@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
 namespace cusp::import {
@@ -75,7 +76,7 @@ public:
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3d side = t[(k + 1) % 3] - t[k];
-            longest = std::max(longest, std::hypot(side.x, side.y));
+            longest = std::max(longest, elementary::hypot(side.x, side.y));
         }
         const double area = norm(cross(t[1] - t[0], t[2] - t[0])) * up;
         constexpr double kSteep = 0.02;
@@ -210,7 +211,7 @@ std::optional<std::vector<std::vector<std::size_t>>> joined(const Mesh& mesh,
 
 double turn_left(Vec3d in, Vec3d out)
 {
-    return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
+    return elementary::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
 }
 
 // Closed loops of the group's boundary edges. If several edges continue from a corner, the leftmost

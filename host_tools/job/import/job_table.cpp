@@ -66,7 +66,7 @@ void JobTable::refuse(const char* key, const std::string& reason, const std::str
                                toml::source_index{1});
     const std::string dot = place_.empty() ? "" : place_ + ": ";
     throw InputError(fmt::format("{}:{}: {}{}: {}", file_, line, dot, key, reason),
-                     {file_, line, key, node == nullptr ? "" : text_of(*node), limit});
+                     {file_, line, key, node == nullptr ? "" : text_of(*node), limit, place_});
 }
 
 const job::Key& JobTable::key_of(const char* key) const

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/part_model/corner_table.hpp"
 
@@ -286,7 +287,7 @@ private:
         const Vec3d on = next - last.end;
         const Vec3d facet = last.third - last.end;
         const double angle =
-            std::atan2(back.x * on.y - back.y * on.x, back.x * on.x + back.y * on.y);
+            elementary::atan2(back.x * on.y - back.y * on.x, back.x * on.x + back.y * on.y);
         const bool facet_is_left = back.y * facet.x - back.x * facet.y > 0;
         const double turn = facet_is_left ? angle : -angle;
         return turn > 0 ? turn : turn + 2 * kPi;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
@@ -32,7 +33,7 @@ constexpr std::size_t kListed = 4;  // holes in the sentence
 
 double cross_in_plan(Vec3d a, Vec3d b) { return a.x * b.y - a.y * b.x; }
 
-double length_in_plan(Vec3d a) { return std::hypot(a.x, a.y); }
+double length_in_plan(Vec3d a) { return elementary::hypot(a.x, a.y); }
 
 // Twice the area in plan; above 0 counter-clockwise.
 double turned_area(const BorderLoop& loop)

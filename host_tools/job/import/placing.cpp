@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 
@@ -25,8 +26,8 @@ std::array<double, 2> direction_of(double degrees)
             {{{1, 0}}, {{0, 1}}, {{-1, 0}}, {{0, -1}}}};
         return kTurns[static_cast<std::size_t>(quarters - 4 * std::floor(quarters / 4))];
     }
-    const double angle = degrees * std::acos(-1.0) / 180;
-    return {std::cos(angle), std::sin(angle)};
+    const double angle = degrees * elementary::acos(-1.0) / 180;
+    return {elementary::cos(angle), elementary::sin(angle)};
 }
 
 // About x (0), y (1) or z (2).

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/dxf_holes.hpp"
@@ -181,7 +181,7 @@ void read_prismatic_keys(JobTable& table,
     cut.width = width.value_or(0);
     cut.given_depth = depth.has_value();
     cut.depth = depth.value_or(0);
-    const double slope = 1 / std::tan(operation.tool.tip_angle / 2);
+    const double slope = 1 / elementary::tan(operation.tool.tip_angle / 2);
     if (operation.cuts(job::Region::kEdges)) {
         cut.depth = cut.width * slope;
     } else if (operation.cuts(job::Region::kValleys)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/job/import/cell_loops.hpp"
 
@@ -94,8 +95,8 @@ public:
     double distance(Vec3d a, Vec3d b) const override
     {
         const Vec3d apart = way(surface_, a, b);
-        return std::hypot(apart.x * surface_.profile(a.y).x,
-                          apart.y * (surface_.is_ring() ? surface_.tube : 1));
+        return elementary::hypot(apart.x * surface_.profile(a.y).x,
+                                 apart.y * (surface_.is_ring() ? surface_.tube : 1));
     }
 
 private:
@@ -138,10 +139,10 @@ double cut_quality(const Revolved& surface,
             const auto& [p, tangent] = edge[k];
             const bool is_end = k == 0 || k + 1 == edge.size();
             const double off_u = from_cut(p.x, starts.u);
-            least = std::min(least, is_end ? off_u : std::hypot(off_u, tangent.x));
+            least = std::min(least, is_end ? off_u : elementary::hypot(off_u, tangent.x));
             if (surface.is_ring()) {
                 const double off_v = from_cut(p.y, starts.v);
-                least = std::min(least, is_end ? off_v : std::hypot(off_v, tangent.y));
+                least = std::min(least, is_end ? off_v : elementary::hypot(off_v, tangent.y));
                 least = std::min(least, std::max(off_u, off_v));
             }
         }
@@ -195,8 +196,8 @@ Vec2d line_of(const std::vector<FaceEdge>& edges)
 
 Vec2d Revolved::profile(double v) const
 {
-    return is_ring() ? Vec2d{radius + tube * std::cos(v), tube * std::sin(v)}
-                     : Vec2d{radius + v * std::sin(slope), v * std::cos(slope)};
+    return is_ring() ? Vec2d{radius + tube * elementary::cos(v), tube * elementary::sin(v)}
+                     : Vec2d{radius + v * elementary::sin(slope), v * elementary::cos(slope)};
 }
 
 PointAndTangent Revolved::uv_of(const PointAndTangent& at) const
@@ -206,18 +207,18 @@ PointAndTangent Revolved::uv_of(const PointAndTangent& at) const
     };
     const Vec3d p = into(at.point - origin);
     const Vec3d d = into(at.tangent);
-    const double out = std::hypot(p.x, p.y);
+    const double out = elementary::hypot(p.x, p.y);
     const double turn = (p.x * d.y - p.y * d.x) / (out * out);
     const double outwards = (p.x * d.x + p.y * d.y) / out;
     const double beyond = out - radius;
-    const double u = std::atan2(p.y, p.x);
+    const double u = elementary::atan2(p.y, p.x);
     if (is_ring()) {
         const double square = beyond * beyond + p.z * p.z;
-        return {{u, std::atan2(p.z, beyond), 0},
+        return {{u, elementary::atan2(p.z, beyond), 0},
                 {turn, (beyond * d.z - p.z * outwards) / square, 0}};
     }
-    const double s = std::sin(slope);
-    const double c = std::cos(slope);
+    const double s = elementary::sin(slope);
+    const double c = elementary::cos(slope);
     return {{u, beyond * s + p.z * c, 0}, {turn, outwards * s + d.z * c, 0}};
 }
 
@@ -225,9 +226,9 @@ double Revolved::off(Vec3d point) const
 {
     const Vec3d p = point - origin;
     const double z = dot(axes[2], p);
-    const double beyond = std::hypot(dot(axes[0], p), dot(axes[1], p)) - radius;
-    return std::abs(is_ring() ? std::hypot(beyond, z) - tube
-                              : beyond * std::cos(slope) - z * std::sin(slope));
+    const double beyond = elementary::hypot(dot(axes[0], p), dot(axes[1], p)) - radius;
+    return std::abs(is_ring() ? elementary::hypot(beyond, z) - tube
+                              : beyond * elementary::cos(slope) - z * elementary::sin(slope));
 }
 
 std::vector<RevolvedCell> revolved_cells(const Revolved& surface,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/trim_fit.hpp"
 #include "host_tools/job/import/trim_loops.hpp"
@@ -21,7 +21,7 @@ using nurbs::Surface;
 namespace {
 
 constexpr double kReach = 50 * kPi / 180;  // of a patch to each side, radians
-const double kTanHalf = std::tan(kReach / 2);
+const double kTanHalf = elementary::tan(kReach / 2);
 constexpr double kMore = 0.05;  // of a line's cell, on each side
 
 struct Control {
@@ -32,9 +32,9 @@ struct Control {
 // An arc of the unit circle about an angle.
 std::array<Control, 3> arc(double middle)
 {
-    const double c = std::cos(kReach);
+    const double c = elementary::cos(kReach);
     const auto at = [](double angle, double r) {
-        return Vec2d{r * std::cos(angle), r * std::sin(angle)};
+        return Vec2d{r * elementary::cos(angle), r * elementary::sin(angle)};
     };
     return {{{at(middle - kReach, 1), 1}, {at(middle, 1 / c), c}, {at(middle + kReach, 1), 1}}};
 }
@@ -84,8 +84,8 @@ struct Parameter {
 
 Parameter of_angle(double angle)
 {
-    const double c = std::cos(angle / 2);
-    return {0.5 + 0.5 * std::tan(angle / 2) / kTanHalf, 0.25 / (kTanHalf * c * c)};
+    const double c = elementary::cos(angle / 2);
+    return {0.5 + 0.5 * elementary::tan(angle / 2) / kTanHalf, 0.25 / (kTanHalf * c * c)};
 }
 
 Parameter of_length(double v, double low, double high)

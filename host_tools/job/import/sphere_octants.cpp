@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/job/import/cell_loops.hpp"
 
@@ -35,7 +36,8 @@ public:
     }
     double along(Vec3d p, unsigned arc) const override
     {
-        return std::atan2(dot(p, corners_[(arc + 1) % 3]), dot(p, corners_[arc])) / (0.5 * kPi);
+        return elementary::atan2(dot(p, corners_[(arc + 1) % 3]), dot(p, corners_[arc])) /
+               (0.5 * kPi);
     }
     FaceEdge part(unsigned arc, double from, double to) const override
     {
@@ -44,8 +46,8 @@ public:
         return {[a, b](double t) {
                     const double angle = 0.5 * kPi * t;
                     return PointAndTangent{
-                        a * std::cos(angle) + b * std::sin(angle),
-                        (b * std::cos(angle) - a * std::sin(angle)) * (0.5 * kPi)};
+                        a * elementary::cos(angle) + b * elementary::sin(angle),
+                        (b * elementary::cos(angle) - a * elementary::sin(angle)) * (0.5 * kPi)};
                 },
                 from, to};
     }
@@ -67,7 +69,7 @@ double cut_quality(const std::vector<FaceEdge>& edges)
             for (unsigned axis = 0; axis < 3; ++axis) {
                 const double off = std::abs(p[axis]);
                 const bool is_end = k == 0 || k == kEdgeChords;
-                least = std::min(least, is_end ? off : std::hypot(off, along[axis]));
+                least = std::min(least, is_end ? off : elementary::hypot(off, along[axis]));
                 least = std::min(least, std::max(off, std::abs(p[(axis + 1) % 3])));
             }
         }

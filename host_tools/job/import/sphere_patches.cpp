@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/trim_fit.hpp"
 #include "host_tools/job/import/trim_loops.hpp"
@@ -66,10 +67,11 @@ Axes best_axes(const std::vector<FaceEdge>& edges, Vec3d centre)
         const double z = (i + 0.5) / kChoices;
         const double angle = kGoldenAngle * i;
         const double across = std::sqrt(1 - z * z);
-        const Vec3d first{across * std::cos(angle), across * std::sin(angle), z};
+        const Vec3d first{across * elementary::cos(angle), across * elementary::sin(angle), z};
         // not parallel to `first`, and turned about it from one choice to the next
         const Axes about = axes_of(first, {-first.y, first.x, 0});
-        const Vec3d beside = about[1] * std::cos(angle * i) + about[2] * std::sin(angle * i);
+        const Vec3d beside =
+            about[1] * elementary::cos(angle * i) + about[2] * elementary::sin(angle * i);
         const Axes axes = axes_of(first, beside);
         const double quality = cut_quality(on_unit_sphere(edges, centre, axes));
         if (quality > most) {
@@ -109,16 +111,16 @@ PointAndTangent uv_of(const Axes& axes, const PointAndTangent& found)
 {
     const Vec3d p = into(axes, found.point);
     const Vec3d d = into(axes, found.tangent);
-    const double across = std::hypot(p.x, p.y);
-    const double longitude = std::atan2(p.y, p.x);
-    const double latitude = std::atan2(p.z, across);
+    const double across = elementary::hypot(p.x, p.y);
+    const double longitude = elementary::atan2(p.y, p.x);
+    const double latitude = elementary::atan2(p.z, across);
     const double turn = (p.x * d.y - p.y * d.x) / (across * across);
     const double rise = d.z / across;
     const auto half_tan = [](double angle) {
-        return std::tan(angle / 2) / kTan30;
+        return elementary::tan(angle / 2) / kTan30;
     };
     const auto slope = [](double angle) {
-        const double c = std::cos(angle / 2);
+        const double c = elementary::cos(angle / 2);
         return 0.25 / (kTan30 * c * c);
     };
     return {{0.5 + 0.5 * half_tan(longitude), 0.5 + 0.5 * half_tan(latitude), 0},

@@ -2,8 +2,8 @@
 //
 //   // the cap above a circle of radius 6 about z, on a sphere of radius 10 about the origin
 //   const FaceEdge circle{[](double t) {
-//       return PointAndTangent{{6 * std::cos(t), 6 * std::sin(t), 8},
-//                              {-6 * std::sin(t), 6 * std::cos(t), 0}};
+//       return PointAndTangent{{6 * elementary::cos(t), 6 * elementary::sin(t), 8},
+//                              {-6 * elementary::sin(t), 6 * elementary::cos(t), 0}};
 //   }, 0, 2 * kPi};
 //   const std::vector<nurbs::Surface> cap = sphere_patches({{0, 0, 0}, 10}, {circle}, 0.01, "cap");
 //
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "firmware/base/vec.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/nurbs.hpp"
 #include "host_tools/job/import/sphere_octants.hpp"
 

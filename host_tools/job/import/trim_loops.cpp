@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
@@ -30,7 +31,10 @@ struct Domain {
     double size() const { return std::max(u_end - u_begin, v_end - v_begin); }
 };
 
-bool meet(Vec3d a, Vec3d b, double allowed) { return std::hypot(a.x - b.x, a.y - b.y) <= allowed; }
+bool meet(Vec3d a, Vec3d b, double allowed)
+{
+    return elementary::hypot(a.x - b.x, a.y - b.y) <= allowed;
+}
 
 Curve parameter_line(Vec2d a, Vec2d b)
 {

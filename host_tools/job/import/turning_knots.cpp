@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 
 namespace cusp::import {
@@ -35,7 +36,7 @@ double turn_between(const Surface& s, double from, double to, Place place)
         }
         const Vec3d unit = n / length;
         if (norm(before) > 0) {
-            turn += std::atan2(norm(cross(before, unit)), dot(before, unit));
+            turn += elementary::atan2(norm(cross(before, unit)), dot(before, unit));
         }
         before = unit;
     }

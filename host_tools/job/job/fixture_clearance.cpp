@@ -2,10 +2,10 @@
 #include "host_tools/job/job/fixture_clearance.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <vector>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
@@ -86,7 +86,8 @@ double distance_to(const Fixture& fixture, double tool_radius, Vec3d tip)
     const double x = std::max(fixture.low.x - tip.x, tip.x - fixture.high.x);
     const double y = std::max(fixture.low.y - tip.y, tip.y - fixture.high.y);
     const bool beside = x > 0 || y > 0;
-    const double body = beside ? std::hypot(std::max(x, 0.0), std::max(y, 0.0)) : std::max(x, y);
+    const double body =
+        beside ? elementary::hypot(std::max(x, 0.0), std::max(y, 0.0)) : std::max(x, y);
     return std::max(body - grown, tip.z - (fixture.top + fixture.margin));
 }
 

@@ -56,7 +56,7 @@ class PieceChords {
 public:
     PieceChords(const Curve& piece, double tolerance, std::vector<Vec2d>& out)
         : count_{piece.points.size()},
-          share_of_ends_{std::exp2(2.0 - static_cast<double>(count_))},
+          share_of_ends_{std::ldexp(1.0, 2 - static_cast<int>(count_))},
           tolerance_{tolerance},
           out_{out}
     {

@@ -1,8 +1,7 @@
 // Checks an operation as a whole, strategy by strategy.
 #include "host_tools/job/job/operation_check.hpp"
 
-#include <cmath>
-
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/job/level_floor.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
@@ -97,7 +96,7 @@ void need(
 
 double flank_height(const Tool& tool)
 {
-    const double slope = 1 / std::tan(tool.tip_angle / 2);
+    const double slope = 1 / elementary::tan(tool.tip_angle / 2);
     return (tool.radius - tool.tip_radius) * slope;
 }
 

@@ -2,11 +2,11 @@
 #include "host_tools/job/job/overlap_warnings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
@@ -39,12 +39,12 @@ Outline outline_of(const Operation& operation, std::vector<Vec2d> closed)
 std::vector<Vec2d> circle(Vec2d centre, double radius)
 {
     constexpr int kCorners = 64;
-    const double turn = 2 * std::acos(-1.0);
+    const double turn = 2 * elementary::acos(-1.0);
     std::vector<Vec2d> closed;
     for (int i = 0; i <= kCorners; ++i) {
         const double angle =
             0.02 + turn * (i % kCorners) / kCorners;  // no corner on a line of the grid
-        closed.push_back(centre + radius * Vec2d{std::cos(angle), std::sin(angle)});
+        closed.push_back(centre + radius * Vec2d{elementary::cos(angle), elementary::sin(angle)});
     }
     return closed;
 }

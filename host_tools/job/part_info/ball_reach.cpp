@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/pattern_search.hpp"
 
 namespace cusp::part_info {
@@ -111,8 +112,8 @@ private:
         for (const double ring : {1.0, 0.7, 0.35}) {
             for (int k = 0; k < kWays && least_ > allowed; ++k) {
                 const double reach = ring * ball_.radius;
-                better({middle.x + reach * std::cos(k * kTurn),
-                        middle.y + reach * std::sin(k * kTurn)});
+                better({middle.x + reach * elementary::cos(k * kTurn),
+                        middle.y + reach * elementary::sin(k * kTurn)});
             }
         }
     }

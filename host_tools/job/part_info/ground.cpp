@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::part_info {
 namespace {
@@ -16,8 +17,8 @@ constexpr double kBase = 1e-3;   // mm: height of the underside above the lowest
 
 double steepness(const GroundPlace& place)
 {
-    const double across = std::hypot(place.normal.x, place.normal.y);
-    return std::atan2(across, std::abs(place.normal.z)) * 180 / kPi;
+    const double across = elementary::hypot(place.normal.x, place.normal.y);
+    return elementary::atan2(across, std::abs(place.normal.z)) * 180 / kPi;
 }
 
 bool hidden_from_above(const TopOfPart& top, const GroundPlace& place)

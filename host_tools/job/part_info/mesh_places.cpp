@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::part_info {
 namespace {
 
@@ -85,7 +87,7 @@ std::vector<Crease> concave_edges(const WeldedMesh& mesh)
         const Vec3d n0 = facing(mesh, edge.facets[0]);
         const Vec3d n1 = facing(mesh, edge.facets[1]);
         const Vec3d beyond = mesh.corners[other_corner(mesh, edge.facets[1], edge)] - a;
-        const double turn = std::atan2(norm(cross(n0, n1)), dot(n0, n1));
+        const double turn = elementary::atan2(norm(cross(n0, n1)), dot(n0, n1));
         if (turn > kLeastTurn && dot(n0, beyond) > 0) {
             const double length = norm(mesh.corners[edge.corners[1]] - a);
             creases.push_back({(norm(n0) + norm(n1)) / (2 * length * turn), e});

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 #include "fmt/format.h"
 
 namespace cusp::report {
@@ -20,6 +22,7 @@ constexpr std::array<Colour, 6> kStops{Colour{68, 1, 84},    Colour{65, 68, 135}
                                        Colour{122, 209, 81}, Colour{253, 231, 37}};
 
 constexpr double kSlack = 1e-6;  // of a step between the numbers of a scale
+constexpr int kLeastDecade = -22;
 
 }  // namespace
 
@@ -28,7 +31,11 @@ double round_below(double limit)
     if (!(limit > 0)) {
         return 1;
     }
-    const double power = std::pow(10.0, std::floor(std::log10(limit)));
+    int decade = kLeastDecade;
+    while (decade < -kLeastDecade && elementary::power_of_ten(decade + 1) <= limit) {
+        ++decade;
+    }
+    const double power = elementary::power_of_ten(decade);
     const double share = limit / power;
     return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
@@ -253,7 +254,7 @@ RegionAt CutRegion::hole_at(double x, double y) const
 RegionAt CutRegion::carved_at(double x, double y) const
 {
     const Prismatic& cut = *operation_->prismatic;
-    const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
+    const double slope = 1 / elementary::tan(operation_->tool.tip_angle / 2);
     const double inward = into_material(x, y);
     const bool on_floor = inward * slope >= cut.depth;
     const double beside = operation_->tolerance.plan * slope;
@@ -308,7 +309,7 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
     }
     if (operation_->cuts(job::Region::kEdges)) {
         const double inward = into_material(x, y);
-        const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
+        const double slope = 1 / elementary::tan(operation_->tool.tip_angle / 2);
         return {std::min(cut.width - inward, 2 * radius + inward),
                 cut.top - (cut.width - inward) * slope, 0.0, operation_->tolerance.plan * slope,
                 0.0};

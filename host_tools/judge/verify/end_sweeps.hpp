@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 
@@ -32,9 +33,9 @@ struct Profile {
         reach = radius * radius;
         if (is_conical(tool)) {
             flat = std::max(0.0, tool.tip_radius - shrink);
-            rise = 1 / std::tan(tool.tip_angle / 2);
-            join = corner * std::cos(tool.tip_angle / 2);
-            joined = corner * (1 - std::sin(tool.tip_angle / 2));
+            rise = 1 / elementary::tan(tool.tip_angle / 2);
+            join = corner * elementary::cos(tool.tip_angle / 2);
+            joined = corner * (1 - elementary::sin(tool.tip_angle / 2));
         }
     }
     double at(double squared) const

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 namespace cusp::verify {
@@ -23,8 +24,8 @@ constexpr double kRadian = 180 / kPi;    // degrees
 double found_over(double limit, double radius, double pitch)
 {
     const double most = std::min(180.0, kAllowedShare * limit) / kRadian;
-    return kRadian *
-           std::acos(std::clamp(std::cos(most) - kAllowedPitches * pitch / radius, -1.0, 1.0));
+    return kRadian * elementary::acos(std::clamp(
+                         elementary::cos(most) - kAllowedPitches * pitch / radius, -1.0, 1.0));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 
 namespace cusp::verify {
 
@@ -24,7 +25,7 @@ std::array<Vec2d, kLooks> front_half()
     std::array<Vec2d, kLooks> all{};
     for (int n = 0; n < kLooks; ++n) {
         const double angle = kPi * ((n + 0.5) / kLooks - 0.5);
-        all[static_cast<std::size_t>(n)] = {std::cos(angle), std::sin(angle)};
+        all[static_cast<std::size_t>(n)] = {elementary::cos(angle), elementary::sin(angle)};
     }
     return all;
 }
@@ -158,7 +159,8 @@ double EngagementTrace::angle_seen(std::size_t k) const
         in_stock += band[k].in_stock;
     }
     const double outer = 1 + kOutside * grid_.pitch / positions_.tool.radius;
-    return std::acos(std::clamp(outer * std::cos(kPi * in_stock / kLooks), -1.0, 1.0));
+    return elementary::acos(
+        std::clamp(outer * elementary::cos(kPi * in_stock / kLooks), -1.0, 1.0));
 }
 
 // Thin cuts remove a point of the grid now and then: only long gaps between such are air.

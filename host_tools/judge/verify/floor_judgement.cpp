@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/reachable.hpp"
 #include "host_tools/judge/verify/residual_thickness.hpp"
@@ -254,20 +255,21 @@ double fine_distance(ToolAccess& reach, Vec3d top, double distance, double suffi
                 {static_cast<double>(i) / kColumns, static_cast<double>(j) / kColumns});
         }
     }
-    std::stable_sort(around.begin(), around.end(),
-                     [](Vec2d a, Vec2d b) { return std::hypot(a.x, a.y) < std::hypot(b.x, b.y); });
+    std::stable_sort(around.begin(), around.end(), [](Vec2d a, Vec2d b) {
+        return elementary::hypot(a.x, a.y) < elementary::hypot(b.x, b.y);
+    });
     double least = distance;
     double before = kInfinite;
     while (least > sufficient && least < kNearer * before) {
         before = least;
         for (const Vec2d at : around) {
-            const double out = before * std::hypot(at.x, at.y);
+            const double out = before * elementary::hypot(at.x, at.y);
             if (out >= least || least <= sufficient) {
                 break;
             }
             const Vec3d place{top.x + before * at.x, top.y + before * at.y, top.z - before};
             const double height = reach.lowest_over(place, {0, 0, 1}, top.z);
-            least = std::min(least, std::hypot(out, std::max(0.0, top.z - height)));
+            least = std::min(least, elementary::hypot(out, std::max(0.0, top.z - height)));
         }
     }
     return least;

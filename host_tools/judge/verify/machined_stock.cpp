@@ -7,6 +7,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/end_sweeps.hpp"
 #include "host_tools/judge/verify/engagement_trace.hpp"
@@ -383,7 +384,7 @@ void MachinedStock::sweep_flat(
 void MachinedStock::sweep_cone(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
-    const double rise = 1 / std::tan(tool.tip_angle / 2);
+    const double rise = 1 / elementary::tan(tool.tip_angle / 2);
     const double reach = std::min(
         tool.radius, tool.tip_radius + tool.corner_radius + (top_ - std::min(from.z, to.z)) / rise);
     const ConeSweep sweep{tool, from, to};

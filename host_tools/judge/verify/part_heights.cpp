@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 
@@ -115,7 +116,7 @@ Root solve(const Quad& quad, double x, double y, double u, double v)
         root.at = derivatives_at(patch, root.u, root.v);
         const double ex = x - root.at.point.x;
         const double ey = y - root.at.point.y;
-        if (std::hypot(ex, ey) < kMeet) {
+        if (elementary::hypot(ex, ey) < kMeet) {
             root.found = true;
             return root;
         }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/controller/dialect/line_source.hpp"
@@ -33,7 +34,7 @@ Vec3d point_on(const path::Arc& arc, double t)
 {
     const double angle = t * arc.sweep;
     const double radius = arc.radius + t * arc.radius_change;
-    return arc.centre + radius * (std::cos(angle) * arc.u + std::sin(angle) * arc.v) +
+    return arc.centre + radius * (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
            t * arc.axial;
 }
 

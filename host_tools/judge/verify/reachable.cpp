@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 
 namespace cusp::verify {
@@ -28,7 +29,8 @@ std::vector<Place> points_under(const Tool& tool, double pitch)
     const auto n = static_cast<std::ptrdiff_t>(tool.radius / pitch);
     for (std::ptrdiff_t i = -n; i <= n; ++i) {
         for (std::ptrdiff_t j = -n; j <= n; ++j) {
-            const double d = std::hypot(static_cast<double>(i), static_cast<double>(j)) * pitch;
+            const double d =
+                elementary::hypot(static_cast<double>(i), static_cast<double>(j)) * pitch;
             if (d <= tool.radius) {
                 places.push_back({i, j, static_cast<float>(profile_height(tool, d)), 0, 0, 0});
             }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::verify {
 
 using toolpath::Tool;
@@ -17,13 +19,13 @@ constexpr double kMostSquares = 1e6;
 // mm from a place to the tool; 0 or less inside.
 double distance_to(const Tool& tool, Vec3d tip, Vec3d place)
 {
-    const double out = std::hypot(place.x - tip.x, place.y - tip.y);
+    const double out = elementary::hypot(place.x - tip.x, place.y - tip.y);
     const double over = place.z - tip.z;
     if (over >= tool.corner_radius) {
         return out - tool.radius;
     }
     const double beside = std::max(0.0, out - (tool.radius - tool.corner_radius));
-    return std::hypot(beside, tool.corner_radius - over) - tool.corner_radius;
+    return elementary::hypot(beside, tool.corner_radius - over) - tool.corner_radius;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::verify {
 
 double stock_distance(const HeightGrid& grid,
@@ -29,8 +31,8 @@ double stock_distance(const HeightGrid& grid,
         if (!std::isfinite(height)) {
             return;
         }
-        const double out = std::hypot(grid.x(at_x, at_y) - x, grid.y(at_x, at_y) - y);
-        least = std::min(least, std::hypot(out, std::max(0.0, top - height)));
+        const double out = elementary::hypot(grid.x(at_x, at_y) - x, grid.y(at_x, at_y) - y);
+        least = std::min(least, elementary::hypot(out, std::max(0.0, top - height)));
     };
     // Shifts bring two columns nearer by up to a pitch.
     for (std::ptrdiff_t ring = 0; least > sufficient; ++ring) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::verify {
 
 using drop_cutter::LowestPositionSearch;
@@ -104,7 +106,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
     double lowest = kInfinite;
     for (Cutter& cutter : cutters_) {
         // the position of a tool that touches the point
-        const double level = std::hypot(normal.x, normal.y);
+        const double level = elementary::hypot(normal.x, normal.y);
         const double flat = cutter.tool.radius - cutter.tool.corner_radius;
         const double out = cutter.grown_tool.corner_radius + (level > 0 ? flat / level : 0.0);
         const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};

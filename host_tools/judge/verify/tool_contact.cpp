@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 
@@ -207,7 +208,8 @@ double ContactTrace::box_distance(const Columns& columns,
             first + (static_cast<double>(origin + index * kTile) - 0.5) * grid_.pitch;
         return std::max({0.0, low - at, at - (low + kTile * grid_.pitch)});
     };
-    return std::hypot(beside(grid_.x0, column, columns.begin, p.x), beside(grid_.y0, row, 0, p.y));
+    return elementary::hypot(beside(grid_.x0, column, columns.begin, p.x),
+                             beside(grid_.y0, row, 0, p.y));
 }
 
 ContactTrace::Nearest ContactTrace::nearest(const Columns& columns,

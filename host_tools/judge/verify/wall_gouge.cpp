@@ -2,8 +2,8 @@
 #include "host_tools/judge/verify/wall_gouge.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 
@@ -95,7 +95,8 @@ private:
         const double z = tip.z + height;
         for (int k = 0; k < kPlaces; ++k) {
             const double angle = kTurn * k / kPlaces;
-            const Vec2d place{tip.x + radius * std::cos(angle), tip.y + radius * std::sin(angle)};
+            const Vec2d place{tip.x + radius * elementary::cos(angle),
+                              tip.y + radius * elementary::sin(angle)};
             for (std::size_t n = 0; n < regions_.size(); ++n) {
                 here_[n] = regions_[n].around(place);
             }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 #include "host_tools/judge/verify/wall_distance.hpp"
@@ -49,7 +50,7 @@ double judged_height(const Operation& operation, double floor_tolerance)
         return cut.top;
     }
     if (operation.cuts(job::Region::kEdges)) {
-        return cut.top - cut.width / std::tan(operation.tool.tip_angle / 2);
+        return cut.top - cut.width / elementary::tan(operation.tool.tip_angle / 2);
     }
     return std::min(cut.top, cut.top - cut.depth + floor_tolerance + end_height(operation.tool));
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/base/elementary/elementary.hpp"
+
 namespace cusp::view {
 
 using verify::HeightGrid;
@@ -101,9 +103,10 @@ std::vector<WorstPlace> worst_places(const Verification& v, double top)
         const std::size_t i = candidate.k / grid.ny;
         const std::size_t j = candidate.k % grid.ny;
         const Vec3d at{grid.x(i, j), grid.y(i, j), v.part[candidate.k]};
-        const bool near_another = std::any_of(
-            places.begin(), places.end(),
-            [&](const WorstPlace& p) { return std::hypot(p.at.x - at.x, p.at.y - at.y) < apart; });
+        const bool near_another =
+            std::any_of(places.begin(), places.end(), [&](const WorstPlace& p) {
+                return elementary::hypot(p.at.x - at.x, p.at.y - at.y) < apart;
+            });
         if (near_another) {
             continue;
         }
