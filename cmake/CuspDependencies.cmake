@@ -4,8 +4,11 @@
 
 # A package and a header of it.
 set(product_headers libcli11-dev CLI/CLI.hpp libfmt-dev fmt/format.h libserialport-dev libserialport.h
-  libtomlplusplus-dev toml++/toml.h libtbb-dev oneapi/tbb/version.h nlohmann-json3-dev nlohmann/json.hpp
+  libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
   zlib1g-dev zlib.h)
+if(CUSP_THREADS)
+  list(APPEND product_headers libtbb-dev oneapi/tbb/version.h)
+endif()
 set(test_headers cpputest CppUTest/TestHarness.h libpolyclipping-dev polyclipping/clipper.hpp)
 set(benchmark_headers libbenchmark-dev benchmark/benchmark.h)
 
@@ -41,7 +44,31 @@ function(cusp_import_library target headers name)
     INTERFACE_INCLUDE_DIRECTORIES ${headers})
 endfunction()
 
+# For emscripten: headers alone, in a folder of their own, since /usr/include is that of another system.
+function(cusp_link_headers)
+  set(headers ${PROJECT_BINARY_DIR}/headers)
+  file(MAKE_DIRECTORY ${headers})
+  foreach(name fmt nlohmann toml++ fast_float Eigen)
+    find_path(CUSP_headers_${name} ${name} PATHS /usr/include /usr/include/eigen3 NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+    if(NOT CUSP_headers_${name})
+      message(FATAL_ERROR "cusp: the headers of ${name} are missing: libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, "
+        "libfast-float-dev and libeigen3-dev are needed")
+    endif()
+    file(CREATE_LINK ${CUSP_headers_${name}}/${name} ${headers}/${name} SYMBOLIC)
+  endforeach()
+  foreach(target fmt::fmt nlohmann_json::nlohmann_json Eigen3::Eigen cusp_fast_float)
+    add_library(${target} INTERFACE IMPORTED GLOBAL)
+    target_include_directories(${target} SYSTEM INTERFACE ${headers})
+  endforeach()
+  target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+  set(TOMLPLUSPLUS_INCLUDE ${headers} PARENT_SCOPE)
+endfunction()
+
 set(missing "")
+if(EMSCRIPTEN AND PROJECT_NAME)
+  cusp_link_headers()
+  return()
+endif()
 if(NOT PROJECT_NAME AND NOT CMAKE_TOOLCHAIN_FILE)
   if(CMAKE_GENERATOR MATCHES "Ninja" AND NOT CMAKE_MAKE_PROGRAM)
     cusp_look_for_program(ninja-build ninja ninja-build)
@@ -95,7 +122,9 @@ if(CUSP_HOST_TOOLS)
   find_package(CLI11 REQUIRED)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
-  find_package(TBB REQUIRED)
+  if(CUSP_THREADS)
+    find_package(TBB REQUIRED)
+  endif()
   find_package(Threads REQUIRED)
   if(NOT CUSP_EIGEN STREQUAL "OFF")
     find_package(Eigen3 3.3 QUIET NO_MODULE)

@@ -1,27 +1,25 @@
 // cusp fit: replaces short lines by arcs and lines, checks the result, writes statistics.
 #include <chrono>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/base/json_text/json_text.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/controller/program_fit/program_fit.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
-#include "nlohmann/json.hpp"
 
 namespace cusp::cli {
 
+using files::text_of_file;
 using files::write_text;
 using program_fit::fit_program;
 using program_fit::FitReport;
 using program_fit::FittedProgram;
+using program_fit::statistics_json;
 
 namespace {
 
@@ -32,36 +30,10 @@ struct FitOptions {
     double tolerance{};
 };
 
-std::string read_file(const std::string& name)
-{
-    std::ifstream in(name, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in || !text) {
-        throw InputError(name + ": can't be read");
-    }
-    return std::move(text).str();
-}
-
-void write_stats(const std::string& name, const FitReport& report, double tolerance, double seconds)
-{
-    const nlohmann::ordered_json stats{{"lines_read", report.lines_read},
-                                       {"tolerance_mm", tolerance},
-                                       {"moves_in", report.moves_in},
-                                       {"moves_out", report.moves_out},
-                                       {"lines", report.lines},
-                                       {"arcs", report.arcs},
-                                       {"rapids", report.rapids},
-                                       {"max_deviation_mm", report.max_deviation_mm},
-                                       {"max_vertex_deviation_mm", report.max_vertex_deviation_mm},
-                                       {"seconds", seconds}};
-    write_text(name, json_text::written(stats, 1) + "\n");
-}
-
 int run_fit(const FitOptions& options)
 {
     const auto begin = std::chrono::steady_clock::now();
-    const std::string program = read_file(options.program);
+    const std::string program = text_of_file(options.program);
     const FittedProgram fitted =
         fit_program(program, options.program, options.tolerance, ShareProgress{"fitting"});
     write_text(options.output, fitted.text);
@@ -69,7 +41,7 @@ int run_fit(const FitOptions& options)
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const FitReport& report = fitted.report;
     if (!options.stats.empty()) {
-        write_stats(options.stats, report, options.tolerance, seconds);
+        write_text(options.stats, statistics_json(report, options.tolerance, seconds));
     }
     fmt::print(
         "{} feed moves became {}: {} lines, {} arcs; off by at most {:.4f} mm at a vertex, "

@@ -1,6 +1,5 @@
 // cusp plan: from a job file, or from parts and tools, to G-code and its statistics.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,16 +92,6 @@ void write_files(const Job& job, const PlannedProgram& program, const PlanFiles&
     if (!files.stats.empty()) {
         write_text(files.stats, statistics_json(job, program));
     }
-}
-
-// "part.ngc" of the set-up "bottom" is "part-bottom.ngc"; "" stays.
-std::string file_of_setup(const std::string& file, const job::Setup& setup)
-{
-    const std::filesystem::path path{file};
-    return file.empty() ? file
-                        : (path.parent_path() /
-                           (path.stem().string() + "-" + setup.name + path.extension().string()))
-                              .string();
 }
 
 // A program for each; those before it have made the stock of the later ones.

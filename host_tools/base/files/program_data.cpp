@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 fs::path program_folder()
 {
     std::error_code failed;
-    return fs::read_symlink("/proc/self/exe", failed).parent_path();
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    return failed ? fs::path{"/"} : program.parent_path();
 }
 
 std::optional<fs::path> program_data(const std::string& folder, const std::string& needed)

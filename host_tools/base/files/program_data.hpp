@@ -14,7 +14,7 @@ namespace cusp::files {
 std::optional<std::filesystem::path> program_data(const std::string& folder,
                                                   const std::string& needed);
 
-// The folder of the executable.
+// The folder of the executable; the root where there is none, as in WebAssembly.
 std::filesystem::path program_folder();
 
 }  // namespace cusp::files

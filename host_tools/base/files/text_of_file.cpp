@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host_tools/base/files/file_set.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 
@@ -13,6 +14,9 @@ namespace cusp::files {
 
 std::string text_of_file(const std::string& file)
 {
+    if (const std::string* text = find_in_memory(file)) {
+        return *text;
+    }
     if (std::filesystem::is_directory(file)) {
         throw InputError(file + ": is a folder");
     }

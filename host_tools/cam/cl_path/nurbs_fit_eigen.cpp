@@ -6,6 +6,8 @@
 #include "host_tools/cam/cl_path/cl_path.hpp"
 #include "host_tools/cam/cl_path/nurbs_fit.hpp"
 
+// Its sums in vectors have other bits on each machine.
+#define EIGEN_DONT_VECTORIZE
 // Eigen's headers do not compile without these warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"

@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "host_tools/base/files/file_set.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/controller/dialect/line_source.hpp"
 
@@ -38,10 +39,16 @@ std::uint64_t size_of(const std::string& file)
     return failed ? 0 : size;
 }
 
+LineSource opened(const std::string& file)
+{
+    if (const std::string* text = files::find_in_memory(file)) {
+        return LineSource::of_text(file, *text);
+    }
+    return {file, reader_of(file), size_of(file)};
+}
+
 }  // namespace
 
-LineSource::LineSource(const std::string& file) : LineSource{file, reader_of(file), size_of(file)}
-{
-}
+LineSource::LineSource(const std::string& file) : LineSource{opened(file)} {}
 
 }  // namespace cusp::dialect

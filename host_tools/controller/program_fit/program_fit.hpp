@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -44,5 +45,10 @@ FittedProgram fit_program(std::string_view program,
                           const std::string& name,
                           double tolerance,
                           const std::function<void(double)>& progress = {});
+
+// The figures of a fit as JSON, docs/stats.md; with "seconds" where the time is known.
+std::string statistics_json(const FitReport& report,
+                            double tolerance,
+                            std::optional<double> seconds = {});
 
 }  // namespace cusp::program_fit

@@ -21,18 +21,30 @@ std::string value_text(const Settings& settings, std::size_t index)
                        int{machine::setting_entry(index).decimals});
 }
 
+Settings settings_of(LineSource& source)
+{
+    Settings settings;
+    if (const auto refusal = program_run::read_settings(source, settings)) {
+        const std::string& name = source.name();
+        const std::string place =
+            refusal->line == 0 ? name : fmt::format("{}:{}", name, refusal->line);
+        throw InputError{place + ": " + refusal->text, {name, refusal->line}};
+    }
+    return settings;
+}
+
 }  // namespace
 
 Settings read_settings_file(const std::string& file)
 {
     LineSource source{file};
-    Settings settings;
-    if (const auto refusal = program_run::read_settings(source, settings)) {
-        const std::string place =
-            refusal->line == 0 ? file : fmt::format("{}:{}", file, refusal->line);
-        throw InputError{place + ": " + refusal->text, {file, refusal->line}};
-    }
-    return settings;
+    return settings_of(source);
+}
+
+Settings settings_of_text(const std::string& text, const std::string& name)
+{
+    LineSource source = LineSource::of_text(name, text);
+    return settings_of(source);
 }
 
 std::string settings_text(const Settings& settings)

@@ -14,6 +14,8 @@ namespace cusp::simulate {
 // Errors: InputError with file, line, setting, value and limit if the file cannot be read, a line
 // is no setting, a value is out of range, or settings contradict each other.
 machine::Settings read_settings_file(const std::string& file);
+// As above, of a text; `name` is for messages.
+machine::Settings settings_of_text(const std::string& text, const std::string& name);
 
 // All settings as a file.
 std::string settings_text(const machine::Settings& settings);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/base/files/file_set.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/facets.hpp"
 #include "host_tools/job/import/mesh_holes.hpp"
@@ -58,7 +59,9 @@ CadModel read_model(const std::string& file, const Similarity& placed, bool all_
                         file, dlerror()));
     }
     CadModel model;
-    reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(file, placed, all_faces, model);
+    files::with_file_on_disk(file, [&](const std::string& path) {
+        reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(path, placed, all_faces, model);
+    });
     for (Surface& surface : model.faces) {
         surface = with_turning_knots(surface);
     }

@@ -9,12 +9,15 @@
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 #include "host_tools/job/import/dxf_text.hpp"
 #include "host_tools/job/import/dxf_units.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::import {
+using number_text::number_of;
+
 namespace {
 
 std::string_view trimmed(std::string_view text)
@@ -266,15 +269,11 @@ std::string_view DxfDrawing::text(const DxfEntity& entity, int code, std::string
 
 double DxfDrawing::number(const DxfGroup& group) const
 {
-    double value = 0;
-    const char* end = group.value.data() + group.value.size();
-    const char* begin = group.value.data();
-    begin += begin != end && *begin == '+' ? 1 : 0;
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
+    const auto value = number_of(group.value);
+    if (!value || !std::isfinite(*value)) {
         refuse(group.line, fmt::format("\"{}\" is not a number", group.value.substr(0, 40)));
     }
-    return value;
+    return *value;
 }
 
 double DxfDrawing::value(const DxfEntity& entity, int code, double otherwise) const

@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "host_tools/base/files/files.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 #include "host_tools/job/import/polygon_triangles.hpp"
 
 namespace cusp::import {
+using number_text::number_of;
+
 namespace {
 
 constexpr const char* kBlanks = " \t\r\\\n";
@@ -57,12 +60,11 @@ private:
         Vec3d at{};
         for (unsigned axis = 0; axis < 3; ++axis) {
             const std::string_view word = next();
-            const std::size_t sign = !word.empty() && word[0] == '+' ? 1 : 0;
-            const char* end = word.data() + word.size();
-            const auto [stop, error] = std::from_chars(word.data() + sign, end, at[axis]);
-            if (error != std::errc{} || stop != end || word.size() == sign) {
+            const auto value = number_of(word);
+            if (!value) {
                 refuse(word, "a number is needed");
             }
+            at[axis] = *value;
         }
         vertices_.push_back(unit_ * at);
         check_corner(vertices_.back(), [&] { return place(); });

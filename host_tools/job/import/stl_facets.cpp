@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
@@ -12,10 +11,13 @@
 
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::import {
+using number_text::number_of;
+
 namespace {
 
 constexpr std::size_t kHead = 84;
@@ -92,14 +94,11 @@ public:
     double number()
     {
         const std::string word = next();
-        const char* begin = word.data() + (!word.empty() && word[0] == '+' ? 1 : 0);
-        const char* end = word.data() + word.size();
-        double value = 0;
-        const auto [stop, error] = std::from_chars(begin, end, value);
-        if (error != std::errc{} || stop != end || begin == end) {
+        const auto value = number_of(word);
+        if (!value) {
             refuse(word, "a number is needed");
         }
-        return value;
+        return *value;
     }
     [[noreturn]] void refuse(const std::string& word, const std::string& needed) const
     {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host_tools/base/files/file_set.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/placing_reader.hpp"
 #include "host_tools/job/import/stock_top.hpp"
@@ -73,18 +74,18 @@ std::vector<std::string> read_programs(JobTable& table,
                                        const char* key,
                                        const std::filesystem::path& folder)
 {
-    std::vector<std::string> files;
+    std::vector<std::string> programs;
     const auto names = table.texts(key);
     for (const std::string& name : names.value_or(std::vector<std::string>{})) {
-        files.push_back(path_in(folder, name));
-        if (!std::filesystem::is_regular_file(files.back())) {
-            table.refuse(key, fmt::format("names {}, which is no file", files.back()));
+        programs.push_back(path_in(folder, name));
+        if (!files::is_file(programs.back())) {
+            table.refuse(key, fmt::format("names {}, which is no file", programs.back()));
         }
     }
     if (names && names->empty()) {
         table.refuse(key, "names no program");
     }
-    return files;
+    return programs;
 }
 
 StockTable::StockTable(const toml::table* table,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/base/files/file_set.hpp"
 #include "host_tools/base/files/files.hpp"
 
 #include "Model/COM/NMR_DLLInterfaces.h"
@@ -207,6 +208,12 @@ void ThreemfReader::add_mesh(Handle mesh, const Placed& placed)
 
 }  // namespace
 
-Facets read_threemf(const std::string& file) { return ThreemfReader{file}.read(); }
+Facets read_threemf(const std::string& file)
+{
+    Facets facets;
+    files::with_file_on_disk(file,
+                             [&](const std::string& path) { facets = ThreemfReader{path}.read(); });
+    return facets;
+}
 
 }  // namespace cusp::import

@@ -1,13 +1,13 @@
 // Fields between colons; lengths with or without their unit.
 #include "host_tools/job/import/tool_text.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 #include "host_tools/job/job/keys.hpp"
 
 #include "fmt/format.h"
@@ -35,14 +35,13 @@ double length_of(const std::string& text, const char* what, const std::string& f
     if (field.empty()) {
         refuse(text, fmt::format("the {} is missing: ball:6, flat:8, bull:10:1.5", what));
     }
-    double value = 0;
-    const char* end = field.data() + field.size();
-    const auto [rest, error] = std::from_chars(field.data(), end, value);
-    const std::string unit{rest, end};
-    if (error != std::errc{} || !std::isfinite(value)) {
+    const auto found = number_text::leading_number(field);
+    if (!found || !std::isfinite(found->value)) {
         refuse(text,
                fmt::format("\"{}\" is no {}: a number is needed, such as ball:6", field, what));
     }
+    const double value = found->value;
+    const std::string unit = field.substr(found->size);
     if (!unit.empty() && unit != "mm" && unit != "in") {
         refuse(text, fmt::format("\"{}\" is no unit of length: mm or in", unit));
     }

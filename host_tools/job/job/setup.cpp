@@ -1,6 +1,8 @@
 // Programs of other set-ups, in the coordinates of a job.
 #include "host_tools/job/job/setup.hpp"
 
+#include <filesystem>
+
 #include "host_tools/job/job/job.hpp"
 
 #include "fmt/format.h"
@@ -26,6 +28,15 @@ std::string description_of(const Setup& setup)
                        : setup.flip == Flip::kY ? ", turned over about y"
                                                 : "";
     return fmt::format("set-up {}, G{}{}", setup.name, setup.offset, flip);
+}
+
+std::string file_of_setup(const std::string& file, const Setup& setup)
+{
+    const std::filesystem::path path{file};
+    return file.empty() ? file
+                        : (path.parent_path() /
+                           (path.stem().string() + "-" + setup.name + path.extension().string()))
+                              .string();
 }
 
 }  // namespace cusp::job

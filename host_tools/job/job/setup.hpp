@@ -26,6 +26,8 @@ struct Setup {
 
 // "set-up bottom, G55, turned over about x".
 std::string description_of(const Setup& setup);
+// "part.ngc" of the set-up "bottom" is "part-bottom.ngc"; "" stays.
+std::string file_of_setup(const std::string& file, const Setup& setup);
 
 // A half turn about an axis through `middle`, or none. It is its own inverse.
 struct SetupFlip {

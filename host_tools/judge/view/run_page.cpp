@@ -1,7 +1,9 @@
 // Reads, verifies and runs the program, and inserts the results into the page.
 #include "host_tools/judge/view/run_page.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -32,36 +34,28 @@ constexpr double kSpacingShare = 0.4;
 // Batches of set points that wait to be encoded: some 13 MB.
 constexpr std::size_t kMostWaiting = 16;
 
-std::string block(const char* id, const char* type, std::string_view text)
+using Blocks = std::vector<RunBlock>;
+
+std::string element(const std::string& id, const char* type, std::string_view text)
 {
     return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
 }
 
-std::string data_block(const char* id, const Bytes& bytes)
+Blocks program_blocks(const ProgramReading& reading)
 {
-    return block(id, "text/plain", seven_bit_text(bytes.text()));
+    return {{"data-program", deflated(reading.text)},
+            {"data-rapid", deflated(std::string(reading.rapid.begin(), reading.rapid.end()))}};
 }
 
-std::string deflated_block(const char* id, std::string_view bytes)
+Blocks record_blocks(RunRecord& record)
 {
-    return block(id, "text/plain", seven_bit_text(deflated(bytes)));
-}
-
-std::string program_blocks(const ProgramReading& reading)
-{
-    return deflated_block("data-program", reading.text) +
-           deflated_block("data-rapid", std::string(reading.rapid.begin(), reading.rapid.end()));
-}
-
-std::string record_blocks(RunRecord& record)
-{
-    std::string data = data_block("data-samples", record.samples().finish()) +
-                       deflated_block("data-lines", record.line_runs().text()) +
-                       deflated_block("data-path", record.vertices().finish().text());
+    Blocks blocks{{"data-samples", record.samples().finish().text()},
+                  {"data-lines", deflated(record.line_runs().text())},
+                  {"data-path", deflated(record.vertices().finish().text())}};
     if (record.engagement()) {
-        data += deflated_block("data-engagement", record.engagement()->finish().text());
+        blocks.push_back({"data-engagement", deflated(record.engagement()->finish().text())});
     }
-    return data;
+    return blocks;
 }
 
 // Set points are encoded, and their deviation is measured, while the program runs.
@@ -138,9 +132,8 @@ void fill(std::string& page, std::string_view place, const std::string& text)
 
 }  // namespace
 
-RunPage run_page(const std::string& program, const RunPageOptions& options)
+RunData run_data(const std::string& program, const RunPageOptions& options)
 {
-    std::string html{page_text(Page::kView)};
     std::optional<Verification> own;
     std::string why;
     if (options.job != nullptr && options.verification == nullptr) {
@@ -149,7 +142,7 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     const Verification* cut_part = own ? &*own : options.verification;
     const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
     ProgramReading reading;
-    std::string program_data;
+    Blocks of_program;
     RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch
                                                   : std::numeric_limits<double>::infinity()};
     if (cut_part != nullptr && cut_part->figures.engagement) {
@@ -158,7 +151,7 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     parallel::TaskQueue encoding{kMostWaiting};
     encoding.add([&] {
         reading = read_program_lines(program);
-        program_data = program_blocks(reading);
+        of_program = program_blocks(reading);
     });
     SimulationResult result = run(program, options, record, encoding);
 
@@ -173,22 +166,36 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
                    cut_part,
                    why,
                    {}};
-    std::string data = record_blocks(record) + program_data;
+    RunData data;
+    data.blocks = record_blocks(record);
+    std::move(of_program.begin(), of_program.end(), std::back_inserter(data.blocks));
     if (cut_part != nullptr) {
         facts.worst = worst_places(*cut_part, options.job->stock_top);
-        data += data_block("data-stock", stock_frames(record.path(), *options.job, grid)) +
-                data_block("data-left", left_map(*cut_part, grid));
+        data.blocks.push_back(
+            {"data-stock", stock_frames(record.path(), *options.job, grid).text()});
+        data.blocks.push_back({"data-left", left_map(*cut_part, grid).text()});
     }
-    fill(html, kFactsPlace, block("facts", "application/json", facts_json(facts)));
-    fill(html, kDataPlace, data);
-    RunPage page;
-    page.html = std::move(html);
-    page.ticks = record.ticks();
-    page.refused = reading.refused_count;
-    page.good = result.good() && reading.refused_count == 0 &&
+    data.facts = facts_json(facts);
+    data.ticks = record.ticks();
+    data.refused = reading.refused_count;
+    data.good = result.good() && reading.refused_count == 0 &&
                 (cut_part == nullptr ? why.empty() : cut_part->broken.empty());
-    page.verdict = verdict_of(result, cut_part);
-    page.run = std::move(result);
+    data.verdict = verdict_of(result, cut_part);
+    data.run = std::move(result);
+    return data;
+}
+
+RunPage run_page(const std::string& program, const RunPageOptions& options)
+{
+    RunPage page;
+    static_cast<RunData&>(page) = run_data(program, options);
+    std::string elements;
+    for (const RunBlock& block : std::exchange(page.blocks, {})) {
+        elements += element(block.id, "text/plain", seven_bit_text(block.bytes));
+    }
+    page.html = page_text(Page::kView);
+    fill(page.html, kFactsPlace, element("facts", "application/json", page.facts));
+    fill(page.html, kDataPlace, elements);
     return page;
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host_tools/controller/simulate/simulate.hpp"
 #include "host_tools/job/job/job.hpp"
@@ -28,8 +29,16 @@ struct RunPageOptions {
     std::function<void(double share)> verifying;
 };
 
-struct RunPage {
-    std::string html;
+// A binary part of what a page shows.
+struct RunBlock {
+    std::string id;  // of its element in the page
+    std::string
+        bytes;  // as the page's reader takes them: run_record.hpp, stock_frames.hpp, left_map.hpp
+};
+
+struct RunData {
+    std::string facts;  // JSON
+    std::vector<RunBlock> blocks;
     simulate::SimulationResult run;
     bool good{false};  // the run ended well, and all bounds of the job hold
     std::uint64_t ticks{0};
@@ -37,13 +46,18 @@ struct RunPage {
     std::string verdict;       // one line
 };
 
-// Runs the program through the firmware's core, verifies it if there is a job, and makes one HTML
-// file without external references.
+struct RunPage : RunData {  // without blocks: they are in the page
+    std::string html;
+};
+
+// Runs the program through the firmware's core, and verifies it if there is a job.
 //
-// The page lists the lines that the controller refuses. If they prevent verification, the page has
-// no stock.
+// The facts list the lines that the controller refuses. If they prevent verification, there is no stock.
 //
-// Throws InputError where the program can't be read, and where this build has no page.
+// Throws InputError where the program can't be read.
+RunData run_data(const std::string& program, const RunPageOptions& options);
+
+// As above, in one HTML file without external references. Throws InputError, too, where this build has no page.
 RunPage run_page(const std::string& program, const RunPageOptions& options);
 
 }  // namespace cusp::view

@@ -1,0 +1,36 @@
+// The tables of keys, by which pages make their fields.
+#include <algorithm>
+#include <thread>
+
+#include "host_tools/cam/strategies/strategies.hpp"
+#include "host_tools/engine/calls.hpp"
+#include "host_tools/job/import/job_schema.hpp"
+#include "host_tools/job/import/post_reader.hpp"
+
+namespace cusp::engine {
+
+Json keys_call(Call& call)
+{
+    call.arguments.check_all_read();
+    Json strategies = Json::array();
+    for (const job::Strategy* const strategy : strategies::all()) {
+        Json keys = Json::array();
+        for (const job::Key& key : keys_of(*strategy)) {
+            keys.push_back(key.name);
+        }
+        strategies.push_back({{"name", strategy->name},
+                              {"help", strategy->help},
+                              {"one_line", strategy->traits.one_line},
+                              {"pocket", strategy->traits.pocket},
+                              {"surfaces", !strategy->is_prismatic()},
+                              {"keys", keys}});
+    }
+    return {{"version", CUSP_VERSION},
+            {"threads", std::max(1U, std::thread::hardware_concurrency())},
+            {"cad", CUSP_READS_CAD != 0},
+            {"schema", Json::parse(import::job_schema(strategies::all()))},
+            {"strategies", strategies},
+            {"posts", import::post_names()}};
+}
+
+}  // namespace cusp::engine
