@@ -13,6 +13,9 @@ namespace cusp::engine {
 Arguments::Arguments(std::string call, const std::string& text) : call_{std::move(call)}
 {
     values_ = text.empty() ? Json::object() : Json::parse(text, nullptr, false);
+    if (values_.is_null()) {
+        values_ = Json::object();
+    }
     if (!values_.is_object()) {
         throw InputError{call_ + ": the arguments are no JSON object"};
     }

@@ -73,6 +73,9 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
 // As read_cad_surfaces(), but faces of solids without an upward normal are kept.
 CadModel read_cad_model(const std::string& file);
 
+// Both, by Open CASCADE. all_faces  also those of solids without an upward normal
+CadModel cad_model(const std::string& file, const Similarity& placed, bool all_faces);
+
 }  // namespace cusp::import
 
 // The entry point of libcusp_cad.so. Its undefined symbols are resolved by the program.
