@@ -7,7 +7,20 @@
 //
 // Pages call it, in WebAssembly (wasm/engine_abi.cpp) or through a server. Files that a job names are looked for in the set
 // alone, so that a page reads nothing of the disk; posts and libraries of tools are those that come with the program.
-// docs/library.md lists the calls, their arguments and results.
+//
+// Arguments, [those that may be absent], and results. `job` is the text of a job, `name` its file: paths in it are relative
+// to the folder of that name. A `block` names a block of the answer. Lengths are mm.
+//
+//     keys      {} -> version, threads, cad, schema (that of cusp plan --schema), strategies, posts
+//     describe  files [units, tolerance, facets] -> files (as cusp info --stats), text, facets: file, triangles, block
+//     suggest   parts, tools [the options of a plan without a job, by their names] -> job, said
+//     check     job [name, facets] -> faults, warnings, setups: name, offset, unit, stock, tools, operations, facets
+//     plan      job [name, program, title, post, blend, only] -> programs: name, setup, block, summary, warnings, stats
+//     verify    job, program [name, after, engagement, max_engagement, grid, step, maps] -> holds, broken, text, stats,
+//               map: columns, rows, x0, y0, pitch, of the blocks "left", "gouge", "part" (as verify::Verification)
+//     run       program [settings, dialect, page, job, name, after] -> good, faults, stats; with page also facts, ticks,
+//               refused, verdict and the blocks of view::RunData
+//     fit       program, tolerance -> block, stats
 #pragma once
 
 #include <string>
