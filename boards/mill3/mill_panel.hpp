@@ -124,6 +124,12 @@ public:
             switch_outputs_on();
         }
     }
+    void set_duty(std::uint16_t pwm) noexcept
+    {
+        if constexpr (Rules::kSpindleTimer) {
+            hal::stm32f4::SpindlePulses<Chip, Rules>::set_duty(pwm);
+        }
+    }
 
 private:
     static constexpr InputPins kInputs = input_pins(Rules::kPanelPins);

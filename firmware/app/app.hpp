@@ -75,6 +75,7 @@ private:
     void store_settings() noexcept;
     void want_outputs(const OutputLevels& outputs) noexcept;
     void scan_bytes() noexcept;
+    void drive_laser() noexcept;
     void drive_outputs() noexcept;
 
     Board& board_;
@@ -83,6 +84,7 @@ private:
     OutputLevels wanted_;  // the main loop's
     std::atomic<bool> wants_other_{false};
     OutputLevels driven_;  // the tick's, before it cuts them
+    std::uint16_t laser_duty_{0};
     bool cut_{false};
     bool drives_cut_{false};
     std::atomic<std::uint32_t> slices_{0};  // that the main loop has ended; wraps
@@ -121,6 +123,7 @@ bool App<Board>::poll() noexcept
 template <class Board>
 void App<Board>::tick() noexcept
 {
+    drive_laser();
     scan_bytes();
     if (!frame_waits_) {
         frame_.edges.clear();
@@ -187,6 +190,20 @@ void App<Board>::scan_bytes() noexcept
     }
 }
 
+// In step with the pulses: before all else that the tick does.
+template <class Board>
+void App<Board>::drive_laser() noexcept
+{
+    if (!driven_.follows_speed || frame_waits_) {
+        return;
+    }
+    const std::uint16_t duty = cut_ ? driven_.spindle_off_pwm : machine_.laser_duty();
+    if (duty != laser_duty_) {
+        laser_duty_ = duty;
+        board_.panel.set_duty(duty);
+    }
+}
+
 template <class Board>
 void App<Board>::drive_outputs() noexcept
 {
@@ -204,6 +221,11 @@ void App<Board>::drive_outputs() noexcept
     cut_ = cut;
     drives_cut_ = drives_cut;
     OutputLevels levels = driven_;
+    if (levels.follows_speed) {
+        levels.spindle_pwm = laser_duty_;
+    } else {
+        laser_duty_ = levels.spindle_off_pwm;
+    }
     if (cut) {
         levels.spindle_on = false;
         levels.spindle_reverse = false;

@@ -47,7 +47,9 @@ struct OutputLevels {
     bool spindle_reverse{false};
     std::uint16_t spindle_pwm{0};      // 0 to kFullDuty
     std::uint16_t spindle_off_pwm{0};  // the same while the spindle is off
-    std::uint32_t spindle_hz{1000};    // of its pulses, at least 1
+    bool follows_speed{
+        false};  // a laser: the servo tick sets the duty cycle, from the machine's speed
+    std::uint32_t spindle_hz{1000};  // of its pulses, at least 1
     bool flood{false};
     bool mist{false};
     bool drives_enabled{false};
@@ -61,8 +63,9 @@ struct OutputLevels {
     {
         return a.spindle_on == b.spindle_on && a.spindle_reverse == b.spindle_reverse &&
                a.spindle_pwm == b.spindle_pwm && a.spindle_off_pwm == b.spindle_off_pwm &&
-               a.spindle_hz == b.spindle_hz && a.flood == b.flood && a.mist == b.mist &&
-               a.drives_enabled == b.drives_enabled && a.inverted_lines == b.inverted_lines &&
+               a.follows_speed == b.follows_speed && a.spindle_hz == b.spindle_hz &&
+               a.flood == b.flood && a.mist == b.mist && a.drives_enabled == b.drives_enabled &&
+               a.inverted_lines == b.inverted_lines &&
                a.drives_enabled_inverted == b.drives_enabled_inverted &&
                a.inverted_outputs == b.inverted_outputs;
     }

@@ -45,7 +45,7 @@ bool DrillCycle::move_to(Position target, path::MoveKind kind, Action& action) n
     if (target == at_) {
         return false;
     }
-    action = path::Move{kind, path::Line{}, at_, target, feed_, tolerance_, 0, line_};
+    action = path::Move{kind, path::Line{}, at_, target, feed_, tolerance_, 0, line_, {}};
     at_ = target;
     return true;
 }

@@ -39,12 +39,14 @@ void Interpolator::reset(Position at) noexcept
     first_.clear();
     second_.clear();
     shaper_.reset();
+    shaper_ticks_ = planner_.shaper().ticks / 2U;
     set_axis_filter(axis_filter_);
     position_ = at;
     drained_ = true;
     drained_before_ = true;
     trail_drained_ = true;
     along_ = 0;
+    power_ = {};
     holding_ = false;
     at_rest_ = true;
 }
@@ -182,6 +184,7 @@ void Interpolator::change_track() noexcept
         return pass_blocks(track, offset);
     }
     line_ = block.line;
+    power_ = block.power;
     const PathOffset place = planner::position_at(block, offset);
     const PathOffset moved = place - track.place;
     track.offset = offset;
@@ -197,6 +200,7 @@ PathOffset Interpolator::pass_blocks(Track& track, std::uint32_t offset) noexcep
     while (track.block != queue_.block_end()) {
         const planner::Block& block = queue_.block(track.block);
         line_ = block.line;
+        power_ = block.power;
         if (offset < block.length) {
             place = planner::position_at(block, offset);
             break;

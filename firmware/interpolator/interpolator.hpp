@@ -48,6 +48,13 @@ public:
     // Line of the program that the tool is on; the last one while it rests at an end.
     std::uint32_t executing_line() const noexcept { return line_; }
 
+    // Of the block that executing_line() is of; the set points are there smoothing_ticks() later.
+    path::LaserPower power() const noexcept { return power_; }
+    unsigned smoothing_ticks() const noexcept
+    {
+        return (axis_filter_.first + axis_filter_.second - 1U) / 2U + shaper_ticks_;
+    }
+
     // Speed along the path in this tick, mm/s.
     float speed() const noexcept;
 
@@ -97,6 +104,8 @@ private:
     PerAxis<ExactDivision> axis_division_{};
     std::int32_t along_{0};  // path units travelled in this tick
     std::uint32_t line_{0};
+    unsigned shaper_ticks_{0};  // half the length of the shaper's response
+    path::LaserPower power_;
     planner::AxisFilter axis_filter_{};
     bool drained_{false};         // the path filter of the leading track, before this tick
     bool drained_before_{false};  // and before the last one

@@ -53,6 +53,9 @@ std::uint32_t restoring_ticks(const Accessories& accessories, const Settings& se
     if (!accessories.spindle_on()) {
         return coolant ? kCoolantOn : 0U;
     }
+    if (settings.on(Setting::kLaserMode)) {
+        return coolant ? kCoolantOn : 0U;
+    }
     return settings.on(Setting::kSpindleDelay) ? spindle_ticks(settings) : kSpindleUp;
 }
 
@@ -79,7 +82,11 @@ OutputLevels output_levels(const Accessories& accessories,
     levels.spindle_reverse =
         levels.spindle_on && accessories.spindle == gcode::SpindleMode::kCounterClockwise;
     const DutyLaw law{settings};
-    levels.spindle_pwm = law.duty(spindle_speed(accessories, spindle_override_percent, settings));
+    levels.follows_speed = levels.spindle_on && settings.on(Setting::kLaserMode);
+    levels.spindle_pwm =
+        levels.follows_speed
+            ? law.duty(0)
+            : law.duty(spindle_speed(accessories, spindle_override_percent, settings));
     levels.spindle_off_pwm = law.duty(0);
     levels.spindle_hz = settings.whole(Setting::kSpindleFrequency);
     levels.flood = accessories.flood_on();

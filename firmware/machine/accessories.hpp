@@ -61,7 +61,8 @@ private:
 std::uint32_t spindle_ticks(const Settings& settings) noexcept;
 
 // Servo ticks until all that is on is up, once a door or the operator has stopped it: as long as Grbl
-// waits, 4 s for the spindle and 1 s for coolant. $394 replaces that where it is not 0.
+// waits, 4 s for the spindle and 1 s for coolant. $394 replaces that where it is not 0. A laser is up
+// at once.
 std::uint32_t restoring_ticks(const Accessories& accessories, const Settings& settings) noexcept;
 
 // Speed of the spindle, rpm: the programmed speed with the override, inside $31 to $30. 0 when

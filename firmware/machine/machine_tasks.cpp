@@ -90,6 +90,7 @@ bool Machine::perform(const path::Move& move) noexcept
     if (lines_.line_number() > 0) {
         numbered.line = lines_.line_number();
     }
+    numbered.power = outputs_.laser_power(move);
     motion_.push(numbered);
     if (state_ == State::kIdle || state_ == State::kJog) {
         state_ = jogging_line_ ? State::kJog : State::kRun;
@@ -170,7 +171,7 @@ bool Machine::perform(const gcode::Spindle& spindle) noexcept
     if (state_ == State::kCheck) {
         return true;
     }
-    if (!wait_settled()) {
+    if (!outputs_.changes_with_moves(spindle) && !wait_settled()) {
         return false;
     }
     if (outputs_.set_spindle(spindle.mode, spindle.speed)) {

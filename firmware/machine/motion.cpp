@@ -62,6 +62,7 @@ void Motion::configure(const Settings& settings) noexcept
     const unsigned unused = (squares ? 0U : unsigned{kSecondLimit}) |
                             (settings.on(Setting::kAtSpeedInput) ? 0U : unsigned{kAtSpeed});
     used_inputs_ = static_cast<std::uint16_t>(0xFFFFU & ~unused);
+    laser_.configure(settings);
     filter_ticks_ = static_cast<std::uint8_t>(settings.whole(Setting::kLimitFilter));
     inputs_.set_ticks(filter_ticks_);
     stand_still(false);
@@ -223,6 +224,10 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
         // Back to where the steps end that the player has by now.
         set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
         recent_.fill(set_point_);
+    }
+    if (laser_.on()) {
+        laser_.tick(interpolator_.power(), interpolator_.speed() <= 0,
+                    interpolator_.smoothing_ticks(), set_point_ - recent_[0]);
     }
     for (std::size_t i = kPlayedBehind; i > 0; --i) {
         recent_[i] = recent_[i - 1];

@@ -12,6 +12,7 @@
 #include "firmware/base/pulse_frame.hpp"
 #include "firmware/interpolator/interpolator.hpp"
 #include "firmware/machine/input_filter.hpp"
+#include "firmware/machine/laser.hpp"
 #include "firmware/machine/settings.hpp"
 #include "firmware/machine/stops.hpp"
 #include "firmware/planner/planner.hpp"
@@ -95,6 +96,10 @@ public:
     // True if a stop has ended motion at once; there is none until abandon(), either.
     bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
 
+    // What the moves of a laser make of it.
+    Laser& laser() noexcept { return laser_; }
+    const Laser& laser() const noexcept { return laser_; }
+
     const InputFilter& inputs() const noexcept { return inputs_; }
     // The stops that act in the tick, whatever the main loop does.
     Stops& stops() noexcept { return stops_; }
@@ -123,10 +128,10 @@ private:
     pulse::PulseMaker pulses_;
     InputFilter inputs_;
     Stops stops_;
+    Laser laser_;
 
-    // Two frames are in flight and the pulses follow one tick behind: what the switches see now
-    // happened this many set points ago.
-    static constexpr std::size_t kPlayedBehind = 2;
+    // What the switches see now happened kPlayedBehind set points ago.
+    static constexpr std::size_t kPlayedBehind = Laser::kPlayedBehind;
     std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
     Position set_point_{};
     Answer contact_{};

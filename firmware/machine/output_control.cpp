@@ -7,7 +7,9 @@ using protocol::RealtimeCommand;
 
 float OutputControl::spindle_speed() const noexcept
 {
-    return machine::spindle_speed(accessories_, overrides_.spindle, settings_);
+    return settings_.on(Setting::kLaserMode)
+               ? motion_.laser().speed()
+               : machine::spindle_speed(accessories_, overrides_.spindle, settings_);
 }
 
 OutputLevels OutputControl::levels(bool stopped) const noexcept
@@ -47,15 +49,37 @@ void OutputControl::override_by(RealtimeCommand command) noexcept
     const Overrides before = overrides_;
     overrides_ = overridden(overrides_, command);
     if (!(before == overrides_)) {
-        motion_.set_overrides(overrides_.feed, overrides_.rapid);
+        set_overrides();
         reporter_.overrides_changed();
     }
+}
+
+void OutputControl::set_overrides() noexcept
+{
+    motion_.set_overrides(overrides_.feed, overrides_.rapid);
+    motion_.laser().set_override(overrides_.spindle);
 }
 
 void OutputControl::reset_overrides() noexcept
 {
     overrides_ = Overrides{};
-    motion_.set_overrides(overrides_.feed, overrides_.rapid);
+    set_overrides();
+}
+
+path::LaserPower OutputControl::laser_power(const path::Move& move) const noexcept
+{
+    if (!settings_.on(Setting::kLaserMode) || move.kind != path::MoveKind::kFeed) {
+        return {};
+    }
+    switch (accessories_.spindle) {
+        case gcode::SpindleMode::kOff:
+            break;
+        case gcode::SpindleMode::kClockwise:
+            return path::LaserPower::constant(accessories_.speed);
+        case gcode::SpindleMode::kCounterClockwise:
+            return path::LaserPower::by_length(accessories_.speed, move.feed);
+    }
+    return {};
 }
 
 bool OutputControl::set_spindle(gcode::SpindleMode mode, float speed) noexcept
@@ -65,7 +89,8 @@ bool OutputControl::set_spindle(gcode::SpindleMode mode, float speed) noexcept
     accessories_.speed = speed;
     accessories_.spindle_paused = false;
     reporter_.overrides_changed();
-    const bool starts = accessories_.spindle_starts_after(before);
+    const bool starts =
+        accessories_.spindle_starts_after(before) && !settings_.on(Setting::kLaserMode);
     if (starts) {
         wait_until_up(waits_for_spindle() ? restoring_ticks(accessories_, settings_)
                                           : spindle_ticks(settings_));

@@ -28,7 +28,8 @@ public:
 
     const Accessories& accessories() const noexcept { return accessories_; }
     const Overrides& overrides() const noexcept { return overrides_; }
-    float spindle_speed() const noexcept;  // rpm
+    // rpm: of a laser just now.
+    float spindle_speed() const noexcept;
     // `stopped`: the drives are off, whatever $1 says.
     OutputLevels levels(bool stopped) const noexcept;
 
@@ -40,6 +41,14 @@ public:
     void override_by(protocol::RealtimeCommand command) noexcept;
     void reset_overrides() noexcept;
 
+    // The power of a move, by the S word in force: of the same for each length with M4.
+    path::LaserPower laser_power(const path::Move& move) const noexcept;
+
+    // True if the speed alone changes, of a laser: the moves have it, nothing has to stop for it.
+    bool changes_with_moves(const gcode::Spindle& spindle) const noexcept
+    {
+        return settings_.on(Setting::kLaserMode) && spindle.mode == accessories_.spindle;
+    }
     // M3, M4 and M5. True if the spindle has to come up to speed: see coming_up().
     bool set_spindle(gcode::SpindleMode mode, float speed) noexcept;
     void set_coolant(bool flood, bool mist) noexcept;
@@ -69,10 +78,12 @@ public:
     std::uint32_t up_at() const noexcept { return up_at_; }
 
 private:
+    void set_overrides() noexcept;
     void wait_until_up(std::uint32_t ticks) noexcept;
     bool waits_for_spindle() const noexcept
     {
-        return settings_.on(Setting::kAtSpeedInput) && accessories_.spindle_on();
+        return settings_.on(Setting::kAtSpeedInput) && accessories_.spindle_on() &&
+               !settings_.on(Setting::kLaserMode);
     }
 
     Motion& motion_;

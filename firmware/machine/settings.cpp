@@ -39,7 +39,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {27, 3, 1, kLeastPositive, 1000},
     {30, 0, 24000, 0, kMostAny},
     {31, 0, 0, 0, kMostAny},
-    {32, 0, 0, 0, 0},
+    {32, 0, 0, 0, 1},
     {100, 3, 800, kLeastPositive, 10000},
     {101, 3, 800, kLeastPositive, 10000},
     {102, 3, 800, kLeastPositive, 10000},
@@ -141,8 +141,7 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
         return number == 0 ? Error::kSettingStepPulseMin : Error::kNegativeValue;
     }
     if (cut > entry.most) {
-        constexpr std::uint32_t kLaser = 32;
-        return number == kLaser ? Error::kSettingDisabledLaser : Error::kGcodeMaxValueExceeded;
+        return Error::kGcodeMaxValueExceeded;
     }
     values_[*index] = cut;
     // As in Grbl: without homing there are no soft limits.

@@ -145,7 +145,6 @@ public:
     //   kInvalidStatement     no setting has this number
     //   kNegativeValue        the value is negative, or zero where it must not be
     //   kSettingStepPulseMin  a step pulse shorter than 1 us
-    //   kSettingDisabledLaser laser mode
     //   kGcodeMaxValueExceeded the value is above its range
     std::optional<Error> put(std::uint32_t number, float value) noexcept;
 

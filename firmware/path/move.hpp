@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/path/laser_power.hpp"
 #include "firmware/path/path.hpp"
 
 namespace cusp::path {
@@ -29,6 +30,7 @@ struct Move {
     // that it replaces, mm.
     float departure{0};
     std::uint32_t line{0};  // of the program, for reports
+    LaserPower power;       // off but for feed moves in laser mode
 };
 
 // Length of the path in mm, within 1e-9 relative for lines and arcs and 1e-6 for Bezier pieces.

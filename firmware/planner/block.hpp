@@ -58,6 +58,7 @@ struct Block {
     path::MoveKind kind{path::MoveKind::kFeed};
     bool stops{false};  // the path stops at its end
     AxisFilter filter{};
+    path::LaserPower power;
     std::uint32_t line{0};
     union {
         ArcBlock arc;          // for kArc

@@ -80,6 +80,7 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
     block.kind = move.kind;
     block.filter = filter_;
     block.line = move.line;
+    block.power = move.power;
     if (arc != nullptr) {
         make_arc(*arc, block);
         return true;

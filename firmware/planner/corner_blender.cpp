@@ -111,7 +111,7 @@ bool CornerBlender::join(path::Move& before, path::Move& after, float jerk_time)
 {
     const float deviation = kShareOfTolerance * std::min(before.tolerance, after.tolerance);
     path::Move piece;
-    if ((is_line(before) && is_line(after)) ||
+    if ((is_line(before) && is_line(after)) || before.power != after.power ||
         !make_transition(before, after, piece, limits_, jerk_time,
                          static_cast<double>(deviation))) {
         return false;
@@ -125,7 +125,7 @@ bool CornerBlender::join(path::Move& before, path::Move& after, float jerk_time)
 // Shortens both lines and makes the curve between them. False where the corner stays.
 bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
 {
-    if (!is_line(before) || !is_line(after)) {
+    if (!is_line(before) || !is_line(after) || before.power != after.power) {
         return false;
     }
     const Vec3d first = to_millimetres(before.end - before.start);

@@ -109,7 +109,7 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     const Vec3<std::int32_t>& last = vertices_[count - 1].at;
     const Position end = origin_ + Position{last.x, last.y, last.z};
     if (move.kind != kind_ || move.feed != feed_ || move.tolerance != tolerance_ ||
-        end != move.start) {
+        move.power != power_ || end != move.start) {
         return false;
     }
     const Vec3f before = unit(between(count - 2, count - 1));
@@ -123,6 +123,7 @@ void LineSmoother::add(const path::Move& move) noexcept
         kind_ = move.kind;
         feed_ = move.feed;
         tolerance_ = move.tolerance;
+        power_ = move.power;
         at_ = move.start;
         origin_ = move.start;
         has_start_ = false;
@@ -401,6 +402,7 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     piece.kind = kind_;
     piece.feed = feed_;
     piece.tolerance = tolerance_;
+    piece.power = power_;
     piece.departure = kShareOfTolerance * tolerance_;
     piece.start = at_;
     const std::size_t passed = std::max<std::size_t>(good, 1);

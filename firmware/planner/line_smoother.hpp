@@ -26,7 +26,7 @@ public:
     // True if the move may be part of a run: a short feed line with a tolerance.
     static bool accepts(const path::Move& move) noexcept;
 
-    // True if the move continues the run: same feed and tolerance, no corner. An empty run takes
+    // True if the move continues the run: same feed, tolerance and power, no corner. An empty run takes
     // any.
     bool continues(const path::Move& move) const noexcept;
 
@@ -92,7 +92,8 @@ private:
     path::MoveKind kind_{path::MoveKind::kFeed};  // of the run, as feed and tolerance
     float feed_{0};                               // mm/s
     float tolerance_{0};                          // mm
-    Knot start_{};                                // at the first vertex, where a piece ended there
+    path::LaserPower power_;
+    Knot start_{};  // at the first vertex, where a piece ended there
     bool has_start_{false};
     std::uint8_t lines_before_{1};  // that the piece before replaced
     Position at_{};                 // where the next piece starts

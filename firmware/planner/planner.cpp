@@ -422,12 +422,12 @@ CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
 {
     const float deviation =
         std::min(end_left_, kCornerShareOfTolerance * move_.tolerance - move_.departure);
+    const Block& last = queue_.block(queue_.block_end() - 1);
     if (deviation <= 0 || shaper_.on() || end_filter_ != block.filter ||
-        block.shape == BlockShape::kCurve) {
+        block.shape == BlockShape::kCurve || block.power != last.power) {
         return {};
     }
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    const Block& last = queue_.block(queue_.block_end() - 1);
     return corner_overlap(corner_side(last, *end_, end_length_), corner_side(block, after, length),
                           limits_, path_filter_, block.filter, deviation);
 }

@@ -95,11 +95,13 @@ using cusp::OutputLevels;
 //
 //   inputs()      bits of InputBit; 1 = the pin is high.
 //   set(levels)   takes effect at once.
+//   set_duty(pwm) changes the duty cycle of the spindle's pulses alone, 0 to kFullDuty; in the servo tick.
 template <class T>
 constexpr bool is_panel()
 {
     static_assert(std::is_same_v<decltype(&T::inputs), std::uint16_t (T::*)() const noexcept>);
     static_assert(std::is_same_v<decltype(&T::set), void (T::*)(const OutputLevels&) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::set_duty), void (T::*)(std::uint16_t) noexcept>);
     return true;
 }
 

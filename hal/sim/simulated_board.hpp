@@ -15,6 +15,7 @@ public:
     explicit SimulatedPanel(SimulatedMill& mill) noexcept : mill_{&mill} {}
     std::uint16_t inputs() const noexcept { return mill_->inputs(); }
     void set(const OutputLevels& levels) noexcept { mill_->set(levels); }
+    void set_duty(std::uint16_t pwm) noexcept { mill_->set_duty(pwm); }
 
 private:
     SimulatedMill* mill_;

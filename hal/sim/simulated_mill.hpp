@@ -41,6 +41,7 @@ public:
 
     std::uint16_t inputs() const noexcept;
     void set(const OutputLevels& levels) noexcept;
+    void set_duty(std::uint16_t pwm) noexcept { outputs_.spindle_pwm = pwm; }
 
     void frame_played(std::uint64_t start_tick, const PulseFrame& frame) override;
 

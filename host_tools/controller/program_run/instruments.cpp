@@ -31,7 +31,7 @@ Instruments::Instruments(board_sim::SimulatedController& controller, const RunOp
     }
     if (options_.set_point) {
         options_.set_point(
-            {time_of_set_point() - kPulseTicksPerFrame, motion_.position(), 0, 0.0, false});
+            {time_of_set_point() - kPulseTicksPerFrame, motion_.position(), 0, 0.0, false, 0});
     }
 }
 
@@ -48,7 +48,8 @@ void Instruments::tick()
     const double deviation =
         on_path && options_.measures_deviation ? deviation_.add_set_point(at) : 0.0;
     if (options_.set_point) {
-        options_.set_point({time_of_set_point(), at, line, deviation, on_path});
+        options_.set_point(
+            {time_of_set_point(), at, line, deviation, on_path, motion_.laser().latest_duty()});
     }
     controller_.tick_world();
 }

@@ -37,9 +37,10 @@ struct ScriptedByte {
 struct SetPoint {
     std::uint64_t microseconds;  // on the clock of the pulse trace
     Position at;
-    std::uint32_t line;   // of the program, that it executes; 0 before the first
-    double deviation_mm;  // from the programmed path; 0 where it is not measured
-    bool on_path;         // false: at the start, or away from the path to change a tool
+    std::uint32_t line;      // of the program, that it executes; 0 before the first
+    double deviation_mm;     // from the programmed path; 0 where it is not measured
+    bool on_path;            // false: at the start, or away from the path to change a tool
+    std::uint16_t power{0};  // of a laser in the tick that ends here, 0 to kFullDuty
 };
 
 // Receives the moves of the programmed path, each before the set points on it; null: the machine has

@@ -10,17 +10,20 @@
 namespace cusp::simulate {
 
 // Rows `t_us,x_nm,y_nm,z_nm,line`: the machine position at t_us on the clock of the pulse trace,
-// and the line of the program that it executes; 0 before the first.
+// and the line of the program that it executes; 0 before the first. In laser mode `,power_ppm` follows:
+// the duty cycle of the laser in the millisecond that ends at t_us, in parts of a million.
 class SamplesWriter {
 public:
     // Errors: all members throw InputError if the file cannot be written.
-    explicit SamplesWriter(const std::string& file);
+    SamplesWriter(const std::string& file, bool laser);
 
-    void write(std::uint64_t microseconds, Position at, std::uint32_t line);
+    // power: 0 to kFullDuty
+    void write(std::uint64_t microseconds, Position at, std::uint32_t line, std::uint16_t power);
     void close() { file_.close(); }
 
 private:
     files::TextFile file_;
+    bool laser_;
 };
 
 }  // namespace cusp::simulate

@@ -22,7 +22,8 @@ public:
     explicit Recorder(const SimulationOptions& options) : options_{options}
     {
         if (!options.samples_file.empty()) {
-            samples_ = std::make_unique<SamplesWriter>(options.samples_file);
+            samples_ = std::make_unique<SamplesWriter>(
+                options.samples_file, options.settings.on(machine::Setting::kLaserMode));
         }
     }
 
@@ -68,7 +69,7 @@ private:
     void take(const SetPoint& set_point)
     {
         if (samples_) {
-            samples_->write(set_point.microseconds, set_point.at, set_point.line);
+            samples_->write(set_point.microseconds, set_point.at, set_point.line, set_point.power);
         }
         if (options_.set_point) {
             options_.set_point(set_point);

@@ -140,6 +140,10 @@ class Chip:
         return [(int(words[1]), words[2], int(words[3]), int(words[4]))
                 for words in map(str.split, self.command("changes"))]
 
+    def duties(self):
+        """(ns, channel, ppm) of each change of the spindle's duty since the last call."""
+        return [tuple(map(int, words[1:])) for words in map(str.split, self.command("duties"))]
+
     def edges_of(self, signal, changes):
         """(ns, level) of each change of one pin, where it is driven. `signal`: its name, or the pin's."""
         name = self.pins.get(signal, signal)

@@ -60,6 +60,10 @@ public:
     {
         return timers_.at("TIM3")->duty_ppm(channel - 1);
     }
+    std::vector<TimerModel::DutyChange> take_spindle_changes()
+    {
+        return timers_.at("TIM3")->take_duty_changes();
+    }
     std::uint32_t spindle_hz() const { return timers_.at("TIM3")->pulses_hz(); }
 
     // The core executes nothing more; `debugger`: as a debugger halts it, which DBGMCU knows of.

@@ -59,6 +59,7 @@ private:
     void golden(std::istream& words);
     void tell_pins() const;
     void tell_changes() const;
+    void tell_duties();
     void tell_state() const;
     void tell_heard();
 
@@ -221,6 +222,14 @@ void Console::tell_pins() const
     std::cout << "rate TIM3 " << chip_.spindle_hz() << "\n";
 }
 
+void Console::tell_duties()
+{
+    for (const TimerModel::DutyChange& change : chip_.take_spindle_changes()) {
+        std::cout << "duty " << change.time / 1000 << " " << change.channel + 1 << " " << change.ppm
+                  << "\n";
+    }
+}
+
 void Console::tell_changes() const
 {
     for (const auto& [letter, port] : chip_.ports()) {
@@ -293,6 +302,8 @@ void Console::perform(const std::string& line)
         chip_.flash().set_times(erase, milliseconds(words));
     } else if (command == "pins") {
         tell_pins();
+    } else if (command == "duties") {
+        tell_duties();
     } else if (command == "changes") {
         tell_changes();
     } else if (command == "state") {

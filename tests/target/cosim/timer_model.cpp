@@ -245,6 +245,9 @@ void TimerModel::write(std::uint32_t offset, std::uint32_t value)
         default:
             registers_[index] = value;
     }
+    if (index >= kCcr1 && index <= kCcr4) {
+        duty_changes_.push_back({circuit_.now, index - kCcr1, duty_ppm(index - kCcr1)});
+    }
     plan();
     update_line();
     if (index == kCr1 && listener_ != nullptr) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "tests/target/cosim/model.hpp"
 
@@ -37,6 +39,13 @@ public:
         return static_cast<std::uint32_t>(std::uint64_t{registers_[kCcr1 + channel]} * 1000000 /
                                           (std::uint64_t{top()} + 1));
     }
+    // Each write of a compare: when, channel 0 to 3, and the duty that it gives.
+    struct DutyChange {
+        Picoseconds time;
+        unsigned channel;
+        std::uint32_t ppm;
+    };
+    std::vector<DutyChange> take_duty_changes() { return std::exchange(duty_changes_, {}); }
     std::uint32_t pulses_hz() const
     {
         return static_cast<std::uint32_t>(hz_ / (std::uint64_t{top()} + 1) / (prescaler_ + 1));
@@ -82,6 +91,7 @@ private:
     void update_line();
     std::uint32_t top() const { return registers_[kArr]; }
 
+    std::vector<DutyChange> duty_changes_;
     std::string name_;
     Wiring wiring_;
     TimerModel* listener_{nullptr};

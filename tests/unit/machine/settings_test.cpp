@@ -89,7 +89,6 @@ TEST(MachineSettings, RefuseValuesOutsideTheirRange)
     CHECK(settings.put(120, 0) == Error::kNegativeValue);
     CHECK(settings.put(10, -1) == Error::kNegativeValue);
     CHECK(settings.put(7, 1) == Error::kInvalidStatement);
-    CHECK(settings.put(32, 1) == Error::kSettingDisabledLaser);
     CHECK(!settings.put(21, 5));
     DOUBLES_EQUAL(1.0, static_cast<double>(settings.value(Setting::kHardLimits)), 0);
 }

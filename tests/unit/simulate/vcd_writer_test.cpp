@@ -63,9 +63,17 @@ TEST(VcdWriter, RefusesAPlaceThatCantBeWritten)
 
 TEST(VcdWriter, WritesSamplesAsIntegers)
 {
-    simulate::SamplesWriter writer{folder.file("s.csv")};
-    writer.write(1000, {-5, 0, 1234567890123}, 17);
+    simulate::SamplesWriter writer{folder.file("s.csv"), false};
+    writer.write(1000, {-5, 0, 1234567890123}, 17, 3);
     writer.close();
     STRCMP_EQUAL("t_us,x_nm,y_nm,z_nm,line\n1000,-5,0,1234567890123,17\n",
+                 folder.text_of("s.csv").c_str());
+}
+TEST(VcdWriter, WritesThePowerOfALaserBehindTheSamples)
+{
+    simulate::SamplesWriter writer{folder.file("s.csv"), true};
+    writer.write(1000, {-5, 0, 1}, 17, kFullDuty / 4);
+    writer.close();
+    STRCMP_EQUAL("t_us,x_nm,y_nm,z_nm,line,power_ppm\n1000,-5,0,1,17,250000\n",
                  folder.text_of("s.csv").c_str());
 }

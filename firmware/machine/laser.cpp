@@ -1,0 +1,41 @@
+// Power by speed, tick by tick.
+#include "firmware/machine/laser.hpp"
+
+#include <cmath>
+
+namespace cusp::machine {
+
+void Laser::configure(const Settings& settings) noexcept
+{
+    on_ = settings.on(Setting::kLaserMode);
+    law_ = DutyLaw{settings};
+    duties_.fill(law_.duty(0));
+    powers_.fill({});
+    speed_.store(0, std::memory_order_relaxed);
+}
+
+void Laser::tick(path::LaserPower power, bool stands, unsigned delay, Position moved) noexcept
+{
+    constexpr unsigned kPlaces = kLongestDelay + 1;
+    latest_ = (latest_ + 1) % kPlaces;
+    powers_[latest_] = power;
+    if (stood_ && !stands) {
+        powers_.fill(power);
+    }
+    stood_ = stands;
+    const unsigned delayed = (latest_ + kPlaces - delay) % kPlaces;
+    // nm a tick are um/s.
+    constexpr float kMillimetresPerSecond = 1e-3F;
+    const Vec3f v{static_cast<float>(static_cast<std::int32_t>(moved.x)),
+                  static_cast<float>(static_cast<std::int32_t>(moved.y)),
+                  static_cast<float>(static_cast<std::int32_t>(moved.z))};
+    const float velocity = std::sqrt(dot(v, v)) * kMillimetresPerSecond;
+    const float speed = powers_[delayed].at(velocity) * override_.load(std::memory_order_relaxed);
+    speed_.store(speed, std::memory_order_relaxed);
+    for (unsigned i = kPlayedBehind - 1; i > 0; --i) {
+        duties_[i] = duties_[i - 1];
+    }
+    duties_[0] = law_.duty(speed);
+}
+
+}  // namespace cusp::machine

@@ -1,0 +1,62 @@
+// Laser: the power of a laser in every servo tick (setting 32).
+//
+//   the path servo is on a move, with its power -> the filters delay the motion, so the power waits
+//   the set point moves                         -> its true speed makes the power of that tick
+//   its pulses play kPlayedBehind ticks later   -> so does the duty cycle
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/base/vec.hpp"
+#include "firmware/machine/accessories.hpp"
+#include "firmware/machine/settings.hpp"
+#include "firmware/path/laser_power.hpp"
+
+namespace cusp::machine {
+
+// Context: servo tick, but for configure() and set_override(): main loop.
+class Laser {
+public:
+    // Ticks from a set point to the begin of its motion at the pins: two frames are in flight, and the
+    // pulses follow one tick behind.
+    static constexpr unsigned kPlayedBehind = 2;
+
+    // No tick runs meanwhile.
+    void configure(const Settings& settings) noexcept;
+    void set_override(unsigned percent) noexcept
+    {
+        override_.store(static_cast<float>(percent) * 0.01F, std::memory_order_relaxed);
+    }
+    bool on() const noexcept { return on_; }
+
+    // Once a tick.
+    //
+    //   power  of the block that the path servo is on
+    //   stands true if the path servo did not move; what it begins then is not delayed: the filters hold
+    //          less than a nanometre of what was before
+    //   delay  ticks until the set points are there, at most kLongestDelay
+    //   moved  nm, by the set point in this tick
+    void tick(path::LaserPower power, bool stands, unsigned delay, Position moved) noexcept;
+
+    // Duty cycle, 0 to kFullDuty, and spindle speed, rpm, of the latest set point.
+    std::uint16_t latest_duty() const noexcept { return duties_[0]; }
+    float speed() const noexcept { return speed_.load(std::memory_order_relaxed); }
+    // Before the tick: the duty cycle of the frame that has begun to play.
+    std::uint16_t played_duty() const noexcept { return duties_[kPlayedBehind - 1]; }
+
+    static constexpr unsigned kLongestDelay = 127;
+
+private:
+    bool on_{false};
+    DutyLaw law_{Settings{}};
+    std::atomic<float> override_{1};
+    std::atomic<float> speed_{0};
+    std::array<std::uint16_t, kPlayedBehind> duties_{};  // the latest first
+    std::array<path::LaserPower, kLongestDelay + 1> powers_{};
+    unsigned latest_{0};  // place in powers_
+    bool stood_{true};
+};
+
+}  // namespace cusp::machine
