@@ -18,6 +18,10 @@ bool allows(State state, SystemCommandKind kind) noexcept
             allowed = true;
             break;
         case SystemCommandKind::kSettings:
+        case SystemCommandKind::kSettingDescriptions:
+        case SystemCommandKind::kSettingGroups:
+        case SystemCommandKind::kErrorCodes:
+        case SystemCommandKind::kAlarmCodes:
             allowed = state != State::kRun && state != State::kHold;
             break;
         case SystemCommandKind::kCheckMode:

@@ -1,6 +1,7 @@
 // Lines of `$$`, `$#`, `$N`, `$I` and `$G`.
 #include "firmware/machine/listing.hpp"
 
+#include "firmware/machine/enumerations.hpp"
 #include "firmware/machine/report_units.hpp"
 
 namespace cusp::machine {
@@ -190,6 +191,14 @@ bool write_listing_line(Listing listing,
             return true;
         case Listing::kBuild:
             return write_build(index, source, out);
+        case Listing::kSettingDescriptions:
+            return write_setting_description(index, out);
+        case Listing::kSettingGroups:
+            return write_setting_group(index, out);
+        case Listing::kErrorCodes:
+            return write_error_code(index, out);
+        case Listing::kAlarmCodes:
+            return write_alarm_code(index, out);
     }
     return false;
 }

@@ -1,4 +1,4 @@
-// Listings: the answers of several lines to `$$`, `$#`, `$N` and `$I`, one line at a time.
+// Listings: the answers of several lines to `$$`, `$#`, `$N`, `$I` and `$E`, one line at a time.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,16 @@
 
 namespace cusp::machine {
 
-enum class Listing : std::uint8_t { kSettings, kParameters, kStartupLines, kBuild };
+enum class Listing : std::uint8_t {
+    kSettings,
+    kParameters,
+    kStartupLines,
+    kBuild,
+    kSettingDescriptions,
+    kSettingGroups,
+    kErrorCodes,
+    kAlarmCodes,
+};
 
 // The last probe, for `$#` and `[PRB:...]`.
 struct ProbeResult {

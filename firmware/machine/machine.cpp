@@ -320,6 +320,7 @@ OutputLevels Machine::outputs() const noexcept
 
 void Machine::report_status() noexcept
 {
+    reported_at_ = motion_.ticks();
     StatusFields status;
     status.state = state_;
     if (state_ == State::kHold) {

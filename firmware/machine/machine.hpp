@@ -127,6 +127,7 @@ private:
     bool handle_events() noexcept;
     bool watch_panel() noexcept;
     bool watch_link() noexcept;
+    bool report_by_itself() noexcept;
     void feed_hold() noexcept;
     void hold_program() noexcept;
     void cycle_start() noexcept;
@@ -248,6 +249,7 @@ private:
     bool spindle_stop_wanted_{false};
     bool frame_missed_{false};
     std::uint32_t stop_bytes_{0};
+    std::uint32_t reported_at_{0};  // tick
 
     Task task_{Task::kNone};
     Ending ending_{Ending::kAnswer};

@@ -31,7 +31,7 @@ void Machine::perform(const SystemCommand& command) noexcept
     switch (command.kind) {
         case SystemCommandKind::kHelp:
             (void)replies_.text("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ");
-            (void)replies_.text("$CRC=1 ~ ! ? ctrl-x]").end_line();
+            (void)replies_.text("$CRC=1 $ES $EG $EE $EA ~ ! ? ctrl-x]").end_line();
             break;
         case SystemCommandKind::kSettings:
             start_listing(Listing::kSettings);
@@ -44,6 +44,18 @@ void Machine::perform(const SystemCommand& command) noexcept
             return;
         case SystemCommandKind::kBuildInfo:
             start_listing(Listing::kBuild);
+            return;
+        case SystemCommandKind::kSettingDescriptions:
+            start_listing(Listing::kSettingDescriptions);
+            return;
+        case SystemCommandKind::kSettingGroups:
+            start_listing(Listing::kSettingGroups);
+            return;
+        case SystemCommandKind::kErrorCodes:
+            start_listing(Listing::kErrorCodes);
+            return;
+        case SystemCommandKind::kAlarmCodes:
+            start_listing(Listing::kAlarmCodes);
             return;
         case SystemCommandKind::kParserState:
             write_modal_state(interpreter_.modal(), stored_.settings, replies_);

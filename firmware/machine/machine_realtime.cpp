@@ -121,7 +121,20 @@ bool Machine::handle_events() noexcept
         cycle_start();
         return true;
     }
-    return watch_panel() || watch_link();
+    return watch_panel() || report_by_itself() || watch_link();
+}
+
+// $481: at the begin of each interval, at least 100 ms, as in grblHAL.
+bool Machine::report_by_itself() noexcept
+{
+    constexpr std::uint32_t kLeast = 100;
+    const std::uint32_t interval = stored_.settings.whole(Setting::kReportInterval);
+    const std::uint32_t since = motion_.ticks() - reported_at_;
+    if (interval == 0 || since < (interval < kLeast ? kLeast : interval)) {
+        return false;
+    }
+    report_status();
+    return true;
 }
 
 // An emergency stop or a motor fault. After one only an emergency stop raises another alarm: it

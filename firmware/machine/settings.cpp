@@ -72,6 +72,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {348, 3, 2.5F, kLeastPositive, 1000, 3},
     {349, 3, 25, kLeastPositive, 1000, 3},
     {394, 3, 0, 0, 60, 5},
+    {481, 0, 0, 0, 1000, 7},
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
     {792, 0, 0, 0, 1},

@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $170 to $172 and $341 to $349 and $394 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $170 to $172 and $341 to $349 and $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -65,6 +65,7 @@ enum class Setting : std::uint8_t {
     kSquareLeast,             // $348 mm: no less
     kSquareMost,              // $349 mm: no more
     kSpindleDelay,            // $394 s: until the spindle is up; 0: see Accessories
+    kReportInterval,          // $481 ms, of status reports that nobody asks for; 0: none
     kLimitFilter,             // $790 ms
     kLinkWatchdog,            // $791 ms; 0: off
     kStopOnError,             // $792

@@ -13,7 +13,7 @@ struct Word {
     AxisMask axes;
 };
 
-constexpr std::array<Word, 18> kWords{{
+constexpr std::array<Word, 22> kWords{{
     {"", SystemCommandKind::kHelp, {}},
     {"$", SystemCommandKind::kSettings, {}},
     {"#", SystemCommandKind::kParameters, {}},
@@ -30,6 +30,10 @@ constexpr std::array<Word, 18> kWords{{
     {"RST=$", SystemCommandKind::kRestoreSettings, {}},
     {"RST=#", SystemCommandKind::kRestoreParameters, {}},
     {"RST=*", SystemCommandKind::kRestoreAll, {}},
+    {"ES", SystemCommandKind::kSettingDescriptions, {}},
+    {"EG", SystemCommandKind::kSettingGroups, {}},
+    {"EE", SystemCommandKind::kErrorCodes, {}},
+    {"EA", SystemCommandKind::kAlarmCodes, {}},
     {"CRC=1", SystemCommandKind::kCheckedLinesOn, {}},
     {"CRC=0", SystemCommandKind::kCheckedLinesOff, {}},
 }};

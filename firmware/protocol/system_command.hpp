@@ -10,25 +10,29 @@
 namespace cusp::protocol {
 
 enum class SystemCommandKind : std::uint8_t {
-    kHelp,               // $
-    kSettings,           // $$
-    kSetSetting,         // $<number>=<value>
-    kParameters,         // $#
-    kParserState,        // $G
-    kBuildInfo,          // $I
-    kSetBuildInfo,       // $I=<text>
-    kStartupLines,       // $N
-    kSetStartupLine,     // $N<number>=<line>
-    kCheckMode,          // $C
-    kUnlock,             // $X
-    kHome,               // $H, $HX, $HY, $HZ
-    kJog,                // $J=<words>
-    kSleep,              // $SLP
-    kRestoreSettings,    // $RST=$
-    kRestoreParameters,  // $RST=#
-    kRestoreAll,         // $RST=*
-    kCheckedLinesOn,     // $CRC=1
-    kCheckedLinesOff,    // $CRC=0
+    kHelp,                 // $
+    kSettings,             // $$
+    kSetSetting,           // $<number>=<value>
+    kParameters,           // $#
+    kParserState,          // $G
+    kBuildInfo,            // $I
+    kSetBuildInfo,         // $I=<text>
+    kStartupLines,         // $N
+    kSetStartupLine,       // $N<number>=<line>
+    kCheckMode,            // $C
+    kUnlock,               // $X
+    kHome,                 // $H, $HX, $HY, $HZ
+    kJog,                  // $J=<words>
+    kSleep,                // $SLP
+    kRestoreSettings,      // $RST=$
+    kRestoreParameters,    // $RST=#
+    kRestoreAll,           // $RST=*
+    kSettingDescriptions,  // $ES
+    kSettingGroups,        // $EG
+    kErrorCodes,           // $EE
+    kAlarmCodes,           // $EA
+    kCheckedLinesOn,       // $CRC=1
+    kCheckedLinesOff,      // $CRC=0
 };
 
 struct SystemCommand {
