@@ -19,6 +19,7 @@ from random_pocket import FLOORS, RandomPocket
 
 STRATEGIES = ("contour_pocket", "adaptive_isocurve", "grid_pocket", "hull_rough", "complete_isocurves",
               "parallel_planes")
+SECTIONS = ("parallel_planes", "waterline", "steep_shallow")  # take turns
 SPARSE_FLOORS = ("flat", "slope", "wavy", "dome", "rational", "crossing planes")  # not cut in many stretches
 
 
@@ -28,6 +29,8 @@ class RandomJob:
     def __init__(self, seed):
         self.random = random.Random(seed)
         self.strategy = STRATEGIES[seed % len(STRATEGIES)]
+        if self.strategy in SECTIONS:
+            self.strategy = SECTIONS[seed // len(STRATEGIES) % len(SECTIONS)]
         self.inch = self.random.random() < 0.3
         self.unit = 25.4 if self.inch else 1.0
         self.tolerance = self.random.choice([0.01, 0.02, 0.05])
@@ -147,8 +150,12 @@ class RandomJob:
     def add_isocurve_keys(self):
         pick = self.random
         self.keys["traversal"] = pick.choice(["zigzag", "zigzag", "one_way"])
-        self.keys["direction"] = pick.choice("uv")
-        if self.strategy == "parallel_planes":
+        if self.strategy != "waterline":
+            self.keys["direction"] = pick.choice("uv")
+        if self.strategy in ("waterline", "steep_shallow"):
+            key = "scallop"
+            self.keys["spiral"] = self.chance(0.5)
+        elif self.strategy == "parallel_planes":
             key = pick.choice(["scallop", "step_over"])
         else:
             key = pick.choice(["scallop", "scallop", "iso_distance"])
@@ -160,7 +167,7 @@ class RandomJob:
             self.keys["roughing"] = True
             self.keys["max_depth"] = self.length(pick.uniform(1.5, 4))
             self.keys["allowance"] = self.length(pick.choice([0.1, 0.3]))
-            if self.strategy != "parallel_planes" and self.chance(0.5):
+            if self.strategy in STRATEGIES[1:5] and self.chance(0.5):
                 self.keys["tools"] = [2]
 
     # The job
@@ -179,7 +186,7 @@ class RandomJob:
     def text(self, highest):
         pick = self.random
         # isocurves and planes finish with a ball; a few ask for what is refused
-        ball = 0.95 if self.strategy in STRATEGIES[1::3] + STRATEGIES[5:] else 0.4
+        ball = 0.95 if self.strategy in STRATEGIES[1::3] + SECTIONS else 0.4
         shape = "ball" if self.chance(ball) else pick.choice(["flat", "bull"])
         lines = [f'units = "{"inch" if self.inch else "mm"}"', *self.tool(1, shape, self.radius)]
         if 2 in self.keys.get("tools", []):

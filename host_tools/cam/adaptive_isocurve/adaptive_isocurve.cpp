@@ -17,11 +17,11 @@
 #include "host_tools/cam/adaptive_isocurve/isocurve_selection.hpp"
 #include "host_tools/cam/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/cam/adaptive_isocurve/offset_curve_trimmer.hpp"
-#include "host_tools/cam/adaptive_isocurve/proved_scallop.hpp"
 #include "host_tools/cam/adaptive_isocurve/share_of_count.hpp"
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/cam/finishing/proved_scallop.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 #include "host_tools/geometry/part_model/offset_surface.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 
@@ -32,7 +32,13 @@ namespace cusp::adaptive_isocurve {
 using finishing::CcParameterList;
 using finishing::length_of;
 using finishing::Points;
+using finishing::proved_scallop;
+using finishing::ProvedScallop;
+using finishing::report_left_beside_edges;
+using finishing::report_uncovered_points;
+using finishing::report_walls_over_nothing;
 using finishing::ScallopCheck;
+using finishing::SurfaceOperation;
 using finishing::SweptVolume;
 using finishing::ToleranceBand;
 using job::CutDirection;
@@ -82,7 +88,7 @@ public:
           plain_{work_.surfaces().size() == 1 && is_plain(work_.surfaces().front())},
           selection_{operation, work_, plain_}
     {
-        if (operation.tolerance.scallop && !isocurve_keys(operation).iso_distance) {
+        if (operation.tolerance.scallop && !finish_keys(operation).iso_distance) {
             scallop_check_.emplace(work_.surfaces(), work_.path_fitter(),
                                    *operation.tolerance.scallop, work_.path_off());
         }
@@ -131,7 +137,7 @@ public:
         if (apart > 0) {
             planned.stats.counts.emplace_back("iso_distance_bound_mm", apart);
         }
-        if (apart > isocurve_keys(operation_).iso_distance.value_or(apart)) {
+        if (apart > finish_keys(operation_).iso_distance.value_or(apart)) {
             planned.stats.warnings.push_back(
                 "neighbouring passes are not proved to be within iso_distance everywhere");
         }
@@ -225,8 +231,8 @@ private:
         if (operation_.passes.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
-        spacing_ = isocurve_keys(operation_).iso_distance
-                       ? *isocurve_keys(operation_).iso_distance
+        spacing_ = finish_keys(operation_).iso_distance
+                       ? *finish_keys(operation_).iso_distance
                        : stepover(operation_.tool.radius, *operation_.tolerance.scallop, 0);
         add_edges(add_curves(surface, curves));
         scallop_ = std::max(scallop_, highest.scallop_height);
@@ -356,7 +362,10 @@ private:
     void add_run(Points& run)
     {
         if (run.size() > 1 && length_of(run) > kSameEdge * spacing_) {
-            add_pass(run);
+            for (const auto& [first, last] : work_.ranges_in_area(run, {})) {
+                add_pass({run.begin() + static_cast<std::ptrdiff_t>(first),
+                          run.begin() + static_cast<std::ptrdiff_t>(last + 1)});
+            }
         }
         run.clear();
     }

@@ -15,11 +15,10 @@
 // and adds missing passes. plan_waterline_roughing() comes first if the job has roughing.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
-#include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/finish_keys.hpp"
 #include "host_tools/job/job/strategy.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -27,20 +26,6 @@ namespace cusp::adaptive_isocurve {
 // The records of the strategies.
 extern const job::Strategy kAdaptiveIsocurve;
 extern const job::Strategy kCompleteIsocurves;
-
-// Keys that isocurves and planes alone take.
-struct IsocurveKeys {
-    std::optional<double> iso_distance;  // mm; none: by the scallop
-    bool even_steps{false};  // iso_spacing = "even": full steps, not the paper's halving
-    char direction{'u'};     // or 'v'; of planes along x or y
-};
-
-// The operation's own keys.
-template <class AnyOperation>
-decltype(auto) isocurve_keys(AnyOperation& operation)
-{
-    return job::parameters_of<IsocurveKeys>(operation);
-}
 
 // Finishes the upper side of the operation's surfaces with a ball.
 //

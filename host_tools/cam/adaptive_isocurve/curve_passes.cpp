@@ -11,6 +11,7 @@ namespace cusp::adaptive_isocurve {
 
 using finishing::length_of;
 using finishing::Points;
+using finishing::SurfaceOperation;
 using nurbs::Curve;
 using part_model::OffsetSurface;
 using part_model::PartModel;
@@ -18,6 +19,19 @@ using part_model::PartModel;
 namespace {
 
 constexpr double kShortestPiece = 1e-3;  // mm
+
+TracedPiece part_of(const TracedPiece& piece, std::size_t first, std::size_t last)
+{
+    const auto from = static_cast<std::ptrdiff_t>(first);
+    const auto to = static_cast<std::ptrdiff_t>(last + 1);
+    TracedPiece out{{piece.points.begin() + from, piece.points.begin() + to},
+                    {piece.cc_parameters.begin() + from, piece.cc_parameters.begin() + to},
+                    piece.u_begin,
+                    piece.u_end};
+    out.u_begin = out.cc_parameters.front().u;
+    out.u_end = out.cc_parameters.back().u;
+    return out;
+}
 
 }  // namespace
 
@@ -33,14 +47,24 @@ std::size_t CurveFitter::Traced::points() const
 CurveFitter::Traced CurveFitter::traced(const DomainCurve& curve, bool may_be_clear) const
 {
     Traced found;
-    if (may_be_clear && add_whole(curve, found.out)) {
+    const bool everywhere = work_.area().is_everything();
+    if (may_be_clear && everywhere && add_whole(curve, found.out)) {
         return found;
     }
     TracedCurve traced = tracer_.trace(curve);
     found.out.whole = traced.pieces.size() == 1 && !traced.blocked &&
                       reaches_ends(curve, traced.pieces.front().points);
     found.out.blocked = traced.blocked;
-    found.pieces = std::move(traced.pieces);
+    if (everywhere) {
+        found.pieces = std::move(traced.pieces);
+        return found;
+    }
+    found.out.whole = false;
+    for (const TracedPiece& piece : traced.pieces) {
+        for (const auto& [first, last] : work_.ranges_in_area(piece.points, piece.cc_parameters)) {
+            found.pieces.push_back(part_of(piece, first, last));
+        }
+    }
     return found;
 }
 

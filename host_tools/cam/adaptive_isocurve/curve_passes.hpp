@@ -8,14 +8,14 @@
 
 #include "host_tools/cam/adaptive_isocurve/domain_curve.hpp"
 #include "host_tools/cam/adaptive_isocurve/offset_curve_trimmer.hpp"
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 #include "host_tools/geometry/part_model/offset_surface.hpp"
 
 namespace cusp::adaptive_isocurve {
 
 // The passes along one curve.
 struct CurvePasses {
-    std::vector<SurfaceOperation::FittedPass> passes;
+    std::vector<finishing::SurfaceOperation::FittedPass> passes;
     bool whole{};    // one pass, from end to end
     bool blocked{};  // the tool would cut something else
     int exact{};     // passes with an exact curve
@@ -24,7 +24,7 @@ struct CurvePasses {
 class CurveFitter {
 public:
     // work, tracer  kept
-    CurveFitter(const SurfaceOperation& work, const OffsetCurveTrimmer& tracer)
+    CurveFitter(const finishing::SurfaceOperation& work, const OffsetCurveTrimmer& tracer)
         : work_{work}, tracer_{tracer}
     {
     }
@@ -59,7 +59,7 @@ private:
                                              const DomainCurve& curve,
                                              const TracedPiece& piece) const;
 
-    const SurfaceOperation& work_;
+    const finishing::SurfaceOperation& work_;
     const OffsetCurveTrimmer& tracer_;
 };
 

@@ -85,7 +85,7 @@ double size_of(const Operation& operation)
 
 std::vector<Surface> surfaces_along_u(const Operation& operation)
 {
-    if (isocurve_keys(operation).direction == 'u') {
+    if (finish_keys(operation).direction == 'u') {
         return operation.part.floor;
     }
     std::vector<Surface> out;
@@ -97,25 +97,24 @@ std::vector<Surface> surfaces_along_u(const Operation& operation)
 
 void check_spacing(const Job& job, const Operation& operation)
 {
-    if (!isocurve_keys(operation).iso_distance && !operation.tolerance.scallop) {
+    if (!finish_keys(operation).iso_distance && !operation.tolerance.scallop) {
         throw InputError(
             fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.name()));
     }
     const double size = size_of(operation);
-    if (isocurve_keys(operation).iso_distance &&
-        size > kMostPasses * *isocurve_keys(operation).iso_distance) {
+    if (finish_keys(operation).iso_distance &&
+        size > kMostPasses * *finish_keys(operation).iso_distance) {
         throw InputError(fmt::format(
             "{}: iso_distance is {:g} mm, over a part of {:g} mm it must be at least {:g} mm ({:g} "
             "passes)",
-            job.file, *isocurve_keys(operation).iso_distance, size, size / kMostPasses,
-            kMostPasses));
+            job.file, *finish_keys(operation).iso_distance, size, size / kMostPasses, kMostPasses));
     }
-    if (isocurve_keys(operation).iso_distance &&
-        *isocurve_keys(operation).iso_distance >= 2 * operation.tool.radius) {
+    if (finish_keys(operation).iso_distance &&
+        *finish_keys(operation).iso_distance >= 2 * operation.tool.radius) {
         throw InputError(fmt::format(
             "{}: iso_distance is {:g} mm, passes of a ball of radius {:g} mm must be nearer than "
             "{:g} mm",
-            job.file, *isocurve_keys(operation).iso_distance, operation.tool.radius,
+            job.file, *finish_keys(operation).iso_distance, operation.tool.radius,
             2 * operation.tool.radius));
     }
     if (operation.tolerance.scallop && *operation.tolerance.scallop >= operation.tool.radius) {
@@ -123,7 +122,7 @@ void check_spacing(const Job& job, const Operation& operation)
             fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
                         *operation.tolerance.scallop, operation.tool.radius));
     }
-    if (operation.tolerance.scallop && !isocurve_keys(operation).iso_distance) {
+    if (operation.tolerance.scallop && !finish_keys(operation).iso_distance) {
         const double apart = stepover(operation.tool.radius, *operation.tolerance.scallop, 0);
         if (size > kMostPasses * apart) {
             throw InputError(fmt::format(

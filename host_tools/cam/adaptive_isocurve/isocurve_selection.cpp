@@ -14,6 +14,7 @@
 
 namespace cusp::adaptive_isocurve {
 
+using finishing::SurfaceOperation;
 using job::Operation;
 using nurbs::Surface;
 using nurbs::SurfacePoint;
@@ -95,17 +96,17 @@ std::vector<DomainCurve> IsocurveSelection::curves_of(int surface, bool complete
 {
     const Surface& s = surface_at(surface);
     if (complete) {
-        const double step = isocurve_keys(operation_).iso_distance
-                                ? *isocurve_keys(operation_).iso_distance
+        const double step = finish_keys(operation_).iso_distance
+                                ? *finish_keys(operation_).iso_distance
                                 : kCompleteShare * least_step(surface);
         return complete_isocurves(s, surface, step);
     }
-    if (isocurve_keys(operation_).iso_distance && isocurve_keys(operation_).even_steps) {
-        return curves_within(*isocurve_keys(operation_).iso_distance, surface);
+    if (finish_keys(operation_).iso_distance && finish_keys(operation_).even_steps) {
+        return curves_within(*finish_keys(operation_).iso_distance, surface);
     }
-    if (isocurve_keys(operation_).iso_distance) {
-        spacing_bound_ = std::max(spacing_bound_, *isocurve_keys(operation_).iso_distance);
-        return adaptive_isocurves(s, surface, *isocurve_keys(operation_).iso_distance);
+    if (finish_keys(operation_).iso_distance) {
+        spacing_bound_ = std::max(spacing_bound_, *finish_keys(operation_).iso_distance);
+        return adaptive_isocurves(s, surface, *finish_keys(operation_).iso_distance);
     }
     return curves_for_scallop(surface, follow);
 }
@@ -169,7 +170,7 @@ IsocurveScallop::Highest IsocurveSelection::highest_between(
     int surface, const std::vector<DomainCurve>& curves) const
 {
     const Surface& s = surface_at(surface);
-    const bool by_scallop = operation_.tolerance.scallop && !isocurve_keys(operation_).iso_distance;
+    const bool by_scallop = operation_.tolerance.scallop && !finish_keys(operation_).iso_distance;
     return IsocurveScallop{work_.model(), surface, tool_}.highest(
         curves, s.u_begin(), s.u_end(), kScallopSections,
         by_scallop ? *operation_.tolerance.scallop : kInfinite);

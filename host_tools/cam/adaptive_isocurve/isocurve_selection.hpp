@@ -7,7 +7,7 @@
 #include "host_tools/cam/adaptive_isocurve/domain_curve.hpp"
 #include "host_tools/cam/adaptive_isocurve/equal_scallop_passes.hpp"
 #include "host_tools/cam/adaptive_isocurve/isocurve_scallop.hpp"
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 #include "host_tools/job/job/job.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -19,7 +19,7 @@ public:
     // is_smooth  the part is one smooth surface without trims: its scallops are bounded between
     //            neighbouring passes alone, not by a check of the whole surface
     IsocurveSelection(const job::Operation& operation,
-                      const SurfaceOperation& work,
+                      const finishing::SurfaceOperation& work,
                       bool is_smooth);
 
     // The curves of one surface, in order of v.
@@ -47,7 +47,7 @@ private:
     std::vector<DomainCurve> curves_within(double distance, int surface);
 
     const job::Operation& operation_;
-    const SurfaceOperation& work_;
+    const finishing::SurfaceOperation& work_;
     ScallopTool tool_;
     bool is_smooth_;
     double spacing_bound_{};

@@ -8,9 +8,9 @@
 
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/cam/adaptive_isocurve/mesh_pencil_curves.hpp"
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
@@ -18,8 +18,12 @@
 namespace cusp::adaptive_isocurve {
 
 using finishing::kUprightNormal;
+using finishing::mesh_pencil_curves;
 using finishing::MeshScallopCheck;
 using finishing::Points;
+using finishing::report_uncovered_points;
+using finishing::report_walls_over_nothing;
+using finishing::SurfaceOperation;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;
@@ -58,11 +62,11 @@ struct MeshStrip {
 // The scallop of passes iso_distance apart on level ground, the tolerance included.
 double scallop_of(const Operation& operation, double outward)
 {
-    if (!isocurve_keys(operation).iso_distance) {
+    if (!finish_keys(operation).iso_distance) {
         return *operation.tolerance.scallop;
     }
     const double radius = operation.tool.radius;
-    const double half = std::min(0.5 * *isocurve_keys(operation).iso_distance, 0.95 * radius);
+    const double half = std::min(0.5 * *finish_keys(operation).iso_distance, 0.95 * radius);
     return outward + radius - std::sqrt(radius * radius - half * half);
 }
 
@@ -78,7 +82,7 @@ public:
     {
         const Vec3d low = work_.model().box_low();
         const Vec3d high = work_.model().box_high();
-        if (isocurve_keys(operation).direction == 'v') {
+        if (finish_keys(operation).direction == 'v') {
             along_ = {0, 1, 0};
             across_ = {1, 0, 0};
         }
@@ -86,8 +90,8 @@ public:
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
         row_ = kRowShare * stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
-        if (isocurve_keys(operation).iso_distance) {
-            row_ = std::min(row_, 0.999 * *isocurve_keys(operation).iso_distance);
+        if (finish_keys(operation).iso_distance) {
+            row_ = std::min(row_, 0.999 * *finish_keys(operation).iso_distance);
         }
         sample_pitch_ = kSampleShare * row_;
     }
@@ -117,7 +121,9 @@ private:
     {
         const Vec3d at = place(s, t);
         std::optional<Dropped> found = work_.model().drop_ball(at.x, at.y, radius_);
-        if (found && !work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) {
+        if (found &&
+            ((!work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) ||
+             !work_.area().holds(found->point, (found->centre - found->point) / radius_))) {
             return std::nullopt;
         }
         return found;
@@ -226,7 +232,7 @@ private:
         }
         return !check.is_covered(here->point, (here->centre - here->point) / radius_,
                                  kMiddleShare) ||
-               (isocurve_keys(operation_).iso_distance && too_far_apart(s, strip));
+               (finish_keys(operation_).iso_distance && too_far_apart(s, strip));
     }
 
     // If the tip or its contact jumps, no distance is small enough: such places do not count.
@@ -234,7 +240,7 @@ private:
     {
         const std::optional<Dropped> low = drop_at(s, strip.low);
         const std::optional<Dropped> high = drop_at(s, strip.high);
-        const double delta = *isocurve_keys(operation_).iso_distance;
+        const double delta = *finish_keys(operation_).iso_distance;
         const auto far = [&](Vec3d a, Vec3d b) {
             const double way = norm(b - a);
             return way > delta && way < delta + 4 * (strip.high - strip.low);
@@ -311,7 +317,9 @@ private:
     void add_pencil_passes()
     {
         for (const Points& crease : mesh_pencil_curves(work_.path_fitter(), sample_pitch_)) {
-            add_pass(crease);
+            for (const Points& pass : work_.creases_in_area(crease)) {
+                add_pass(pass);
+            }
         }
     }
 

@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_rougher.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::adaptive_isocurve {
 
+using finishing::check_clearance;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;

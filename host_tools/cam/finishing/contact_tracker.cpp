@@ -1,11 +1,21 @@
 // Newton's method from the last contact, or from the contact of a drop.
 #include "host_tools/cam/finishing/contact_tracker.hpp"
 
+#include "host_tools/geometry/part_model/tool_core.hpp"
+
 namespace cusp::finishing {
 
 using part_model::CcPoint;
+using part_model::core_of;
 using part_model::PartModel;
 using toolpath::Tool;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr double kSameContact = 1e-3;  // radii
+
+}  // namespace
 
 std::optional<ContactTracker::BallPosition> ContactTracker::at(double x, double y)
 {
@@ -13,8 +23,15 @@ std::optional<ContactTracker::BallPosition> ContactTracker::at(double x, double 
     const Tool& tool = path_fitter_.offset_tool();
     const auto leaning = [&](Vec3d centre, Vec3d point, Vec3d normal) {
         const Vec3d tip = centre - Vec3d{0, 0, path_fitter_.tool().radius};
-        return BallPosition{{x, y, tip.z}, {}, dot(centre - point, normal) / tool.radius};
+        return BallPosition{{x, y, tip.z},
+                            {},
+                            dot(centre - point, normal) / tool.radius,
+                            point,
+                            (centre - point) / norm(centre - point)};
     };
+    if (tool.shape != ToolShape::kBall) {
+        return other_end(x, y);
+    }
     if (model.is_mesh()) {
         const auto on_mesh = model.drop_ball(x, y, tool.radius);
         return on_mesh ? std::optional{leaning(on_mesh->centre, on_mesh->point, on_mesh->normal)}
@@ -31,8 +48,14 @@ std::optional<ContactTracker::BallPosition> ContactTracker::at(double x, double 
     if (const std::optional<BallPosition> found = beside(x, y)) {
         return found;
     }
+    // A trimmed edge has no parameters.
+    const Vec3d point = rest->place.point;
     const CcPoint under = model.cc_point(last_.surface, last_.u, last_.v, tool.radius);
-    return leaning({x, y, rest->tip + tool.radius}, under.point, under.normal);
+    BallPosition out = leaning({x, y, rest->tip + tool.radius}, point, under.normal);
+    if (norm(under.point - point) > kSameContact * tool.radius) {
+        out.facing = 0;
+    }
+    return out;
 }
 
 std::optional<ContactTracker::BallPosition> ContactTracker::beside(double x, double y)
@@ -48,7 +71,27 @@ std::optional<ContactTracker::BallPosition> ContactTracker::beside(double x, dou
         return std::nullopt;
     }
     last_ = {contact->surface, contact->u, contact->v};
-    return BallPosition{{x, y, contact->centre().z - path_fitter_.tool().radius}, last_};
+    return BallPosition{{x, y, contact->centre().z - path_fitter_.tool().radius},
+                        last_,
+                        1,
+                        contact->point,
+                        contact->normal};
+}
+
+std::optional<ContactTracker::BallPosition> ContactTracker::other_end(double x, double y) const
+{
+    const Tool& tool = path_fitter_.offset_tool();
+    const auto rest = path_fitter_.model().drop_cutter(tool, x, y);
+    if (!rest) {
+        return std::nullopt;
+    }
+    const Vec3d into = -core_of(tool, {x, y, rest->tip}).reach(rest->place.point);
+    const double length = norm(into);
+    return BallPosition{{x, y, rest->tip + path_fitter_.band().offset},
+                        {},
+                        1,
+                        rest->place.point,
+                        length > 0 ? into / length : Vec3d{0, 0, 1}};
 }
 
 }  // namespace cusp::finishing

@@ -1,5 +1,5 @@
-// A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
-// the only one. If that fails, the whole model is searched.
+// A tool dropped at neighbouring points: a ball's contact is tracked over the surface and proved to be
+// the only one. If that fails, and for other ends, the whole model is searched.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,19 @@ public:
         Vec3d tip;
         CcParameters contact;
         // Cosine of the angle between the normal at the contact and the direction to the centre:
-        // less than 1 on a rim or a crease.
+        // less than 1 on a rim or a crease, 0 on a trimmed edge.
         double facing{1};
+        Vec3d point{};  // of the model, where it touches
+        Vec3d lean{};   // unit, from there into the tool
     };
 
-    // The ball of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
+    // The tool of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
     // only. Quickest near the last point.
     std::optional<BallPosition> at(double x, double y);
 
 private:
     std::optional<BallPosition> beside(double x, double y);
+    std::optional<BallPosition> other_end(double x, double y) const;
 
     const GougeFreePathFitter& path_fitter_;
     CcParameters last_;

@@ -7,6 +7,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/contact_tracker.hpp"
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/hermite_spans.hpp"
 
 namespace cusp::finishing {
@@ -92,7 +93,11 @@ double length_of(const Points& points)
 GougeFreePathFitter::GougeFreePathFitter(const PartModel& model,
                                          const Tool& tool,
                                          const ToleranceBand& band)
-    : model_{model}, tool_{tool}, offset_tool_{tool}, band_{band}
+    : model_{model},
+      tool_{tool},
+      offset_tool_{tool},
+      band_{band},
+      area_{std::make_shared<FinishArea>()}
 {
     offset_tool_.radius += band.offset;
     offset_tool_.corner_radius += band.offset;

@@ -18,6 +18,8 @@
 
 namespace cusp::finishing {
 
+class FinishArea;
+
 // The parts of a tolerance, mm. The tip is planned `offset` off the surface, and the path may
 // deviate from the planned one by `half_width`.
 struct ToleranceBand {
@@ -51,6 +53,10 @@ public:
     // From this call on, moves gouge no rim or crease of the surfaces from the side, where a
     // two-sided tolerance lets them cut into faces; see `EdgeGougeCheck`.
     void check_edge_gouges(const std::vector<nurbs::Surface>& surfaces);
+
+    // From this call on, proofs of the scallop over the model are for that part of it.
+    void limit_to(std::shared_ptr<const FinishArea> area) { area_ = std::move(area); }
+    const FinishArea& area() const { return *area_; }
 
     // The points, moved off edges that the tool would gouge from the side, so far that no point
     // within the band gouges them.
@@ -157,6 +163,7 @@ private:
     toolpath::Tool offset_tool_;
     ToleranceBand band_;
     std::shared_ptr<const part_model::EdgeGougeCheck> edges_;
+    std::shared_ptr<const FinishArea> area_;
     double least_clearance_{};
     const part_model::PartModel::SharedQueries::Part* queries_{nullptr};
 };

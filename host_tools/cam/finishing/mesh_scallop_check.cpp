@@ -7,6 +7,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/walls_over_nothing.hpp"
 #include "host_tools/geometry/part_model/facet_distance.hpp"
 
@@ -56,6 +57,9 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
 {
     ++judged_;
     const double longest = longest_side(cell.corners).length;
+    if (path_fitter_.area().is_beyond(cell.middle(), longest, cell.normal, 0)) {
+        return Verdict::kCovered;
+    }
     if (longest > kLargestFacet * step()) {
         return Verdict::kHalve;
     }
@@ -306,7 +310,7 @@ std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_b
     const bool steep = at.normal.z < kUprightNormal;
     const bool covered = steep ? places_.is_wall_cut(at.point, at.normal, kPlaceShare)
                                : is_covered(at.point, at.normal, kPlaceShare);
-    if (covered || is_hidden(at)) {
+    if (covered || !path_fitter_.area().holds(at.point, at.normal) || is_hidden(at)) {
         return std::nullopt;
     }
     const Vec3d tip = places_.touching_tip(at.point, at.normal);
@@ -341,7 +345,8 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
         return uncovered_point(cell).has_value();
     }
     const auto stays = [&](Vec3d at) {
-        return is_covered(at, cell.normal, kPlaceShare) || is_hidden(at);
+        return is_covered(at, cell.normal, kPlaceShare) ||
+               !path_fitter_.area().holds(at, cell.normal) || is_hidden(at);
     };
     const auto touched = [&](Vec3d at) {
         return path_fitter_.is_clear(places_.touching_tip(at, cell.normal));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 #include "host_tools/cam/finishing/vertical_faces.hpp"
 #include "host_tools/cam/finishing/walls_over_nothing.hpp"
@@ -27,7 +28,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
                                                bool where_blocked) const
 {
     const Corner at = corner(surface, u, v);
-    if (!inside_trims(surface, u, v)) {
+    if (!path_fitter_.area().holds(at.point.point, at.normal) || !inside_trims(surface, u, v)) {
         return std::nullopt;
     }
     if (is_covered(at)) {
@@ -244,7 +245,8 @@ void ScallopCheck::measure_beside_edges(const std::vector<Cell>& cells)
     for (const Cell& cell : cells) {
         for (const Place& place : places_of(cell)) {
             const Corner at = corner(cell.surface, place.u, place.v);
-            if (!places_.is_upright(at.normal) && !is_hidden(at)) {
+            if (!places_.is_upright(at.normal) &&
+                path_fitter_.area().holds(at.point.point, at.normal) && !is_hidden(at)) {
                 scallop_over_reachable(at, std::max(scallop_, left_beside_edges_));
             }
         }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kSamePlace = 1e-6;      // mm
 constexpr std::size_t kLinksAtOnce = 8;  // of one thread
 constexpr double kLongestDetour = 3;     // times the distance; beyond it a retract is better
+constexpr int kLeadMoves = 8;            // of a quarter turn
 
 double plan_distance(Vec3d a, Vec3d b) { return elementary::hypot(b.x - a.x, b.y - a.y); }
 
@@ -113,10 +115,49 @@ std::vector<std::optional<Points>> ways_between(const std::vector<SurfacePass>& 
     return out;
 }
 
+// A level quarter turn that ends at a pass, tangent to its way there, beside the part and clear of it; none
+// where neither side has room.
+//
+// way  of the tool, from `at` on
+std::optional<Points> lead_to(Vec3d at, Vec3d way, double radius, GougeFreePathFitter& path_fitter)
+{
+    const double level = elementary::hypot(way.x, way.y);
+    if (!(radius > 0) || !(level > 0)) {
+        return std::nullopt;
+    }
+    const Vec3d along{way.x / level, way.y / level, 0};
+    for (const double turn : {radius, -radius, 0.5 * radius, -0.5 * radius}) {
+        const Vec3d centre = at + Vec3d{-along.y, along.x, 0} * turn;
+        const Vec3d out = at - centre;
+        Points lead;
+        for (int k = kLeadMoves; k >= 0; --k) {
+            const double angle = 0.5 * kPi * k / kLeadMoves;
+            lead.push_back(centre + out * elementary::cos(angle) -
+                           along * (std::abs(turn) * elementary::sin(angle)));
+        }
+        bool clear = true;
+        for (std::size_t k = 1; clear && k < lead.size(); ++k) {
+            clear = path_fitter.clears_edges(lead[k - 1], lead[k]) &&
+                    path_fitter.is_line_clear(lead[k - 1], lead[k]);
+        }
+        if (clear) {
+            lead.back() = at;
+            return lead;
+        }
+    }
+    return std::nullopt;
+}
+
+Vec3d way_in(const SurfacePass& pass) { return pass.points[1] - pass.points[0]; }
+Vec3d way_out(const SurfacePass& pass)
+{
+    return pass.points[pass.points.size() - 2] - pass.points.back();
+}
+
 class Linker {
 public:
-    explicit Linker(const LinkRules& rules)
-        : rules_{rules}, writer_{out_.moves, {rules.clearance_z}}
+    Linker(const LinkRules& rules, GougeFreePathFitter& path_fitter)
+        : rules_{rules}, path_fitter_{path_fitter}, writer_{out_.moves, {rules.clearance_z}}
     {
     }
 
@@ -125,14 +166,17 @@ public:
         if (way) {
             link(*way);
         } else {
-            enter(pass.points.front());
+            leave();
+            enter(pass);
         }
         append(pass);
         out_.cut_length += length_of(pass.points);
+        last_ = &pass;
     }
 
     LinkedPasses finish()
     {
+        leave();
         // Only retracts between passes count.
         out_.retracts = writer_.retracts();
         writer_.retract();
@@ -141,11 +185,30 @@ public:
     }
 
 private:
-    void enter(Vec3d start)
+    void enter(const SurfacePass& pass)
     {
+        const std::optional<Points> lead =
+            lead_to(pass.points.front(), way_in(pass), rules_.lead_in, path_fitter_);
+        const Vec3d start = lead ? lead->front() : pass.points.front();
         const bool over = rules_.plunge_from > start.z;
         writer_.approach(in_plan(start), over ? rules_.plunge_from : rules_.clearance_z);
         writer_.line(MoveKind::kPlunge, start);
+        if (lead) {
+            link(*lead);
+        }
+    }
+
+    // Before a retract.
+    void leave()
+    {
+        if (last_ == nullptr) {
+            return;
+        }
+        if (std::optional<Points> lead =
+                lead_to(end_of(*last_), way_out(*last_), rules_.lead_in, path_fitter_)) {
+            std::reverse(lead->begin(), lead->end());
+            link(*lead);
+        }
     }
 
     void link(const Points& way)
@@ -171,8 +234,10 @@ private:
     }
 
     const LinkRules& rules_;
+    GougeFreePathFitter& path_fitter_;
     LinkedPasses out_;
     ToolpathWriter writer_;
+    const SurfacePass* last_{nullptr};
 };
 
 // Always the nearest end next.
@@ -215,7 +280,7 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
     const std::vector<SurfacePass> ordered =
         rules.one_way ? std::move(passes) : in_greedy_order(std::move(passes));
     const std::vector<std::optional<Points>> ways = ways_between(ordered, rules, path_fitter);
-    Linker linker{rules};
+    Linker linker{rules, path_fitter};
     for (std::size_t k = 0; k < ordered.size(); ++k) {
         linker.add(ordered[k], ways[k]);
     }

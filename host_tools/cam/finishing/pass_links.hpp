@@ -22,6 +22,8 @@ struct LinkRules {
     double clearance_z{};  // mm: height of rapids
     double plunge_from{};  // mm: height from which the tool descends at the plunge feed
     bool one_way{false};   // passes keep their order and their direction
+    double
+        lead_in{};  // mm, radius: entries and exits are level quarter turns where these are clear
 };
 
 struct LinkedPasses {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 #include "host_tools/geometry/part_model/surface_length.hpp"
 
@@ -27,7 +28,8 @@ std::optional<Vec3d> ScallopCheck::tip_over_rim(int surface, Vec2d place) const
         return std::nullopt;
     }
     const Corner at = corner(surface, place.x, place.y);
-    if (at.normal.z >= kUprightRim || is_hidden(at)) {
+    if (at.normal.z >= kUprightRim || !path_fitter_.area().holds(at.point.point, at.normal) ||
+        is_hidden(at)) {
         return std::nullopt;
     }
     const Vec3d p = at.point.point;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
 
 namespace cusp::finishing {
@@ -150,6 +151,9 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
     const double bend = along_z ? shape.turn / shape.least_z : shape.turn;
     const double shrink = path_off_ + shape.bow + 0.5 * scallop_ * bend * bend;
     const Corner middle = middle_of(cell);
+    if (path_fitter_.area().is_beyond(middle.point.point, size, middle.normal, 2 * shape.turn)) {
+        return Verdict::kCovered;
+    }
     const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
                                     along_z && middle.normal.z >= kSteepNormal);
     places_.swept().near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
@@ -462,7 +466,7 @@ double ScallopCheck::most_left_in(const std::vector<Cell>& cells)
             const Corner at = corner(cell.surface, place.u, place.v);
             const Vec3d p = at.point.point;
             const double over = (places_.swept().lowest(p.x, p.y).height - p.z) * at.normal.z;
-            if (over > scallop_ && !is_hidden(at)) {
+            if (over > scallop_ && path_fitter_.area().holds(p, at.normal) && !is_hidden(at)) {
                 all.push_back({at, over});
             }
         }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/finishing/finish_area.hpp"
 
 namespace cusp::finishing {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr int kWallRounds = 5;
 constexpr std::size_t kWallShares = 64;  // of a search on several threads
 constexpr double kJoined = 0.25;         // in stepovers: ends of passes along neighbouring facets
+constexpr double kAreaStep = 0.125;  // the same: places along a wall, whether they are in the area
 
 double bottom_of(const WallFacet& facet)
 {
@@ -26,7 +28,50 @@ double bottom_of(const WallFacet& facet)
     return low;
 }
 
+// The part of a polygon over a height, or with sign -1 under it.
+std::vector<Vec3d> clipped(const std::vector<Vec3d>& corners, double height, double sign)
+{
+    std::vector<Vec3d> out;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3d a = corners[k];
+        const Vec3d b = corners[(k + 1) % corners.size()];
+        const double over_a = sign * (a.z - height);
+        const double over_b = sign * (b.z - height);
+        if (over_a >= 0) {
+            out.push_back(a);
+        }
+        if (over_a * over_b < 0) {
+            out.push_back(a + (b - a) * (over_a / (over_a - over_b)));
+        }
+    }
+    return out;
+}
+
 }  // namespace
+
+std::vector<WallFacet> facets_in(const FinishArea& area, const std::vector<WallFacet>& facets)
+{
+    if (area.is_everything()) {
+        return facets;
+    }
+    const job::GroundRange& range = area.range();
+    std::vector<WallFacet> out;
+    for (WallFacet facet : facets) {
+        if (facet.normal.z < range.least_normal_z() || facet.normal.z > range.most_normal_z()) {
+            continue;
+        }
+        if (range.low > -kInfinite) {
+            facet.corners = clipped(facet.corners, range.low, 1);
+        }
+        if (range.high < kInfinite) {
+            facet.corners = clipped(facet.corners, range.high, -1);
+        }
+        if (facet.corners.size() >= 3) {
+            out.push_back(std::move(facet));
+        }
+    }
+    return out;
+}
 
 // Cuts the passes of one round in order. Those along neighbouring facets, as of a curved face, become
 // one pass.
@@ -130,8 +175,41 @@ void UncutWalls::share_out(std::size_t count,
     path_fitter_.model().forget_queries();
 }
 
-void UncutWalls::find(const std::vector<WallFacet>& facets)
+// Where stock is left, as far as the wall is in the area.
+std::vector<WallSide::Run> UncutWalls::missing_in_area(const WallSide& side,
+                                                       const ScallopAtPoint& places,
+                                                       WallSide::KnownReach& known) const
 {
+    const FinishArea& area = path_fitter_.area();
+    std::vector<WallSide::Run> all = side.missing_runs(places, known);
+    if (area.is_everything()) {
+        return all;
+    }
+    Vec3d normal = side.out();
+    normal.z = std::max(0.0, normal.z);
+    std::vector<WallSide::Run> out;
+    for (const WallSide::Run& run : all) {
+        const int parts = std::max(
+            1, static_cast<int>(std::ceil((run.to - run.from) / (kAreaStep * places.step()))));
+        for (int k = 0; k < parts; ++k) {
+            const double from = run.from + (run.to - run.from) * k / parts;
+            const double to = run.from + (run.to - run.from) * (k + 1) / parts;
+            if (!area.holds(side.place_at(0.5 * (from + to)), normal)) {
+                continue;
+            }
+            if (!out.empty() && out.back().to == from && out.back().level == run.level) {
+                out.back().to = to;
+            } else {
+                out.push_back({from, to, run.level});
+            }
+        }
+    }
+    return out;
+}
+
+void UncutWalls::find(const std::vector<WallFacet>& all)
+{
+    const std::vector<WallFacet> facets = facets_in(path_fitter_.area(), all);
     std::vector<std::size_t> order;
     std::vector<double> bottoms;
     for (std::size_t k = 0; k < facets.size(); ++k) {
@@ -143,7 +221,7 @@ void UncutWalls::find(const std::vector<WallFacet>& facets)
     std::vector<std::vector<Wall>> found(order.size());
     share_out(order.size(), [&](Search& search, std::size_t k) {
         for (const WallSide& side : wall_sides_of(facets[order[k]], path_fitter_)) {
-            std::vector<WallSide::Run> runs = side.missing_runs(search.places, search.known);
+            std::vector<WallSide::Run> runs = missing_in_area(side, search.places, search.known);
             if (!runs.empty()) {
                 found[k].push_back({side, std::move(runs)});
             }
@@ -165,7 +243,7 @@ void UncutWalls::look_again()
     }
     moves_seen_ = places_.swept().moves();
     share_out(walls_.size(), [&](Search& search, std::size_t k) {
-        walls_[k].runs = walls_[k].side.missing_runs(search.places, search.known);
+        walls_[k].runs = missing_in_area(walls_[k].side, search.places, search.known);
     });
     std::vector<Wall> kept;
     for (Wall& wall : walls_) {
@@ -187,7 +265,7 @@ void UncutWalls::add_missing(const std::function<void(const Points&)>& cut)
             path_fitter_.model().forget_many_cells();
             if (cutter.has_cut_near(wall.side)) {
                 WallSide::KnownReach known;
-                wall.runs = wall.side.missing_runs(places_, known);
+                wall.runs = missing_in_area(wall.side, places_, known);
             }
             for (const WallSide::Run& run : wall.runs) {
                 cutter.add(wall.side.pass_along(run));

@@ -9,6 +9,11 @@
 
 namespace cusp::finishing {
 
+class FinishArea;
+
+// What of the facets is in the area, by slope and height; loops do not count.
+std::vector<WallFacet> facets_in(const FinishArea& area, const std::vector<WallFacet>& facets);
+
 // The work beside walls that `MeshScallopCheck` and `ScallopCheck` share: each gives its vertical
 // facets, and WallSide looks at both sides of them.
 //
@@ -18,9 +23,9 @@ public:
     // places  of the check, with its passes; kept
     UncutWalls(const GougeFreePathFitter& path_fitter, ScallopAtPoint& places);
 
-    // Keeps the sides of facets beside which stock is left, the lowest first: a pass at the foot of a
+    // Keeps the sides of facets in the fitter's area beside which stock is left, the lowest first: a pass at the foot of a
     // wall also cuts the stock over it.
-    void find(const std::vector<WallFacet>& facets);
+    void find(const std::vector<WallFacet>& all);
 
     // Adds the passes that are missing along them. Each is given to `cut`, which must add the path it
     // cuts to the places. Forgets sides that are cut then.
@@ -49,6 +54,9 @@ private:
     };
     // Calls work(search, k) for each k below count, neighbours with one search.
     void share_out(std::size_t count, const std::function<void(Search&, std::size_t)>& work) const;
+    std::vector<WallSide::Run> missing_in_area(const WallSide& side,
+                                               const ScallopAtPoint& places,
+                                               WallSide::KnownReach& known) const;
     // Nothing to do where no pass was added since.
     void look_again();
 

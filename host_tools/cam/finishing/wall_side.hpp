@@ -71,6 +71,8 @@ public:
     double end() const { return end_; }
     Vec3d out() const { return out_; }  // unit
 
+    // A place of the wall.
+    Vec3d place_at(double along) const { return point_at(along, whole_column_at(along).top); }
     // The centre of a ball that touches the upper end of the wall at a place along it.
     Vec3d centre_at_top(double along) const;
     // True if something lies below a ball there that is smaller by a tenth; a ball that touches the

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "host_tools/cam/finishing/finish_area.hpp"
+#include "host_tools/cam/finishing/uncut_walls.hpp"
 #include "host_tools/cam/finishing/wall_side.hpp"
 
 namespace cusp::finishing {
@@ -66,7 +68,7 @@ double walls_over_nothing(const std::vector<WallFacet>& facets,
         return found->second;
     };
     std::vector<Stretch> stretches;
-    for (const WallFacet& facet : facets) {
+    for (const WallFacet& facet : facets_in(path_fitter.area(), facets)) {
         for (const WallSide& side : wall_sides_of(facet, path_fitter)) {
             const double length = side.end() - side.begin();
             const int parts = std::max(1, static_cast<int>(std::ceil(length / square)));

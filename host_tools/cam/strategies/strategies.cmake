@@ -5,7 +5,9 @@ set(CUSP_STRATEGIES
   grid_pocket::kGridPocket
   hull_rough::kHullRough
   adaptive_isocurve::kCompleteIsocurves
-  adaptive_isocurve::kParallelPlanes
+  steep_shallow::kParallelPlanes
+  steep_shallow::kWaterline
+  steep_shallow::kSteepShallow
   contour_pocket::kPocket
   prismatic::kProfile
   prismatic::kDrill

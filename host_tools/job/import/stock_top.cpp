@@ -15,7 +15,7 @@ using job::Operation;
 
 namespace {
 
-bool is_pocket(const Operation& operation) { return operation.outline.boundary.has_value(); }
+bool is_pocket(const Operation& operation) { return operation.strategy->traits.pocket; }
 
 // An engraving may be the only operation on its floor.
 bool is_on_floor(const Operation& operation)

@@ -126,6 +126,13 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     return ideal;
 }
 
+bool is_owed(const FloorQuestion& q, const PartHeights& part, std::size_t k)
+{
+    const Vec3d place{q.grid.x(k / q.grid.ny, k % q.grid.ny),
+                      q.grid.y(k / q.grid.ny, k % q.grid.ny), part.z[k]};
+    return q.owed.holds(place, part.cosine[k]);
+}
+
 // Points inside the walls where the stock is higher than the scallop above the part.
 std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
                                          const PartHeights& part,
@@ -135,7 +142,7 @@ std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
     const double radius = least_radius(q.tools);
     for (std::size_t k = 0; k < q.grid.size(); ++k) {
         if (std::isfinite(part.z[k]) && clear[k] >= radius &&
-            (q.cut[k] - part.z[k]) * part.cosine[k] > *q.scallop) {
+            (q.cut[k] - part.z[k]) * part.cosine[k] > *q.scallop && is_owed(q, part, k)) {
             places.push_back(k);
         }
     }
@@ -388,7 +395,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         }
         const bool reached = clear[k] >= radius;
         sums.unreachable += reached && ideal.unfit[k] != 0 ? 1U : 0U;
-        if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0)) {
+        if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0) || !is_owed(q, part, k)) {
             continue;
         }
         // uncut stock within the bound needs no cut

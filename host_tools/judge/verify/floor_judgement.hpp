@@ -8,6 +8,7 @@
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/judge/verify/height_grid.hpp"
 #include "host_tools/judge/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/owed_ground.hpp"
 #include "host_tools/judge/verify/part_heights.hpp"
 #include "host_tools/judge/verify/pocket_boundaries.hpp"
 #include "host_tools/judge/verify/verify.hpp"
@@ -22,6 +23,7 @@ struct FloorQuestion {
     const HeightGrid& grid;
     const std::vector<double>& cut;  // heights of the stock after cutting; NaN: no stock to judge
     double top;                      // of the uncut stock
+    const OwedGround& owed;
     std::optional<double> scallop;
     double path_clearance;  // mm: largest distance that the path may keep from the floor
     const std::vector<ToolPositions>& runs;  // of all tools, roughing tools included

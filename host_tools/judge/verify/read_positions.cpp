@@ -44,10 +44,11 @@ Scene scene_of(const Job& job)
         }
         const std::string pocket =
             operation.outline.boundary ? operation.outline.boundary_file : "";
-        if (operation.outline.boundary && boundaries.insert(pocket).second) {
+        const bool has_walls = operation.strategy->traits.pocket;
+        if (has_walls && operation.outline.boundary && boundaries.insert(pocket).second) {
             scene.walls.push_back({pocket, *operation.outline.boundary, true});
         }
-        for (std::size_t i = 0; i < operation.outline.islands.size(); ++i) {
+        for (std::size_t i = 0; has_walls && i < operation.outline.islands.size(); ++i) {
             if (islands.emplace(pocket, operation.outline.island_files[i]).second) {
                 scene.walls.push_back({pocket, operation.outline.islands[i], false});
             }

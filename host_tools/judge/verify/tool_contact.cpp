@@ -33,7 +33,7 @@ double flute_slack(const Job& job)
 bool lies_in_stock(const Operation& operation)
 {
     return operation.prismatic ? !operation.cuts(job::Region::kTop)
-                               : operation.outline.boundary.has_value();
+                               : operation.strategy->traits.pocket;
 }
 
 }  // namespace

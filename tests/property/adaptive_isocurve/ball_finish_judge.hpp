@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "firmware/base/math.hpp"
@@ -56,6 +58,9 @@ public:
         }
     }
 
+    // From now on only places for which it holds are judged, by the place and its normal.
+    void judge_only(std::function<bool(Vec3d, Vec3d)> judged) { judged_ = std::move(judged); }
+
     // The one of `places` where most is left over the bound.
     Worst most_left(Random& random, double bound) const
     {
@@ -64,7 +69,8 @@ public:
             const std::size_t facet = k % 2 == 0 ? by_area(random) : by_chance(random);
             const Vec3d place = place_on(random, mesh_[facet]);
             const Vec3d normal = BallOnTriangles::normal(mesh_[facet]);
-            if (!(normal.z > 1e-6) || part_.top(place.x, place.y) > place.z + 1e-6) {
+            if (!(normal.z > 1e-6) || !judged_(place, normal) ||
+                part_.top(place.x, place.y) > place.z + 1e-6) {
                 continue;
             }
             const double over = left_over(place, normal, bound) - bound;
@@ -91,6 +97,9 @@ public:
                 whole(random, 0, static_cast<int>(walls.size()) - 1))];
             const Vec3d place = place_on(random, mesh_[facet]);
             const Vec3d normal = BallOnTriangles::normal(mesh_[facet]);
+            if (!judged_(place, {normal.x, normal.y, std::abs(normal.z)})) {
+                continue;
+            }
             for (const double side : {1.0, -1.0}) {
                 const Vec3d out = normal * side;
                 const Vec3d beside = place + out * kBesideWall;
@@ -242,6 +251,9 @@ private:
     BallOnTriangles part_;
     const CutMoves& moves_;
     double radius_;
+    std::function<bool(Vec3d, Vec3d)> judged_{[](Vec3d, Vec3d) {
+        return true;
+    }};
     double clear_of_;            // mm: clearance of the ball by a one-sided tolerance
     std::vector<double> areas_;  // of the facets up to each
     std::vector<double> centres_;

@@ -4,15 +4,19 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/cam/steep_shallow/parallel_planes.hpp"
+#include "host_tools/cam/steep_shallow/steep_shallow.hpp"
+#include "host_tools/job/job/finish_keys.hpp"
 #include "tests/property/adaptive_isocurve/ball_finish_judge.hpp"
 #include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
 #include "tests/property/adaptive_isocurve/random_polyhedra.hpp"
 #include "tests/property/adaptive_isocurve/round_walls.hpp"
+#include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -21,6 +25,7 @@
 namespace cusp::test {
 
 using namespace adaptive_isocurve;
+using namespace steep_shallow;
 using namespace job;
 using namespace toolpath;
 
@@ -34,7 +39,58 @@ struct Way {
     bool as_faces;
     Walls walls{Walls::kDrafted};
     ToleranceSide side{ToleranceSide::kOutside};
+    bool limited{false};  // to an area
 };
+
+Loop box_loop(Vec2d low, Vec2d high)
+{
+    return loop_of({low, {high.x, low.y}, high, {low.x, high.y}});
+}
+
+// Slopes, heights and a boundary with an island, each in half of the jobs.
+void limit(Random& random, Operation& operation)
+{
+    Vec3d low = operation.part.mesh.front()[0];
+    Vec3d high = low;
+    for (const auto& t : operation.part.mesh) {
+        for (const Vec3d& p : t) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+    GroundRange& range = finish_keys(operation).range;
+    if (whole(random, 0, 1) == 0) {
+        range.least_slope = uniform(random, 0.0, 40.0);
+        range.most_slope = uniform(random, 60.0, 120.0);
+    }
+    if (whole(random, 0, 1) == 0) {
+        range.low = low.z + uniform(random, 0.0, 0.5) * (high.z - low.z);
+    }
+    if (whole(random, 0, 1) == 0) {
+        const auto at = [&](double share) {
+            return Vec2d{low.x + share * (high.x - low.x), low.y + share * (high.y - low.y)};
+        };
+        operation.outline.boundary =
+            box_loop(at(uniform(random, -0.2, 0.3)), at(uniform(random, 0.6, 1.2)));
+        operation.outline.islands = {
+            box_loop(at(uniform(random, 0.35, 0.4)), at(uniform(random, 0.42, 0.55)))};
+    }
+}
+
+// True if the place is in the area, by its loops' corners.
+bool is_in_area(const Operation& operation, Vec3d place, Vec3d normal)
+{
+    const auto inside = [&](const Loop& loop) {
+        const Vec3d low = loop[0].points[0];
+        const Vec3d high = loop[2].points[0];
+        return place.x >= low.x && place.x <= high.x && place.y >= low.y && place.y <= high.y;
+    };
+    const GroundRange& range = finish_keys(operation).range;
+    const double slope = std::acos(std::min(1.0, normal.z)) * 180 / kPi;
+    return slope >= range.least_slope && slope <= range.most_slope && place.z >= range.low &&
+           (!operation.outline.boundary ||
+            (inside(*operation.outline.boundary) && !inside(operation.outline.islands[0])));
+}
 
 // Its mesh is the polyhedron, for the judge, however it is given.
 Job random_job(Random& random, const Way& way)
@@ -56,8 +112,7 @@ Job random_job(Random& random, const Way& way)
     operation.tolerance.floor = operation.tolerance.plan =
         *operation.tolerance.scallop * uniform(random, 0.1, 0.4);
     operation.tolerance.side = way.side;
-    cusp::adaptive_isocurve::isocurve_keys(operation).direction =
-        whole(random, 0, 1) == 0 ? 'u' : 'v';
+    job::finish_keys(operation).direction = whole(random, 0, 1) == 0 ? 'u' : 'v';
     constexpr OutputForm kForms[] = {OutputForm::kLines, OutputForm::kLines, OutputForm::kArcs,
                                      OutputForm::kNurbs};
     operation.output = kForms[whole(random, 0, 3)];
@@ -66,6 +121,9 @@ Job random_job(Random& random, const Way& way)
         job.stock_top = std::max({job.stock_top, t[0].z, t[1].z, t[2].z});
     }
     job.stock_top += uniform(random, 0.0, 2.0);
+    if (way.limited) {
+        limit(random, operation);
+    }
     job.operations = {operation};
     return job;
 }
@@ -88,12 +146,24 @@ bool holds(const Way& way, unsigned seed, int& reached)
     Random random{seed};
     const Job job = random_job(random, way);
     const Operation& operation = job.operations.front();
-    const PlannedOperation planned = planned_by(way, job);
+    PlannedOperation planned;
+    try {
+        planned = planned_by(way, job);
+    } catch (const InputError& error) {
+        // An area may hold nothing that the ball reaches.
+        if (!way.limited ||
+            std::string{error.what()}.find("inside boundary") == std::string::npos) {
+            throw;
+        }
+        return true;
+    }
     const CutMoves moves{planned.path, 0.01 * operation.tolerance.floor};
     // Passes may keep so far off.
     const double clear_of =
         (way.side == ToleranceSide::kBoth ? 0.5 : 1) * operation.tolerance.floor;
-    const BallFinishJudge judge{operation.part.mesh, moves, operation.tool.radius, clear_of};
+    BallFinishJudge judge{operation.part.mesh, moves, operation.tool.radius, clear_of};
+    judge.judge_only(
+        [&](Vec3d place, Vec3d normal) { return is_in_area(operation, place, normal); });
     const double bound = planned.stats.scallop_bound_mm;
     Worst worst = way.walls != Walls::kDrafted
                       ? judge.most_left_beside_walls(random, bound + kExact)
@@ -136,7 +206,7 @@ void hold_seeds(const Way& way, const std::vector<unsigned>& seeds)
     }
     std::printf("%d of %zu polyhedra break a bound\n", broken, seeds.size());
     LONGS_EQUAL(0, broken);
-    if (way.walls != Walls::kDrafted) {
+    if (way.walls != Walls::kDrafted && !way.limited) {
         std::printf("%d places beside walls\n", reached);
         CHECK(reached > (way.walls == Walls::kLow ? 1 : 100) * static_cast<int>(seeds.size()));
     }
@@ -248,5 +318,25 @@ TEST(MeshBoundProperty, HoldsBesideLowFaces)
 TEST(MeshBoundProperty, HoldsForPlanesOverMeshes) { hold_all({&kParallelPlanes, false}, 2); }
 
 TEST(MeshBoundProperty, HoldsForPlanesOverFaces) { hold_all({&kParallelPlanes, true}, 2); }
+
+// Levels and planes over all slopes.
+TEST(MeshBoundProperty, HoldsForSteepAndShallow)
+{
+    hold_all({&kSteepShallow, false}, 1);
+    hold_all({&kSteepShallow, true}, 1);
+    hold_all({&kSteepShallow, false, Walls::kStanding}, 1);
+}
+
+// An area by slopes, heights and loops: all in it is finished.
+TEST(MeshBoundProperty, HoldsInAreas)
+{
+    for (const Strategy* strategy : {&kWaterline, &kParallelPlanes, &kAdaptiveIsocurve}) {
+        for (const bool as_faces : {false, true}) {
+            Way way{strategy, as_faces};
+            way.limited = true;
+            hold_all(way, 1);
+        }
+    }
+}
 
 }  // namespace cusp::test

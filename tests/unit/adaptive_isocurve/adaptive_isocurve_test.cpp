@@ -9,8 +9,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
 #include "host_tools/cam/finishing/swept_volume.hpp"
+#include "host_tools/cam/steep_shallow/parallel_planes.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "tests/support/recorded_progress.hpp"
@@ -18,6 +18,7 @@
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;
+using cusp::steep_shallow::plan_parallel_planes;
 using namespace cusp::finishing;
 using namespace cusp::job;
 using namespace cusp::nurbs;
@@ -175,7 +176,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     finish.tool.radius = finish.tool.corner_radius = 3;
     finish.tolerance.scallop = 0.1;
     finish.tolerance.floor = 0.005;
-    cusp::adaptive_isocurve::isocurve_keys(finish).direction = 'v';
+    job::finish_keys(finish).direction = 'v';
     const auto planned = plan_adaptive_isocurve(bowl, finish).front();
     CHECK(planned.stats.scallop_bound_mm <= 0.1);
     // The reach of a ball on the passes' floor beyond the bowl's open side.
@@ -214,7 +215,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
     finish.tool.radius = finish.tool.corner_radius = 3;
     finish.tolerance.scallop = 0.1;
     for (const char direction : {'u', 'v'}) {
-        cusp::adaptive_isocurve::isocurve_keys(finish).direction = direction;
+        job::finish_keys(finish).direction = direction;
         const auto planned = plan_adaptive_isocurve(roof, finish).front();
         CHECK(planned.stats.scallop_bound_mm <= 0.1);
         // A ball on both rims drops between them: it may be no higher than level with them.
@@ -231,7 +232,7 @@ TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
     // Two walls that meet in an edge below which no isocurve of either ends.
     Job made = job_for({wall(0, -1), wall(1.05, 3)}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
     made.operations.front().tolerance.scallop.reset();
-    cusp::adaptive_isocurve::isocurve_keys(made.operations.front()).iso_distance = 0.5;
+    job::finish_keys(made.operations.front()).iso_distance = 0.5;
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     CHECK(std::isfinite(planned.front().stats.scallop_bound_mm));
     CHECK(planned.front().stats.scallop_bound_mm < 2);
@@ -246,9 +247,9 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
         Job made = job_for({bumps(other, 2)}, cusp::adaptive_isocurve::kAdaptiveIsocurve);
         Operation& at_distance = made.operations.front();
         at_distance.tolerance.scallop.reset();
-        cusp::adaptive_isocurve::isocurve_keys(at_distance).iso_distance = 1.2;
-        cusp::adaptive_isocurve::isocurve_keys(at_distance).even_steps = seed % 3 == 0;
-        cusp::adaptive_isocurve::isocurve_keys(at_distance).direction = seed % 2 == 0 ? 'u' : 'v';
+        job::finish_keys(at_distance).iso_distance = 1.2;
+        job::finish_keys(at_distance).even_steps = seed % 3 == 0;
+        job::finish_keys(at_distance).direction = seed % 2 == 0 ? 'u' : 'v';
         const Surface& surface = at_distance.part.floor.front();
         const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
         const double bound = planned.stats.scallop_bound_mm;
@@ -279,7 +280,7 @@ TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
         std::printf("seed %u ", seed);
         std::mt19937 other{seed};
         operation.part.floor = {bumps(other, 12)};
-        cusp::adaptive_isocurve::isocurve_keys(operation).direction = seed % 2 == 0 ? 'u' : 'v';
+        job::finish_keys(operation).direction = seed % 2 == 0 ? 'u' : 'v';
         const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
         CHECK(deepest_cut(planned.path, operation.part.floor) <= 1e-6);
     }
@@ -290,7 +291,7 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
     operation.part.floor.pop_back();
     operation.output = OutputForm::kNurbs;
     operation.tolerance.scallop.reset();
-    cusp::adaptive_isocurve::isocurve_keys(operation).iso_distance = 1.0;
+    job::finish_keys(operation).iso_distance = 1.0;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     double exact = 0;
     double bound = 1;
@@ -358,7 +359,7 @@ TEST(AdaptiveIsocurve, CutsOneWayInTheDirectionAskedFor)
     for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
         operation.passes.direction_of_cut = direction;
         for (const char parameter : {'u', 'v'}) {
-            cusp::adaptive_isocurve::isocurve_keys(operation).direction = parameter;
+            job::finish_keys(operation).direction = parameter;
             const std::vector<Vec3d> mids =
                 pass_middles(plan_adaptive_isocurve(job, operation).front().path);
             int right = 0;

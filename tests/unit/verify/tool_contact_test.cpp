@@ -238,7 +238,10 @@ TEST(ToolContact, OfAConeThatIsHigherThanItsFlutes)
 TEST(ToolContact, ThereIsStockAroundAPocketUnlessTheJobGivesItsExtent)
 {
     const HeightGrid grid{0, 0, 1, 20, 20, false};
+    job::Strategy clearing_walls;
+    clearing_walls.traits.pocket = true;
     job::Operation pocket;
+    pocket.strategy = &clearing_walls;
     pocket.outline.boundary.emplace();
     job.operations = {pocket};
     DOUBLES_EQUAL(-0.5, stock_around(job, grid).x[0], 1e-12);

@@ -42,6 +42,19 @@ step_over = 1
 scallop = 0.2
 )";
 
+// The same as a job of pockets: a boundary is a wall.
+const std::string kPocketJob = R"(
+[tool]
+shape = "ball"
+diameter = 6
+[cutting]
+feed = 1000
+[[operation]]
+strategy = "contour_pocket"
+floor = "plane.json"
+scallop = 0.2
+)";
+
 // Passes along x over the whole plane, `step` apart.
 std::string passes(double z, double step, double begin = 0, double end = 20)
 {
@@ -93,7 +106,9 @@ TEST_GROUP(Verify)
     {
         folder.with("plane.json", kPlane);
         folder.with("wall.json", kWall);
-        const Job job = read_job(folder.with("job.toml", kJob + more), cusp::strategies::all());
+        const bool walls = more.find("boundary") != std::string::npos;
+        const Job job = read_job(folder.with("job.toml", (walls ? kPocketJob : kJob) + more),
+                                 cusp::strategies::all());
         return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {});
     }
 };
@@ -176,8 +191,8 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
         const Job job = read_job(
             folder.with("job.toml",
                         "[tool]\nshape = \"flat\"\ndiameter = 2\n[cutting]\nfeed = 1000\n"
-                        "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
-                        "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"),
+                        "[[operation]]\nstrategy = \"contour_pocket\"\nfloor = \"floor.json\"\n"
+                        "boundary = \"walls.json\"\nscallop = 0.03\n"),
             cusp::strategies::all());
         const std::string program = "G21 G90\nG0 Z5\nG0 X1 Y1\n" + moves + "M30\n";
         return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
@@ -402,7 +417,7 @@ TEST(Verify, JudgesEachOfSeveralPocketsByItsOwnWalls)
     folder.with("left.json", pocket_at(0));
     folder.with("right.json", pocket_at(16));
     const std::string both = "boundary = \"left.json\"\n" +
-                             kJob.substr(kJob.find("[[operation]]")) +
+                             kPocketJob.substr(kPocketJob.find("[[operation]]")) +
                              "boundary = \"right.json\"\n";
     const std::string good = "G21 G90\n" + pocketed(0) + pocketed(16) + "G0 Z5\nM30\n";
     const Verification result = verdict(good, both);

@@ -1,26 +1,20 @@
 // Checks of the input first; then passes in the requested form, links and statistics.
-#include "host_tools/cam/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/cam/finishing/surface_operation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/finishing/contact_tracker.hpp"
 #include "host_tools/cam/finishing/passes_in_stock.hpp"
+#include "host_tools/geometry/toolpath/stepover.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
-using finishing::CcParameterList;
-using finishing::GougeFreePathFitter;
-using finishing::LinkedPasses;
-using finishing::LinkRules;
-using finishing::make_tolerance_band;
-using finishing::passes_in_stock;
-using finishing::Points;
-using finishing::SurfacePass;
 using job::Job;
 using job::Operation;
 using job::OutputForm;
@@ -40,16 +34,26 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kSameTop = 1e-3;    // mm between the tops of stock and part
-constexpr double kOverStock = 1.0;   // mm above the stock at which rapids end
-constexpr double kLeastSize = 1e-6;  // mm
-constexpr double kLeastRise = 1e-6;  // z of a normal
-constexpr double kChordShare = 0.2;  // of the band: between arcs or curves and their chords
+constexpr double kSameTop = 1e-3;      // mm between the tops of stock and part
+constexpr double kOverStock = 1.0;     // mm above the stock at which rapids end
+constexpr double kLeastSize = 1e-6;    // mm
+constexpr double kLeastFacing = 1e-6;  // z of a normal
+constexpr double kChordOfBand = 0.2;   // of the band: between arcs or curves and their chords
+constexpr double kAreaMargin = 0.25;   // of the stepover on level ground
 
 std::string file_of(const Operation& operation)
 {
     return operation.part.floor_files.empty() ? std::string{"floor"}
                                               : operation.part.floor_files.front();
+}
+
+// mm: the cells of a proof are so large, and may lie half in the area.
+double margin_of(const Operation& operation)
+{
+    const double corner = operation.tool.corner_radius;
+    return operation.tolerance.scallop && corner > 0
+               ? kAreaMargin * toolpath::stepover(corner, *operation.tolerance.scallop, 0)
+               : operation.tolerance.floor;
 }
 
 }  // namespace
@@ -70,10 +74,11 @@ void check_clearance(const Job& job, const Operation& operation, const PartModel
 
 SurfaceOperation::SurfaceOperation(const Job& job,
                                    const Operation& operation,
-                                   std::vector<Surface> surfaces)
+                                   std::vector<Surface> surfaces,
+                                   Ends ends)
     : job_{job}, operation_{operation}, surfaces_{std::move(surfaces)}
 {
-    check_tool();
+    check_tool(ends);
     check_form();
     check_surfaces();
     model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.part.mesh)
@@ -85,6 +90,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
             operation.tolerance.floor,
             surfaces_.empty() || operation.tolerance.side == ToleranceSide::kOutside));
     path_fitter_->check_edge_gouges(surfaces_);
+    path_fitter_->limit_to(std::make_shared<FinishArea>(operation, margin_of(operation)));
 }
 
 // Keys without effect are errors, never ignored.
@@ -119,14 +125,14 @@ void SurfaceOperation::check_form() const
     }
 }
 
-void SurfaceOperation::check_tool() const
+void SurfaceOperation::check_tool(Ends ends) const
 {
     const Tool& tool = operation_.tool;
-    if (tool.shape != ToolShape::kBall) {
+    if (tool.shape != ToolShape::kBall && ends == Ends::kBall) {
         throw InputError(fmt::format(
             "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
-            "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
-            "grid_pocket finish with them)",
+            "rough: tools = [{}] with roughing = true and tool = a ball; parallel_planes, "
+            "waterline, contour_pocket and grid_pocket finish with them)",
             job_.file, operation_.name(), tool.number,
             tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
     }
@@ -134,12 +140,67 @@ void SurfaceOperation::check_tool() const
         throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
                                      job_.file, operation_.tolerance.floor, tool.radius));
     }
-    if (operation_.outline.boundary || !operation_.outline.islands.empty()) {
+    if (tool.shape != ToolShape::kBall && operation_.tolerance.side == ToleranceSide::kBoth) {
         throw InputError(
-            fmt::format("{}: strategy {} takes no boundary or islands: trim the surfaces, or add "
-                        "walls to floor",
-                        job_.file, operation_.name()));
+            fmt::format("{}: {}: tolerance_side = \"both\" is for a ball; tool {} is {}", job_.file,
+                        operation_.name(), tool.number, name_of(tool.shape)));
     }
+}
+
+std::vector<SurfaceOperation::Range> SurfaceOperation::ranges_where(
+    std::size_t count, const std::function<bool(std::size_t)>& holds) const
+{
+    if (area().is_everything()) {
+        return {{0, count - 1}};
+    }
+    std::vector<Range> out;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!holds(k)) {
+            continue;
+        }
+        if (!out.empty() && out.back().second + 1 == k) {
+            out.back().second = k;
+        } else {
+            out.emplace_back(k, k);
+        }
+    }
+    return out;
+}
+
+std::vector<SurfaceOperation::Range> SurfaceOperation::ranges_in_area(
+    const Points& tips, const CcParameterList& cc_parameters) const
+{
+    ContactTracker tool{*path_fitter_};
+    return ranges_where(tips.size(), [&](std::size_t k) {
+        if (k < cc_parameters.size() && cc_parameters[k].surface >= 0) {
+            const CcParameters& cc = cc_parameters[k];
+            const auto at = model_->cc_point(cc.surface, cc.u, cc.v, 0);
+            return area().holds(at.point, at.normal);
+        }
+        const auto found = tool.at(tips[k].x, tips[k].y);
+        return found && area().holds(found->point, found->lean);
+    });
+}
+
+std::vector<Points> SurfaceOperation::creases_in_area(const Points& crease) const
+{
+    constexpr double kBeside = 0.02;  // radii
+    const double away = kBeside * operation_.tool.radius;
+    ContactTracker tool{*path_fitter_};
+    const auto holds = [&](double x, double y) {
+        const auto found = tool.at(x, y);
+        return found && area().holds(found->point, found->lean);
+    };
+    std::vector<Points> out;
+    for (const auto& [first, last] : ranges_where(crease.size(), [&](std::size_t k) {
+             const Vec3d at = crease[k];
+             return holds(at.x - away, at.y) || holds(at.x + away, at.y) ||
+                    holds(at.x, at.y - away) || holds(at.x, at.y + away);
+         })) {
+        out.emplace_back(crease.begin() + static_cast<std::ptrdiff_t>(first),
+                         crease.begin() + static_cast<std::ptrdiff_t>(last + 1));
+    }
+    return out;
 }
 
 void SurfaceOperation::check_surfaces()
@@ -163,13 +224,13 @@ void SurfaceOperation::check_surfaces()
             throw InputError(fmt::format("{}: surface {} has an area of {:g} mm2, it is degenerate",
                                          file_of(operation_), k + 1, area));
         }
-        upright_ += most_up < kLeastRise ? 1 : 0;
+        upright_ += most_up < kLeastFacing ? 1 : 0;
     }
     if (upright_ > 0 && surfaces_.size() == static_cast<std::size_t>(upright_)) {
         throw InputError(fmt::format(
             "{}: every surface is vertical (no normal rises by {:g}): there is nothing to cut from "
             "above",
-            file_of(operation_), kLeastRise));
+            file_of(operation_), kLeastFacing));
     }
 }
 
@@ -275,20 +336,23 @@ Points SurfaceOperation::path_of(const SurfacePass& pass) const
 double SurfaceOperation::path_off() const
 {
     return operation_.output == OutputForm::kLines ? 0
-                                                   : kChordShare * path_fitter_->band().half_width;
+                                                   : kChordOfBand * path_fitter_->band().half_width;
 }
 
-PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
+PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound, double lead_in)
 {
     if (passes_.empty()) {
-        throw InputError(
-            fmt::format("{}: a ball of radius {:g} mm reaches no part of the surfaces from above",
-                        file_of(operation_), operation_.tool.radius));
+        throw InputError(fmt::format(
+            "{}: a {} of radius {:g} mm reaches no part of the surfaces{} from above",
+            file_of(operation_), operation_.tool.shape == ToolShape::kBall ? "ball" : "tool",
+            operation_.tool.radius,
+            area().is_everything() ? "" : " inside boundary, slopes and heights"));
     }
     LinkRules rules;
     rules.stay_down = std::max(2 * operation_.tool.radius, 4 * spacing);
     rules.clearance_z = job_.stock_top + job_.clearance;
     rules.plunge_from = job_.stock_top + kOverStock;
+    rules.lead_in = lead_in;
     rules.one_way = operation_.passes.traversal == Traversal::kOneWay;
     PlannedOperation planned;
     OperationStats& stats = planned.stats;
@@ -367,4 +431,4 @@ void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool 
     }
 }
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

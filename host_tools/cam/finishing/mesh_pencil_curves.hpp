@@ -6,13 +6,12 @@
 
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
 // Tips along the curves at which the contact of a dropped ball jumps and its normal turns by more
 // than 20 degrees. If the height jumps as well, the tips are on the lower side.
 //
 // pitch  mm, of the grid of the search; shorter curves may be missed
-std::vector<finishing::Points> mesh_pencil_curves(const finishing::GougeFreePathFitter& path_fitter,
-                                                  double pitch);
+std::vector<Points> mesh_pencil_curves(const GougeFreePathFitter& path_fitter, double pitch);
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

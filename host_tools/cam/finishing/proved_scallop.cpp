@@ -1,5 +1,5 @@
 // Tries increasing bounds; only cells for which one fails are checked with the next.
-#include "host_tools/cam/adaptive_isocurve/proved_scallop.hpp"
+#include "host_tools/cam/finishing/proved_scallop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,8 @@
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
-using finishing::GougeFreePathFitter;
-using finishing::MeshScallopCheck;
-using finishing::Points;
-using finishing::ScallopCheck;
 using nurbs::Surface;
 
 namespace {
@@ -113,4 +109,4 @@ double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
     return guess.radius;
 }
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

@@ -1,5 +1,5 @@
 // Finds the sides of a grid that a pencil curve crosses, bisects them and chains them by cells.
-#include "host_tools/cam/adaptive_isocurve/mesh_pencil_curves.hpp"
+#include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,11 +10,8 @@
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/geometry/part_model/cell_chains.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
-using finishing::GougeFreePathFitter;
-using finishing::length_of;
-using finishing::Points;
 using part_model::CellChains;
 using part_model::end_node;
 using part_model::GridSide;
@@ -22,12 +19,12 @@ using part_model::PartModel;
 
 namespace {
 
-constexpr double kTurned = 0.94;      // cosine between normals on both sides
-constexpr double kApart = 0.05;       // radii: between contacts on both sides
-constexpr double kFound = 1e-5;       // mm: accuracy of a crossing
-constexpr double kSag = 0.2;          // of the band's offset: between points of a curve
-constexpr int kCrossingHalvings = 6;  // between two crossings
-constexpr double kShortest = 0.05;    // radii
+constexpr double kTurned = 0.94;          // cosine between normals on both sides
+constexpr double kApart = 0.05;           // radii: between contacts on both sides
+constexpr double kFound = 1e-5;           // mm: accuracy of a crossing
+constexpr double kSag = 0.2;              // of the band's offset: between points of a curve
+constexpr int kCrossingHalvings = 6;      // between two crossings
+constexpr double kShortestCrease = 0.05;  // radii
 constexpr std::size_t kMostGrid = 700;
 
 using Dropped = PartModel::DroppedBall;
@@ -71,7 +68,7 @@ public:
         }
         std::vector<Points> out;
         for (Points& tips : tips_along(chains.chains())) {
-            if (length_of(tips) > kShortest * radius_) {
+            if (length_of(tips) > kShortestCrease * radius_) {
                 out.push_back(std::move(tips));
             }
         }
@@ -259,4 +256,4 @@ std::vector<Points> mesh_pencil_curves(const GougeFreePathFitter& path_fitter, d
     return PencilCurveFinder{path_fitter, pitch}.curves();
 }
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

@@ -6,7 +6,7 @@
 
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
 // The start of the search for a bound, all in mm.
 struct ScallopGuess {
@@ -29,16 +29,16 @@ struct ProvedScallop {
 // path_off  mm: maximum distance between the path that is cut and the passes given
 // cut       all passes, by their tips
 ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
-                             const finishing::GougeFreePathFitter& path_fitter,
+                             const GougeFreePathFitter& path_fitter,
                              double path_off,
-                             const std::vector<finishing::Points>& cut,
+                             const std::vector<Points>& cut,
                              const ScallopGuess& guess);
 
 // The same for a mesh, by `MeshScallopCheck`; where the tool cannot touch, nothing is added.
 double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
-                           const finishing::GougeFreePathFitter& path_fitter,
+                           const GougeFreePathFitter& path_fitter,
                            double path_off,
-                           const std::vector<finishing::Points>& cut,
+                           const std::vector<Points>& cut,
                            const ScallopGuess& guess);
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

@@ -1,36 +1,59 @@
-// The common part of strategies that finish surfaces with a ball: checks of the job, the model, and
+// The common part of strategies that finish surfaces: checks of the job, the model, and
 // the conversion of dense passes to a planned operation.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/finishing.hpp"
 #include "host_tools/job/job/job.hpp"
 
-namespace cusp::adaptive_isocurve {
+namespace cusp::finishing {
 
 // Throws InputError where the model is higher than the clearance height of rapid moves.
 void check_clearance(const job::Job& job,
                      const job::Operation& operation,
                      const part_model::PartModel& model);
 
+// The ends with which a strategy finishes.
+enum class Ends : std::uint8_t { kBall, kRoundOrFlat };
+
 class SurfaceOperation {
 public:
     // surfaces  empty: the operation's mesh, for which a tolerance is always one-sided
     //
-    // Throws InputError for a job that it cannot plan: another tool than a ball, a boundary, a
-    // surface without area, a part higher than the clearance height.
+    // The scallop is proved, and passes are made, in the operation's FinishArea: its boundary, islands,
+    // slopes and heights.
+    //
+    // Throws InputError for a job that it cannot plan: another end than those, a surface without
+    // area, a part higher than the clearance height.
     SurfaceOperation(const job::Job& job,
                      const job::Operation& operation,
-                     std::vector<nurbs::Surface> surfaces);
+                     std::vector<nurbs::Surface> surfaces,
+                     Ends ends = Ends::kBall);
 
     const std::vector<nurbs::Surface>& surfaces() const { return surfaces_; }
     const part_model::PartModel& model() const { return *model_; }
-    finishing::GougeFreePathFitter& path_fitter() { return *path_fitter_; }
-    const finishing::GougeFreePathFitter& path_fitter() const { return *path_fitter_; }
+    GougeFreePathFitter& path_fitter() { return *path_fitter_; }
+    const GougeFreePathFitter& path_fitter() const { return *path_fitter_; }
+
+    // Where passes go: on the area that is proved, and a little beyond its border.
+    const FinishArea& area() const { return path_fitter_->area(); }
+
+    // The parts of dense tips, each from its first to its last, that touch the model in the area.
+    //
+    // cc_parameters  of the tips if known; else the tool is dropped at each
+    using Range = std::pair<std::size_t, std::size_t>;
+    std::vector<Range> ranges_in_area(const Points& tips,
+                                      const CcParameterList& cc_parameters) const;
+    // The parts of a crease: there the tool touches two places, of which one is in the area.
+    std::vector<Points> creases_in_area(const Points& crease) const;
 
     // The maximum distance of the path off the surface, mm.
     double outward() const;
@@ -41,46 +64,49 @@ public:
     // exact          for output as NURBS: the pass as a cubic within the band, used if it is proved
     //                free of gouges
     // cc_parameters  the contacts at the dense points, if known: a quicker proof of lines
-    finishing::Points add_pass(const finishing::Points& wanted,
-                               const std::optional<nurbs::Curve>& exact = std::nullopt,
-                               const finishing::CcParameterList& cc_parameters = {});
+    Points add_pass(const Points& wanted,
+                    const std::optional<nurbs::Curve>& exact = std::nullopt,
+                    const CcParameterList& cc_parameters = {});
     // add_pass() in two steps: several threads may fit, one of them adds.
     struct FittedPass {
-        finishing::SurfacePass pass;
-        finishing::Points points;  // of the path that will be cut; empty: no pass
-        bool moved{};              // off an edge that the tool would gouge
+        SurfacePass pass;
+        Points points;  // of the path that will be cut; empty: no pass
+        bool moved{};   // off an edge that the tool would gouge
         double least_clearance{};
     };
     // queries  of the calling thread's part of a loop, if any: see GougeFreePathFitter::set_part()
     FittedPass fitted_pass(
-        const finishing::Points& wanted,
+        const Points& wanted,
         const std::optional<nurbs::Curve>& exact = std::nullopt,
-        const finishing::CcParameterList& cc_parameters = {},
+        const CcParameterList& cc_parameters = {},
         const part_model::PartModel::SharedQueries::Part* queries = nullptr) const;
-    finishing::Points add(FittedPass fitted);
+    Points add(FittedPass fitted);
     // As fitted_pass(), for output as lines and a tool proved clear all along; otherwise none.
-    std::optional<FittedPass> fitted_clear_pass(
-        const finishing::Points& dense, const finishing::CcParameterList& cc_parameters) const;
+    std::optional<FittedPass> fitted_clear_pass(const Points& dense,
+                                                const CcParameterList& cc_parameters) const;
     double path_off() const;
     // True if some pass was moved off an edge that the tool would gouge from the side.
     bool moved_off_edges() const { return moved_off_edges_; }
 
-    // Links all passes. `spacing` (mm) is the approximate distance of neighbours.
-    toolpath::PlannedOperation finish(double spacing, double scallop_bound);
+    // Links all passes. `spacing` (mm) is the approximate distance of neighbours, `lead_in` (mm) the
+    // radius of level entries and exits.
+    toolpath::PlannedOperation finish(double spacing, double scallop_bound, double lead_in = 0);
 
 private:
-    void check_tool() const;
+    void check_tool(Ends ends) const;
+    std::vector<Range> ranges_where(std::size_t count,
+                                    const std::function<bool(std::size_t)>& holds) const;
     void check_form() const;
     void check_surfaces();
     void keep_in_stock(double linked, toolpath::OperationStats& stats);
-    finishing::Points path_of(const finishing::SurfacePass& pass) const;
+    Points path_of(const SurfacePass& pass) const;
 
     const job::Job& job_;
     const job::Operation& operation_;
     std::vector<nurbs::Surface> surfaces_;
     std::unique_ptr<part_model::PartModel> model_;
-    std::unique_ptr<finishing::GougeFreePathFitter> path_fitter_;
-    std::vector<finishing::SurfacePass> passes_;
+    std::unique_ptr<GougeFreePathFitter> path_fitter_;
+    std::vector<SurfacePass> passes_;
     bool moved_off_edges_{};
     int upright_{};  // number of vertical surfaces
 };
@@ -102,4 +128,4 @@ void report_uncovered_points(toolpath::OperationStats& stats, std::size_t uncove
 // mm of walls beside which a ball has nothing of the part below.
 void report_walls_over_nothing(toolpath::OperationStats& stats, double length);
 
-}  // namespace cusp::adaptive_isocurve
+}  // namespace cusp::finishing

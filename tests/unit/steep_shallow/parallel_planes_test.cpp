@@ -1,5 +1,5 @@
 // Stock left by parallel planes, from the path that was cut.
-#include "host_tools/cam/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/cam/steep_shallow/parallel_planes.hpp"
 
 #include <cmath>
 #include <memory>
@@ -16,6 +16,7 @@
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;
+using namespace cusp::steep_shallow;
 using namespace cusp::finishing;
 using namespace cusp::job;
 using namespace cusp::nurbs;
@@ -86,9 +87,9 @@ Surface steep() { return plane({0, 0, -kSteepRise}, {0, 6, -kSteepRise}, {1, 0, 
 // A job along y: the planes are a step apart where the ground is steepest.
 Job steep_job(bool as_mesh)
 {
-    Job job = job_for({steep()}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({steep()}, kParallelPlanes);
     Operation& operation = job.operations.front();
-    cusp::adaptive_isocurve::isocurve_keys(operation).direction = 'v';
+    job::finish_keys(operation).direction = 'v';
     operation.tolerance.scallop = 0.05;
     if (as_mesh) {
         const std::vector<Vec3d> at = operation.part.floor.front().points;
@@ -137,7 +138,7 @@ TEST_GROUP(ParallelPlanes){};
 TEST(ParallelPlanes, KeepTheScallopInAHollow)
 {
     // Centres are five times closer than contacts.
-    Job job = job_for({hollow()}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({hollow()}, kParallelPlanes);
     job.operations.front().tolerance.scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
     DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
@@ -172,7 +173,7 @@ TEST(ParallelPlanes, KeepAProvedBoundWhereTheDistanceIsGiven)
 // Over the ground itself hardly a tenth of that is left.
 TEST(ParallelPlanes, ClaimWhatStaysBesideAWallWhereTheDistanceIsGiven)
 {
-    Job job = job_for(wall_beside_ground(), cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for(wall_beside_ground(), kParallelPlanes);
     Operation& operation = job.operations.front();
     operation.passes.step_over = 0.8;
     operation.tolerance.scallop.reset();
@@ -186,7 +187,7 @@ TEST(ParallelPlanes, ClaimWhatStaysBesideAWallWhereTheDistanceIsGiven)
 // With a scallop there is a pass along the wall.
 TEST(ParallelPlanes, CutBesideAWallWhereTheScallopIsGiven)
 {
-    Job job = job_for(wall_beside_ground(), cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for(wall_beside_ground(), kParallelPlanes);
     job.operations.front().tolerance.scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
     CHECK(left_beside_wall(planned.path) <= 0.05);
@@ -203,8 +204,8 @@ TEST(ParallelPlanes, ReachTheRimsOfASlope)
         p.z += 0.1 * p.y;
     }
     for (const char direction : {'u', 'v'}) {
-        Job job = job_for({flat}, cusp::adaptive_isocurve::kParallelPlanes);
-        cusp::adaptive_isocurve::isocurve_keys(job.operations.front()).direction = direction;
+        Job job = job_for({flat}, kParallelPlanes);
+        job::finish_keys(job.operations.front()).direction = direction;
         const PlannedOperation planned = planes_over(job);
         DOUBLES_EQUAL(0.2, planned.stats.scallop_bound_mm, 1e-12);
         CHECK(most_over(*cut_by(planned.path), flat) <= 0.2 * std::sqrt(1 + 0.25 + 0.01));
@@ -214,7 +215,7 @@ TEST(ParallelPlanes, ReachTheRimsOfASlope)
 TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
 {
     // The curvature at a pole is rounding: from none to infinite.
-    Job job = job_for({bowl()}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({bowl()}, kParallelPlanes);
     job.operations.front().tolerance.scallop = 0.1;
     const PlannedOperation planned = planes_over(job);
     CHECK(planned.stats.passes > 10);
@@ -224,7 +225,7 @@ TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
 
 TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
 {
-    Job job = job_for({}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({}, kParallelPlanes);
     Operation& operation = job.operations.front();
     const Vec3d a{0, 0, 0}, b{10, 0, 10};
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
@@ -249,7 +250,7 @@ TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
         for (Vec3d& p : s.points) {
             p = p * scale;
         }
-        Job job = job_for({s}, cusp::adaptive_isocurve::kParallelPlanes);
+        Job job = job_for({s}, kParallelPlanes);
         job.clearance *= scale;
         Operation& operation = job.operations.front();
         operation.tool.radius *= scale;
@@ -273,7 +274,7 @@ TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
 TEST(ParallelPlanes, OverASpeckAreFew)
 {
     // Beyond its rims they are a step apart, not as far as over it.
-    Job job = job_for({}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({}, kParallelPlanes);
     job.operations.front().part.mesh.push_back(
         {Vec3d{0, 0, 0}, Vec3d{1e-5, 0, 0}, Vec3d{0, 1e-5, 0}});
     try {
@@ -285,7 +286,7 @@ TEST(ParallelPlanes, OverASpeckAreFew)
 
 TEST(ParallelPlanes, TooManyOrTooFarApartAreRefused)
 {
-    Job job = job_for({wall(9, 0)}, cusp::adaptive_isocurve::kParallelPlanes);
+    Job job = job_for({wall(9, 0)}, kParallelPlanes);
     job.operations.front().passes.step_over = 4;
     STRCMP_CONTAINS("step_over is 4 mm", refusal([&] { planes_over(job); }).c_str());
     job.operations.front().passes.step_over = 5e-4;
