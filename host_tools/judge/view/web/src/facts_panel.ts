@@ -20,25 +20,26 @@ function table(head: string[], rows: Content[][]): HTMLElement {
     element("tbody", {}, ...rows.map((row) => element("tr", {}, ...row.map(cell)))));
 }
 
-// A value above a bar of its ratio to the limit.
-function share(value: number, limit: number): HTMLElement {
-  const part = value / limit, out = element("div", { class: "share" }, figure(value, 4));
+// A value above a bar of its ratio to the limit. What the rounding of set points adds is no more than the limit.
+function share(value: number, limit: number, rounding: number): HTMLElement {
+  const rounded = value > limit && value - limit <= rounding;
+  const part = rounded ? 1 : value / limit, out = element("div", { class: "share" }, figure(rounded ? limit : value, 4));
   const bar = element("div", { class: "bar" }), full = element("div");
   full.style.width = `${Math.min(part, 1) * 100}%`;
   bar.append(full);
   out.append(bar);
-  out.title = `${figure(100 * part, 4)} % of ${figure(limit, 6)}`;
+  out.title = rounded ? `100 % of ${figure(limit, 6)}, within rounding: ${figure(value, 6)}` : `${figure(100 * part, 4)} % of ${figure(limit, 6)}`;
   return out;
 }
 
 function limitRows(facts: PageFacts): Content[][] {
-  const row = (name: string, unit: string, values: Triple, limits: Triple): Content[] =>
-    [element("span", {}, name, " ", element("small", {}, unit)), ...values.map((v, k) => share(v, limits[k]))];
+  const row = (name: string, unit: string, values: Triple, limits: Triple, rounding: number): Content[] =>
+    [element("span", {}, name, " ", element("small", {}, unit)), ...values.map((v, k) => share(v, limits[k], rounding))];
   const { facts: f, limits } = facts;
   return [
-    row("Velocity", "mm/s", f.max_velocity, limits.velocity),
-    row("Acceleration", "mm/s²", f.max_acceleration, limits.acceleration),
-    row("Jerk", "mm/s³", f.max_jerk, limits.jerk),
+    row("Velocity", "mm/s", f.max_velocity, limits.velocity, 0.001),
+    row("Acceleration", "mm/s²", f.max_acceleration, limits.acceleration, 2),
+    row("Jerk", "mm/s³", f.max_jerk, limits.jerk, 4000),
   ];
 }
 
@@ -97,7 +98,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     ["Greatest deviation", farthest],
   ])));
   const limits = section("Greatest, against limits", table(["Axis", "X", "Y", "Z"], limitRows(facts)));
-  limits.append(element("p", { class: "note" }, "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding."));
+  limits.append(element("p", { class: "note" }, "Set points are whole nanometres: 0.001 mm/s, 2 mm/s² and 4000 mm/s³ are rounding, and not shown over a limit."));
   out.push(limits);
   if (facts.verification) {
     const worst = f.worst ?? [];

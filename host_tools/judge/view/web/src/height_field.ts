@@ -6,7 +6,7 @@ const vertexShader = `
 in float cell; in float foot; in vec3 side;
 uniform highp sampler2D heights; uniform highp sampler2D left;
 uniform int nx; uniform int ny; uniform float pitch; uniform float low; uniform float dz;
-out vec3 outward; out float shownLeft; out float hole; out float known; out float uncut;
+out vec3 outward; out float shownLeft; out float hole; out float known; out float uncut; out vec3 place; out vec2 at; out float border;
 float height(int i, int j) {
   return texelFetch(heights, ivec2(clamp(j, 0, ny - 1), clamp(i, 0, nx - 1)), 0).r;
 }
@@ -20,15 +20,29 @@ void main() {
   shownLeft = abs(over) < 1e29 ? over : 0.0;
   vec3 slope = vec3(height(i - 1, j) - height(i + 1, j), height(i, j - 1) - height(i, j + 1), 2.0 * pitch);
   outward = dot(side, side) > 0.0 ? side : normalize(slope);
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, foot > 0.5 ? low : z - dz, 1.0);
+  border = dot(side, side);
+  at = vec2(float(i), float(j));
+  place = vec3(position.xy, foot > 0.5 ? low : z - dz);
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }`;
 const fragmentShader = `
 uniform vec3 plain; uniform sampler2D table; uniform float useLeft; uniform float gouge; uniform float scallop;
-in vec3 outward; in float shownLeft; in float hole; in float known; in float uncut;
+uniform highp sampler2D heights; uniform int nx; uniform int ny; uniform float pitch;
+in vec3 outward; in float shownLeft; in float hole; in float known; in float uncut; in vec3 place; in vec2 at; in float border;
 out vec4 colour;
+float height(ivec2 cell) { return max(texelFetch(heights, ivec2(clamp(cell.y, 0, ny - 1), clamp(cell.x, 0, nx - 1)), 0).r, -1e4); }
+// The way a wall faces, from heights some cells away: between two cells it would change from triangle to triangle.
+vec3 wall() {
+  const int k = 4;
+  ivec2 cell = ivec2(at + 0.5);
+  vec2 fall = vec2(height(cell - ivec2(k, 0)) - height(cell + ivec2(k, 0)), height(cell - ivec2(0, k)) - height(cell + ivec2(0, k)));
+  return normalize(vec3(fall, 0.2 * pitch));
+}
 void main() {
   if (hole > 0.01) discard;
-  vec3 n = normalize(outward);
+  vec3 n = normalize(outward), facet = cross(dFdx(place), dFdy(place));
+  float level = abs(facet.z) / max(length(facet), 1e-20);
+  if (border < 0.5 && level < 0.45) n = normalize(mix(wall(), n, smoothstep(0.25, 0.45, level)));
   float light = 0.42 + 0.38 * max(dot(n, normalize(vec3(-0.45, -0.55, 0.7))), 0.0) + 0.2 * max(n.z, 0.0);
   vec3 base = plain;
   if (useLeft > 0.5 && known > 0.99) {

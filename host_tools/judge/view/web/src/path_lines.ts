@@ -6,24 +6,27 @@ import { upperBound } from "./run_data";
 
 const vertexShader = `
 in float tick; in float value;
-uniform float cursor;
-out float shownValue; out float ahead;
+uniform float cursor; uniform float recent;
+out float shownValue; out float ahead; out float old;
 void main() {
   shownValue = value;
   ahead = tick > cursor ? 1.0 : 0.0;
+  old = tick < cursor - recent ? 1.0 : 0.0;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 const fragmentShader = `
-uniform sampler2D table; uniform vec3 plain; uniform float usePlain; uniform float strength; uniform float strengthAhead;
-in float shownValue; in float ahead;
+uniform sampler2D table; uniform vec3 plain; uniform float usePlain; uniform float strength; uniform float strengthAhead; uniform float calm;
+in float shownValue; in float ahead; in float old;
 out vec4 colour;
 void main() {
   vec3 scaled = texture(table, vec2((shownValue * 255.0 + 0.5) / 256.0, 0.5)).rgb;
-  colour = vec4(mix(scaled, plain, usePlain), mix(strength, strengthAhead, step(0.5, ahead)));
+  colour = vec4(mix(scaled, plain, usePlain), mix(strength * mix(1.0, calm, step(0.5, old)), strengthAhead * calm, step(0.5, ahead)));
 }`;
 
 const kLevels = 10;
 const kFinest = 0.001;  // mm: deviation of level 0; four times more at each further level
+const kRecent = 10_000;  // ticks: the last ten seconds stay bright on a shaded stock
+const kCalm = 0.25;
 const kMostWhileMoving = 150000, kMostAtRest = 1200000;
 
 export function pathMaterial(rapid: number, table: THREE.Texture | null): THREE.ShaderMaterial {
@@ -32,6 +35,7 @@ export function pathMaterial(rapid: number, table: THREE.Texture | null): THREE.
     uniforms: {
       cursor: { value: 0 }, table: { value: table }, plain: { value: new THREE.Color(0.5, 0.5, 0.5) },
       usePlain: { value: rapid }, strength: { value: rapid ? 0.55 : 1 }, strengthAhead: { value: rapid ? 0.3 : 0.35 },
+      recent: { value: kRecent }, calm: { value: 1 },
     },
   });
 }
@@ -76,6 +80,8 @@ export class PathLines {
 
   set cursor(tick: number) { for (const material of this.materials) material.uniforms.cursor.value = tick; }
   set rapids(on: boolean) { this.group.children[1].visible = on; }
+  // Leaves the shaded stock to be seen: what was cut earlier is dim.
+  set calm(on: boolean) { for (const material of this.materials) material.uniforms.calm.value = on ? kCalm : 1; }
   // Dims the path while surfaces are coloured.
   set faint(on: boolean) {
     this.materials[0].uniforms.strength.value = on ? 0.12 : 1;

@@ -75,6 +75,7 @@ export async function openRun(places: RunPlaces, facts: PageFacts, load: (begun:
   const list = element("div", { class: "program-list", role: "listbox", tabindex: "0", "aria-label": "Lines of the program" });
   places.program.append(list);
   const program = new ProgramList(list, timeline, goTo);
+  program.scrollTo(1);  // the cursor is at the end, where all is cut; the program is read from its start
   const charts = new Charts(places.charts, timeline, isDark());
   places.transport.append(...transport(timeline));
   places.stage.append(readout(timeline));

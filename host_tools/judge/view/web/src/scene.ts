@@ -244,6 +244,7 @@ export class Scene {
     this.path.cursor = this.timeline.tick;
     this.path.group.visible = this.shown.path;
     this.path.rapids = this.shown.rapids;
+    this.path.calm = this.stock !== null && this.shown.stock;
     if (this.stock && this.part) {
       this.stock.mesh.visible = this.shown.stock;
       this.part.mesh.visible = this.shown.part;
