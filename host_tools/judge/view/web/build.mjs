@@ -2,7 +2,7 @@
 //
 //   node build.mjs --out FOLDER [--core CORE.wasm] [--compare FOLDER]
 //
-// src/NAME_page.ts, NAME.html and page.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
+// src/NAME_page.ts (or .tsx), NAME.html, page.css and NAME.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
 // `import wasm from "core-wasm"` gives as base64 ("" without). `import text from "worker:./x.ts"` gives the bundle of
 // a worker as text. --compare: exit status 1 where a page of that folder, unpacked, is not the same byte for byte.
 import { createHash } from "node:crypto";
@@ -22,7 +22,7 @@ const core = option("core");
 
 const settings = {
   bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none",
-  absWorkingDir: here, loader: { ".css": "text", ".ngc": "text" },
+  absWorkingDir: here, loader: { ".css": "text", ".ngc": "text" }, jsx: "automatic", jsxImportSource: "preact",
 };
 
 async function bundled(entry) {
@@ -46,7 +46,7 @@ const inlined = {
 
 // The licences of bundled packages.
 function licences() {
-  return ["three", "uplot"].map((name) => {
+  return ["@preact/signals", "preact", "smol-toml", "three", "uplot"].map((name) => {
     const folder = join(here, "node_modules", name);
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     return `${name} ${version}\n\n${readFileSync(join(folder, "LICENSE"), "utf8").trim()}\n`;
@@ -55,12 +55,15 @@ function licences() {
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
+// Requests that the page may make: the studio asks the server that it comes from, which a file has not.
+const requests = { studio: " connect-src 'self';" };
+
 // `start` unpacks `script` and runs it; the content security policy permits these two.
 function page(name, start, script, style) {
   for (const closing of ["</script", "<!--"]) {
     if (start.toLowerCase().includes(closing)) throw new Error(`${name}: the script holds ${closing}`);
   }
-  const policy = `default-src 'none'; script-src ${hash(start)} ${hash(script)} 'wasm-unsafe-eval' blob:; style-src ${hash(style)}; ` +
+  const policy = `default-src 'none'; script-src ${hash(start)} ${hash(script)} 'wasm-unsafe-eval' blob:; style-src ${hash(style)};${requests[name] ?? ""} ` +
     "worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'";
   return readFileSync(join(here, name + ".html"), "utf8")
     .replace("@POLICY@", () => policy)
@@ -77,10 +80,10 @@ mkdirSync(out, { recursive: true });
 writeFileSync(join(out, "LICENCES.txt"), licences());
 const start = (await bundled(join(here, "src", "start.ts"))).trim();
 const pages = {};
-for (const name of ["view", "playground"]) {
-  const entry = join(here, "src", name + "_page.ts");
+for (const name of ["view", "playground", "studio"]) {
+  const entry = ["ts", "tsx"].map((ending) => join(here, "src", `${name}_page.${ending}`)).find(existsSync) ?? "";
   pages[name] = "";
-  if (existsSync(entry)) {
+  if (entry) {
     const style = ["node_modules/uplot/dist/uPlot.min.css", "page.css", name + ".css"].filter((file) => existsSync(join(here, file)))
       .map((file) => readFileSync(join(here, file), "utf8").trim()).join("\n");
     pages[name] = page(name, start, (await bundled(entry)).trim(), style);
