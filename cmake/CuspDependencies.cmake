@@ -3,7 +3,7 @@
 # Included before project(), where the compiler or the generator's program may be missing too, and after it.
 
 # A package and a header of it.
-set(product_headers libcli11-dev CLI/CLI.hpp libfmt-dev fmt/format.h libserialport-dev libserialport.h
+set(product_headers libcli11-dev CLI/CLI.hpp libcpp-httplib-dev httplib.h libfmt-dev fmt/format.h libserialport-dev libserialport.h
   libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
   zlib1g-dev zlib.h)
 if(CUSP_THREADS)
@@ -136,6 +136,10 @@ if(CUSP_HOST_TOOLS)
   # Debian's libserialport and polyclipping have no CMake package, and CppUTest's names a folder that isn't there.
   cusp_import_library(cusp_serialport ${CUSP_libserialport_dev} serialport)
   cusp_import_library(cusp_zlib ${CUSP_zlib1g_dev} z)
+  cusp_import_library(cusp_httplib ${CUSP_libcpp_httplib_dev} cpp-httplib)
+  # As Debian builds it: the layout of its classes depends on these.
+  set_target_properties(cusp_httplib PROPERTIES INTERFACE_COMPILE_DEFINITIONS
+    "CPPHTTPLIB_OPENSSL_SUPPORT;CPPHTTPLIB_ZLIB_SUPPORT;CPPHTTPLIB_BROTLI_SUPPORT")
   if(CUSP_TESTS)
     cusp_import_library(cusp_cpputest ${CUSP_cpputest} CppUTest)
     cusp_import_library(cusp_polyclipping ${CUSP_libpolyclipping_dev} polyclipping)

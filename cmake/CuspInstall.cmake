@@ -10,6 +10,7 @@ install(DIRECTORY examples DESTINATION ${data}/cusp USE_SOURCE_PERMISSIONS COMPO
 install(DIRECTORY posts tool_libraries DESTINATION ${data}/cusp COMPONENT program)
 install(FILES README.md CHANGELOG.md DESTINATION ${data}/doc/cusp COMPONENT program)
 install(DIRECTORY docs DESTINATION ${data}/doc/cusp COMPONENT program)
+install(FILES ${packaging}/cusp-studio.desktop DESTINATION ${data}/applications COMPONENT program)
 install(FILES ${packaging}/cusp.bash DESTINATION ${data}/bash-completion/completions RENAME cusp COMPONENT program)
 
 # The images, each with its board's README: of the preset cortex-m4f, as the tests run them.

@@ -1,6 +1,6 @@
 # Writes OUTPUT, a C++ source that holds the pages of cusp view which lie in FOLDER.
-# cmake -DFOLDER=<view.html and perhaps playground.html> -DHOLDS_CORE=ON|OFF -DOUTPUT=<file> -P view_page_text.cmake
-foreach(page view playground)
+# cmake -DFOLDER=<view.html, studio.html and perhaps playground.html> -DHOLDS_CORE=ON|OFF -DOUTPUT=<file> -P view_page_text.cmake
+foreach(page view playground studio)
   set(${page} "")
   if(EXISTS ${FOLDER}/${page}.html)
     file(READ ${FOLDER}/${page}.html ${page})
@@ -22,8 +22,16 @@ std::string_view page_text(Page page)
 {
     static constexpr char kView[] = R\"page(${view})page\";
     static constexpr char kPlayground[] = R\"page(${playground})page\";
-    return page == Page::kView ? std::string_view{kView, sizeof kView - 1}
-                               : std::string_view{kPlayground, sizeof kPlayground - 1};
+    static constexpr char kStudio[] = R\"page(${studio})page\";
+    switch (page) {
+        case Page::kView:
+            return {kView, sizeof kView - 1};
+        case Page::kPlayground:
+            return {kPlayground, sizeof kPlayground - 1};
+        case Page::kStudio:
+            break;
+    }
+    return {kStudio, sizeof kStudio - 1};
 }
 
 bool pages_hold_core() { return ${holds_core}; }

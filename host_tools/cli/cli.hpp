@@ -47,6 +47,7 @@ void add_view_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);
 void add_stream_command(CLI::App& app, Work& work);
+void add_studio_command(CLI::App& app, Work& work);
 void add_settings_command(CLI::App& app, Work& work);
 
 }  // namespace cusp::cli

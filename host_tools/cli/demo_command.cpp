@@ -125,7 +125,8 @@ int run_demo(const DemoOptions& options)
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
         "plan.json sim.json verify.json verify.txt (figures){}\n"
-        "RUN.html shows the run: any browser opens it\n",
+        "RUN.html shows the run: any browser opens it\n"
+        "cusp studio does all of this in a browser, with a part of your own\n",
         out.string(),
         options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
     std::fflush(stdout);

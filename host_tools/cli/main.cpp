@@ -27,6 +27,8 @@ constexpr const char* kDescription =
     "  cusp verify JOB.toml part.ngc         simulate the cut: gouge, scallop, remaining stock\n"
     "  cusp sim part.ngc --stats run.json    run it: time, limits, pulses\n"
     "  cusp view part.ngc -o run.html        see it: path, speeds, limits, in any browser\n"
+    "  cusp studio                           all of this in a browser: part, operations, check, "
+    "mill\n"
     "  cusp fit part.ngc -o arcs.ngc --tolerance 0.01\n"
     "                                        short lines to arcs and lines\n"
     "  cusp stream /dev/ttyUSB0 part.ngc     send it to a controller\n";
@@ -40,9 +42,9 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_demo_command,   add_info_command,   add_plan_command,
-        add_verify_command, add_sim_command,    add_view_command,
-        add_fit_command,    add_stream_command, add_settings_command,
+        add_demo_command,   add_info_command,     add_plan_command,   add_verify_command,
+        add_sim_command,    add_view_command,     add_studio_command, add_fit_command,
+        add_stream_command, add_settings_command,
     };
     return all;
 }

@@ -21,7 +21,7 @@ Json keys_call(Call& call)
         strategies.push_back({{"name", strategy->name},
                               {"help", strategy->help},
                               {"one_line", strategy->traits.one_line},
-                              {"pocket", strategy->traits.pocket},
+                              {"is_pocket", strategy->traits.pocket},
                               {"surfaces", !strategy->is_prismatic()},
                               {"keys", keys}});
     }

@@ -28,6 +28,7 @@ REASONS = {
     "install": "installs packages, as root",
     "source": "builds cusp or runs all tests: this test is one of them",
     "port": "needs a machine on a serial port",
+    "server": "serves until its page is closed",
 }
 FENCE = re.compile(r"^```(\w*) ?(.*)$")
 TIMEOUT_S = 600

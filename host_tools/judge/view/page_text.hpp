@@ -5,7 +5,7 @@
 
 namespace cusp::view {
 
-enum class Page { kView, kPlayground };
+enum class Page { kView, kPlayground, kStudio };
 
 // HTML; kView contains the lines kFactsPlace and kDataPlace. kPlayground is empty where the build took the page of bundle/.
 std::string_view page_text(Page page);
