@@ -11,6 +11,7 @@
 
 #include "firmware/gcode/interpreter.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/controller/program_fit/fit_check.hpp"
 
 using namespace cusp;
 using namespace cusp::program_fit;
@@ -208,4 +209,21 @@ TEST(FitProgram, MakesFewMovesOfALargePocket)
     CHECK(fitted.report.max_vertex_deviation_mm <= 0.010);
     CHECK(fitted.report.max_deviation_mm <= 0.011);
     CHECK(end_of(text) == end_of(fitted.text));
+}
+
+// A quarter of a circle, and a line, over vertices beside them.
+TEST(FitProgram, MeasuresHowFarVerticesAndMiddlesAreOff)
+{
+    const double diagonal = std::sqrt(0.5);
+    const std::vector<Position> vertices{
+        to_position({10, 0, 0}), to_position({10.05 * diagonal, 10.05 * diagonal, 0}),
+        to_position({0, 10, 0}), to_position({-5, 10.02, 0}), to_position({-10, 10, 0})};
+    const MeasuredFit arc = measure_fit("G0X10Y0\nG3X0Y10I-10J0F100\n", vertices, {{1, 0, 2}});
+    DOUBLES_EQUAL(0.05, arc.vertices, 1e-6);
+    const Vec3d middle = 0.5 * (to_millimetres(vertices[0]) + to_millimetres(vertices[1]));
+    DOUBLES_EQUAL(10 - norm(middle), arc.between, 1e-6);
+    LONGS_EQUAL(1, arc.arcs);
+    const MeasuredFit line = measure_fit("G0X0Y10\nG1X-10Y10F100\n", vertices, {{1, 2, 2}});
+    DOUBLES_EQUAL(0.02, line.vertices, 1e-6);
+    DOUBLES_EQUAL(0.01, line.between, 1e-6);
 }
