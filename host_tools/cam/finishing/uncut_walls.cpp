@@ -29,7 +29,7 @@ double bottom_of(const WallFacet& facet)
 }
 
 // The part of a polygon over a height, or with sign -1 under it.
-std::vector<Vec3d> clipped(const std::vector<Vec3d>& corners, double height, double sign)
+std::vector<Vec3d> part_over(const std::vector<Vec3d>& corners, double height, double sign)
 {
     std::vector<Vec3d> out;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -61,10 +61,10 @@ std::vector<WallFacet> facets_in(const FinishArea& area, const std::vector<WallF
             continue;
         }
         if (range.low > -kInfinite) {
-            facet.corners = clipped(facet.corners, range.low, 1);
+            facet.corners = part_over(facet.corners, range.low, 1);
         }
         if (range.high < kInfinite) {
-            facet.corners = clipped(facet.corners, range.high, -1);
+            facet.corners = part_over(facet.corners, range.high, -1);
         }
         if (facet.corners.size() >= 3) {
             out.push_back(std::move(facet));
