@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void write(std::FILE* out, const std::string& bytes)
+void write_at_once(std::FILE* out, const std::string& bytes)
 {
     std::fwrite(bytes.data(), 1, bytes.size(), out);
     std::fflush(out);
@@ -51,7 +51,7 @@ public:
         }
         told_ = now;
         text_ = text;
-        write(out_, written(Json{{"progress", {{"share", share}, {"text", text}}}}) + "\n");
+        write_at_once(out_, written(Json{{"progress", {{"share", share}, {"text", text}}}}) + "\n");
     }
 
 private:
@@ -111,9 +111,9 @@ void answer_call(const std::string& name, std::FILE* in, std::FILE* out)
     try {
         const Call call = read_call(rest_of(in));
         ProgressLines lines{out};
-        write(out, answer_bytes(engine::call(name, call.arguments, call.files, lines)));
+        write_at_once(out, answer_bytes(engine::call(name, call.arguments, call.files, lines)));
     } catch (const std::exception& fault) {
-        write(out, failure_bytes(fault.what()));
+        write_at_once(out, failure_bytes(fault.what()));
     }
 }
 

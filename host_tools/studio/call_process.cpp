@@ -27,7 +27,7 @@ int file_of(std::string_view bytes)
 {
     const int file = memfd_create("call", MFD_CLOEXEC);
     while (file >= 0 && !bytes.empty()) {
-        const ssize_t written = write(file, bytes.data(), bytes.size());
+        const ssize_t written = ::write(file, bytes.data(), bytes.size());
         if (written <= 0) {
             const int error = errno;
             close(file);
