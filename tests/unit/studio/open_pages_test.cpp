@@ -11,8 +11,9 @@ using Seconds = std::chrono::duration<double>;
 
 namespace {
 
-constexpr Seconds kLinger{0.1};
-constexpr Seconds kLonger{0.4};
+// long beside what a loaded machine makes a thread wait
+constexpr Seconds kLinger{0.4};
+constexpr Seconds kLonger{0.9};
 
 bool ended(const std::future<void>& wait, Seconds within)
 {
