@@ -3,7 +3,7 @@
 #include <set>
 
 #include "host_tools/engine/calls.hpp"
-#include "host_tools/engine/facets.hpp"
+#include "host_tools/engine/drawn_facets.hpp"
 
 namespace cusp::engine {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "host_tools/engine/calls.hpp"
-#include "host_tools/engine/facets.hpp"
+#include "host_tools/engine/drawn_facets.hpp"
 #include "host_tools/judge/verify/verify.hpp"
 #include "host_tools/judge/verify/verify_statistics.hpp"
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "host_tools/job/job/finish_keys.hpp"
+
 namespace cusp::import {
 
 using job::Job;
@@ -15,7 +17,10 @@ using job::Operation;
 
 namespace {
 
-bool is_pocket(const Operation& operation) { return operation.strategy->traits.pocket; }
+bool is_pocket(const Operation& operation)
+{
+    return operation.outline.boundary && !finishes_ground(operation);
+}
 
 // An engraving may be the only operation on its floor.
 bool is_on_floor(const Operation& operation)

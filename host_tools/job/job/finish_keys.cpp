@@ -27,6 +27,11 @@ bool GroundRange::holds(double z, double normal_z) const
     return normal_z >= least_normal_z() && normal_z <= most_normal_z() && z >= low && z <= high;
 }
 
+bool finishes_ground(const Operation& operation)
+{
+    return std::any_cast<FinishKeys>(&operation.parameters) != nullptr;
+}
+
 GroundRange ground_range_of(const Operation& operation)
 {
     const auto* keys = std::any_cast<FinishKeys>(&operation.parameters);

@@ -49,6 +49,10 @@ decltype(auto) finish_keys(AnyOperation& operation)
     return parameters_of<FinishKeys>(operation);
 }
 
+// True if boundary and islands limit the ground that the operation finishes; those of others are walls of what
+// it clears.
+bool finishes_ground(const Operation& operation);
+
 // The range of the operation; everything where its strategy has no such keys.
 GroundRange ground_range_of(const Operation& operation);
 

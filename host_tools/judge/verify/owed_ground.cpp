@@ -14,7 +14,7 @@ constexpr double kCap = 1;  // mm: only the sign of distances counts
 
 bool is_limited(const Operation& operation)
 {
-    return !operation.strategy->traits.pocket &&
+    return finishes_ground(operation) &&
            (operation.outline.boundary || !operation.outline.islands.empty() ||
             !ground_range_of(operation).is_everything());
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "host_tools/job/job/finish_keys.hpp"
 #include "host_tools/judge/verify/path_positions.hpp"
 #include "host_tools/judge/verify/stock_grid.hpp"
 #include "host_tools/judge/verify/verify_stages.hpp"
@@ -44,7 +45,7 @@ Scene scene_of(const Job& job)
         }
         const std::string pocket =
             operation.outline.boundary ? operation.outline.boundary_file : "";
-        const bool has_walls = operation.strategy->traits.pocket;
+        const bool has_walls = !job::finishes_ground(operation);
         if (has_walls && operation.outline.boundary && boundaries.insert(pocket).second) {
             scene.walls.push_back({pocket, *operation.outline.boundary, true});
         }

@@ -7,6 +7,7 @@
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/job/job/finish_keys.hpp"
 
 namespace cusp::verify {
 
@@ -33,7 +34,7 @@ double flute_slack(const Job& job)
 bool lies_in_stock(const Operation& operation)
 {
     return operation.prismatic ? !operation.cuts(job::Region::kTop)
-                               : operation.strategy->traits.pocket;
+                               : operation.outline.boundary && !finishes_ground(operation);
 }
 
 }  // namespace
