@@ -5,7 +5,7 @@
 //     const engine::Answer job = engine::call("suggest", R"({"parts": ["part.stl"], "tools": ["ball:6"]})", files, nobody);
 //     job.json;  // {"ok":true,"result":{"job":"units = ...","said":[...]}}
 //
-// Pages call it, in WebAssembly (wasm/engine_abi.cpp) or through a server. Files that a job names are looked for in the set
+// Pages call it through the server of cusp studio. Files that a job names are looked for in the set
 // alone, so that a page reads nothing of the disk; posts and libraries of tools are those that come with the program.
 //
 // Arguments, [those that may be absent], and results. `job` is the text of a job, `name` its file: paths in it are relative
