@@ -48,7 +48,7 @@ public:
     // Line of the program that the tool is on; the last one while it rests at an end.
     std::uint32_t executing_line() const noexcept { return line_; }
 
-    // Of the block that executing_line() is of; the set points are there smoothing_ticks() later.
+    // The power of the move that executing_line() names; set points reach that move smoothing_ticks() later.
     path::LaserPower power() const noexcept { return power_; }
     unsigned smoothing_ticks() const noexcept
     {

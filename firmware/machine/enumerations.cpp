@@ -1,4 +1,4 @@
-// What settings, errors and alarms are called.
+// The names of settings, errors and alarms, as senders ask for them.
 #include "firmware/machine/enumerations.hpp"
 
 #include <array>

@@ -96,7 +96,7 @@ public:
     // True if a stop has ended motion at once; there is none until abandon(), either.
     bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
 
-    // What the moves of a laser make of it.
+    // The power of the beam, tick by tick.
     Laser& laser() noexcept { return laser_; }
     const Laser& laser() const noexcept { return laser_; }
 
@@ -130,7 +130,7 @@ private:
     Stops stops_;
     Laser laser_;
 
-    // What the switches see now happened kPlayedBehind set points ago.
+    // A switch that is read now belongs to the set point of kPlayedBehind ticks ago.
     static constexpr std::size_t kPlayedBehind = Laser::kPlayedBehind;
     std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
     Position set_point_{};

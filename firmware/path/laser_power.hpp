@@ -46,7 +46,7 @@ private:
 
     static constexpr std::uint16_t kByLength = 1U << 15U;
     static constexpr unsigned kDropped = 14;  // bits of a float's mantissa
-    // What a float of 2^-22 has above them: from there on to 2^42.
+    // The least code is that of 2^-22, the greatest that of 2^42.
     static constexpr std::uint32_t kLeast = (127U - 22U) << 9U;
 
     static std::uint16_t encode(float value) noexcept

@@ -49,7 +49,7 @@ FAULTS = {
     "a sweep ends before its tool": (
         "host_tools/cam/rest_machining/tool_sweep.cpp", "radius{std::max(0.0, tool.radius - shrink)}",
         "radius{std::max(0.0, 0.9 * tool.radius - shrink)}", "rest_machining_test"),
-    "verify forgives ten tolerances beside walls": (
+    "verify forgives a hundred tolerances beside walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "if (beyond <= limits_.plan_tolerance) {",
         "if (beyond <= 100 * limits_.plan_tolerance) {", "wall_verdicts"),
     "verify sees gouges in sound walls": (

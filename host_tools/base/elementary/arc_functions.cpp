@@ -34,7 +34,7 @@ double atan_share(double t)
     return sum;
 }
 
-// What the rounded quotient a / b lacks.
+// The rounding error of the quotient: a / b less its rounded value.
 double quotient_error(double a, double b, double quotient)
 {
     constexpr double kLeast = 1e-140;

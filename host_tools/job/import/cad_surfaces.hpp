@@ -61,7 +61,8 @@ struct CadModel {
     FaceFault lobes;       // cut off where edges cross each other
     FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    // Triangles of all faces where these do not close, for the search for holes (mesh_holes.hpp).
+    // Triangles of all faces where these do not close, for the search for holes (mesh_holes.hpp); not for
+    // read_cad_model().
     std::vector<std::array<Vec3d, 3>> open_faces;
     std::vector<double> outwards;  // of each face: +1 if du x dv points out of its solid, -1
                                    // if into it; 0: the face belongs to no solid

@@ -94,7 +94,9 @@ CadModel model_of(const std::string& file,
     if (faces.empty()) {
         throw InputError(file + ": the file holds no face");
     }
-    model.open_faces = triangles_of_open_faces(faces);
+    if (!all_faces) {
+        model.open_faces = triangles_of_open_faces(faces);
+    }
     for (std::size_t i = 0; i < faces.size(); ++i) {
         add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
     }
