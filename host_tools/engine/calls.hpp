@@ -1,4 +1,4 @@
-// What a call gets and gives, and the calls themselves: each reads its arguments, and returns its result.
+// A call gets arguments and files, and gives a result and blocks. Each of the calls reads its own arguments.
 #pragma once
 
 #include <memory>

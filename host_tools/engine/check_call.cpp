@@ -30,7 +30,7 @@ Json tools_of(const Job& job)
     return out;
 }
 
-// What the operations cut, each file once.
+// The surfaces and triangles that the operations cut, each file once.
 Json facets_of(const Call& call, const Job& job)
 {
     std::set<std::vector<std::string>> seen;

@@ -19,7 +19,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TIMEOUT_S = 600  # a test that does not end has found the fault
 
-# What is wrong then: file, its text, the faulty text in its place, the test of ctest that has to fail.
+# Each fault: its file, its text, the faulty text in its place, the test of ctest that has to fail.
 FAULTS = {
     "windings without their sense": (
         "host_tools/geometry/offset/winding_border.cpp", "backwards ? -1 : 1;", "1;", "overlay_property_test"),

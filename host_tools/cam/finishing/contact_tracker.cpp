@@ -1,15 +1,11 @@
 // Newton's method from the last contact, or from the contact of a drop.
 #include "host_tools/cam/finishing/contact_tracker.hpp"
 
-#include "host_tools/geometry/part_model/tool_core.hpp"
-
 namespace cusp::finishing {
 
 using part_model::CcPoint;
-using part_model::core_of;
 using part_model::PartModel;
 using toolpath::Tool;
-using toolpath::ToolShape;
 
 namespace {
 
@@ -29,9 +25,6 @@ std::optional<ContactTracker::BallPosition> ContactTracker::at(double x, double 
                             point,
                             (centre - point) / norm(centre - point)};
     };
-    if (tool.shape != ToolShape::kBall) {
-        return other_end(x, y);
-    }
     if (model.is_mesh()) {
         const auto on_mesh = model.drop_ball(x, y, tool.radius);
         return on_mesh ? std::optional{leaning(on_mesh->centre, on_mesh->point, on_mesh->normal)}
@@ -76,22 +69,6 @@ std::optional<ContactTracker::BallPosition> ContactTracker::beside(double x, dou
                         1,
                         contact->point,
                         contact->normal};
-}
-
-std::optional<ContactTracker::BallPosition> ContactTracker::other_end(double x, double y) const
-{
-    const Tool& tool = path_fitter_.offset_tool();
-    const auto rest = path_fitter_.model().drop_cutter(tool, x, y);
-    if (!rest) {
-        return std::nullopt;
-    }
-    const Vec3d into = -core_of(tool, {x, y, rest->tip}).reach(rest->place.point);
-    const double length = norm(into);
-    return BallPosition{{x, y, rest->tip + path_fitter_.band().offset},
-                        {},
-                        1,
-                        rest->place.point,
-                        length > 0 ? into / length : Vec3d{0, 0, 1}};
 }
 
 }  // namespace cusp::finishing

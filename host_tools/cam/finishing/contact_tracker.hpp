@@ -1,5 +1,5 @@
-// A tool dropped at neighbouring points: a ball's contact is tracked over the surface and proved to be
-// the only one. If that fails, and for other ends, the whole model is searched.
+// A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
+// the only one. If that fails, the whole model is searched.
 #pragma once
 
 #include <optional>
@@ -20,16 +20,15 @@ public:
         // less than 1 on a rim or a crease, 0 on a trimmed edge.
         double facing{1};
         Vec3d point{};  // of the model, where it touches
-        Vec3d lean{};   // unit, from there into the tool
+        Vec3d lean{};   // unit, from there into the ball
     };
 
-    // The tool of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
+    // The ball of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
     // only. Quickest near the last point.
     std::optional<BallPosition> at(double x, double y);
 
 private:
     std::optional<BallPosition> beside(double x, double y);
-    std::optional<BallPosition> other_end(double x, double y) const;
 
     const GougeFreePathFitter& path_fitter_;
     CcParameters last_;

@@ -74,11 +74,10 @@ void check_clearance(const Job& job, const Operation& operation, const PartModel
 
 SurfaceOperation::SurfaceOperation(const Job& job,
                                    const Operation& operation,
-                                   std::vector<Surface> surfaces,
-                                   Ends ends)
+                                   std::vector<Surface> surfaces)
     : job_{job}, operation_{operation}, surfaces_{std::move(surfaces)}
 {
-    check_tool(ends);
+    check_tool();
     check_form();
     check_surfaces();
     model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.part.mesh)
@@ -125,25 +124,20 @@ void SurfaceOperation::check_form() const
     }
 }
 
-void SurfaceOperation::check_tool(Ends ends) const
+void SurfaceOperation::check_tool() const
 {
     const Tool& tool = operation_.tool;
-    if (tool.shape != ToolShape::kBall && ends == Ends::kBall) {
+    if (tool.shape != ToolShape::kBall) {
         throw InputError(fmt::format(
             "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
-            "rough: tools = [{}] with roughing = true and tool = a ball; parallel_planes, "
-            "waterline, contour_pocket and grid_pocket finish with them)",
+            "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
+            "grid_pocket finish with them)",
             job_.file, operation_.name(), tool.number,
             tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
     }
     if (!(operation_.tolerance.floor < tool.radius)) {
         throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
                                      job_.file, operation_.tolerance.floor, tool.radius));
-    }
-    if (tool.shape != ToolShape::kBall && operation_.tolerance.side == ToleranceSide::kBoth) {
-        throw InputError(
-            fmt::format("{}: {}: tolerance_side = \"both\" is for a ball; tool {} is {}", job_.file,
-                        operation_.name(), tool.number, name_of(tool.shape)));
     }
 }
 

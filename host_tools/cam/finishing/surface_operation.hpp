@@ -2,7 +2,6 @@
 // the conversion of dense passes to a planned operation.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -21,9 +20,6 @@ void check_clearance(const job::Job& job,
                      const job::Operation& operation,
                      const part_model::PartModel& model);
 
-// The ends with which a strategy finishes.
-enum class Ends : std::uint8_t { kBall, kRoundOrFlat };
-
 class SurfaceOperation {
 public:
     // surfaces  empty: the operation's mesh, for which a tolerance is always one-sided
@@ -31,19 +27,18 @@ public:
     // The scallop is proved, and passes are made, in the operation's FinishArea: its boundary, islands,
     // slopes and heights.
     //
-    // Throws InputError for a job that it cannot plan: another end than those, a surface without
+    // Throws InputError for a job that it cannot plan: another end than a ball, a surface without
     // area, a part higher than the clearance height.
     SurfaceOperation(const job::Job& job,
                      const job::Operation& operation,
-                     std::vector<nurbs::Surface> surfaces,
-                     Ends ends = Ends::kBall);
+                     std::vector<nurbs::Surface> surfaces);
 
     const std::vector<nurbs::Surface>& surfaces() const { return surfaces_; }
     const part_model::PartModel& model() const { return *model_; }
     GougeFreePathFitter& path_fitter() { return *path_fitter_; }
     const GougeFreePathFitter& path_fitter() const { return *path_fitter_; }
 
-    // Where passes go: on the area that is proved, and a little beyond its border.
+    // Passes go on the area that is proved, and a little beyond its border.
     const FinishArea& area() const { return path_fitter_->area(); }
 
     // The parts of dense tips, each from its first to its last, that touch the model in the area.
@@ -93,7 +88,7 @@ public:
     toolpath::PlannedOperation finish(double spacing, double scallop_bound, double lead_in = 0);
 
 private:
-    void check_tool(Ends ends) const;
+    void check_tool() const;
     std::vector<Range> ranges_where(std::size_t count,
                                     const std::function<bool(std::size_t)>& holds) const;
     void check_form() const;
