@@ -24,7 +24,7 @@ Call read_call(std::string_view request);
 
 // The bytes of an answer, from its line on.
 std::string answer_bytes(const engine::Answer& answer);
-// Of a call that has no answer of the engine: `kind` is "internal".
+// The failure of a call that has no answer of the engine: its `kind` is "internal".
 std::string failure_bytes(const std::string& text);
 
 // Reads a request to its end, calls the engine, and writes the answer. Progress is written at most twenty times a second.

@@ -20,7 +20,7 @@ public:
     CallProcess(const CallProcess&) = delete;
     CallProcess& operator=(const CallProcess&) = delete;
 
-    // What it has written since, waiting at most so many milliseconds; "": nothing yet. No value after its end.
+    // The bytes that it has written since, waiting at most so many milliseconds; "": nothing yet. No value after its end.
     std::optional<std::string> read(int milliseconds);
 
     // After its end: "" where it ended well, else how it ended.

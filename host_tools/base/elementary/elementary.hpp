@@ -16,7 +16,7 @@
 
 namespace cusp::elementary {
 
-// Of an angle in radians. Beyond 1.6e6 the angle is first reduced by the double next to 2 pi: the bits are the same
+// These take an angle in radians. Beyond 1.6e6 the angle is first reduced by the double next to 2 pi: the bits are the same
 // everywhere, but they are those of an angle that is off by up to 4e-17 of itself.
 double sin(double angle);
 double cos(double angle);

@@ -175,7 +175,7 @@ void UncutWalls::share_out(std::size_t count,
     path_fitter_.model().forget_queries();
 }
 
-// Where stock is left, as far as the wall is in the area.
+// The places with stock left, on the part of the wall that is in the area.
 std::vector<WallSide::Run> UncutWalls::missing_in_area(const WallSide& side,
                                                        const ScallopAtPoint& places,
                                                        WallSide::KnownReach& known) const

@@ -11,7 +11,7 @@ namespace cusp::finishing {
 
 class FinishArea;
 
-// What of the facets is in the area, by slope and height; loops do not count.
+// The part of the facets that is in the area, by slope and height; loops do not count.
 std::vector<WallFacet> facets_in(const FinishArea& area, const std::vector<WallFacet>& facets);
 
 // The work beside walls that `MeshScallopCheck` and `ScallopCheck` share: each gives its vertical

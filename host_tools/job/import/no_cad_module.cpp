@@ -1,4 +1,4 @@
-// Where no module can be loaded, as in WebAssembly.
+// The reader of CAD files in a build that can load no module, as in WebAssembly.
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/cad_surfaces.hpp"
 
