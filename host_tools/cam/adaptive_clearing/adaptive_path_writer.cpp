@@ -25,11 +25,12 @@ void AdaptivePathWriter::write(const AdaptivePath& path, double above, double z)
 {
     for (const AdaptiveRun& run : path.runs) {
         if (run.helix) {
-            enter(*run.helix, above, z);
+            enter(*run.helix, top_at(run.helix->centre, above), z);
         } else if (run.link.empty()) {
             const Vec2d start = run.path.front().start;
             // Lower down the tool may meet slivers, so it descends at the plunge feed.
-            writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
+            writer_.approach(
+                start, std::min(top_at(start, above) + kRapidClearance, writer_.clearance_z()));
             writer_.line(MoveKind::kPlunge, {start.x, start.y, z});
         }
         link(run.link, z);
@@ -37,6 +38,12 @@ void AdaptivePathWriter::write(const AdaptivePath& path, double above, double z)
             cut(edge, z, std::min(run.tolerance, settings_.chord_tolerance));
         }
     }
+    slivers_.add(path, writer_.tool_radius(), above);
+}
+
+double AdaptivePathWriter::top_at(Vec2d place, double above) const
+{
+    return slivers_.top_at(place, writer_.tool_radius(), above);
 }
 
 // Rapid legs run above the floor: beside them is nothing, and below only what a round end left.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
+#include "host_tools/cam/adaptive_clearing/standing_slivers.hpp"
 #include "host_tools/geometry/toolpath/toolpath_writer.hpp"
 
 namespace cusp::adaptive_clearing {
@@ -21,7 +22,9 @@ public:
     {
     }
 
-    // above  z: stock begins there at most
+    // Levels are written from the top down. Entries begin over what slivers of those before are left.
+    //
+    // above  z: stock begins there at most, but for these
     void write(const AdaptivePath& path, double above, double z);
 
     int entries() const { return entries_; }
@@ -34,7 +37,9 @@ private:
     int entries_{0};
     int plunges_{0};
     int points_{0};
+    StandingSlivers slivers_{};
 
+    double top_at(Vec2d place, double above) const;
     void enter(const EntryHelix& helix, double above, double z);
     void link(const std::vector<LinkLeg>& legs, double z);
     void cut(const offset::Edge& edge, double z, double tolerance);

@@ -31,6 +31,7 @@ namespace cusp::adaptive_isocurve {
 using adaptive_clearing::AdaptivePath;
 using adaptive_clearing::AdaptivePathWriter;
 using adaptive_clearing::EngagementReport;
+using adaptive_clearing::off_slivers;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
@@ -135,7 +136,9 @@ public:
             if (!level) {
                 break;
             }
-            result_.levels.regions.push_back(std::make_unique<RegionOffset>(level->region));
+            result_.levels.regions.push_back(std::make_unique<RegionOffset>(
+                level->adaptive ? off_slivers(level->region, *level->adaptive, tool_.radius)
+                                : level->region));
             if (level->adaptive) {
                 write_adaptive(*level, above, passes);
             } else {

@@ -26,6 +26,7 @@ using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
 using adaptive_clearing::cleared_radius;
 using adaptive_clearing::EngagementReport;
+using adaptive_clearing::off_slivers;
 using job::EntryKind;
 using job::Job;
 using job::kRoughingDone;
@@ -110,8 +111,17 @@ public:
         }
         parallel::for_each(out.size(), [&](std::size_t k) {
             const cancellation::Part part{"roughing level ", static_cast<int>(k + 1), ""};
-            out[k].path = clear_adaptively(out[k].region, settings(out[k]));
+            const Level* const beside_it = out[k].beside;
+            out[k].path = clear_adaptively(
+                out[k].region, settings(beside_it != nullptr ? beside_it->region : Region2d{}));
         });
+        for (Level& level : out) {
+            if (level.beside != nullptr && !level.beside->path.left.empty()) {
+                level.path = clear_adaptively(
+                    level.region, settings(off_slivers(level.beside->region, level.beside->path,
+                                                       rough_.tool.radius)));
+            }
+        }
         return out;
     }
 
@@ -187,7 +197,8 @@ private:
         return !without(level.region, grown(beside.region, step)).contours.empty();
     }
 
-    AdaptiveSettings settings(const Level& level) const
+    // open  region of the tool's centre where it meets no stock; may be empty
+    AdaptiveSettings settings(Region2d open) const
     {
         AdaptiveSettings out;
         out.tool_radius = cleared_radius(rough_.tool, scallops_);
@@ -196,8 +207,8 @@ private:
         out.tolerance = std::min(kChord, 0.005 * rough_.tool.radius);
         out.corner = rough_.tolerance.plan;
         out.direction = rough_.passes.direction_of_cut;
-        if (level.beside != nullptr) {
-            out.open.push_back(level.beside->region);
+        if (!open.contours.empty()) {
+            out.open.push_back(std::move(open));
         }
         return out;
     }
