@@ -80,7 +80,7 @@ constexpr double kMissingDone = 0.95;
 
 class IsocurvePlanner {
 public:
-    IsocurvePlanner(const Job& job, const Operation& operation)
+    IsocurvePlanner(const Job& job, const Operation& operation, const LevelFloors& floors)
         : job_{job},
           operation_{operation},
           work_{job, operation, surfaces_along_u(operation)},
@@ -88,6 +88,7 @@ public:
           plain_{work_.surfaces().size() == 1 && is_plain(work_.surfaces().front())},
           selection_{operation, work_, plain_}
     {
+        leave_out(floors, work_);
         if (operation.tolerance.scallop && !finish_keys(operation).iso_distance) {
             scallop_check_.emplace(work_.surfaces(), work_.path_fitter(),
                                    *operation.tolerance.scallop, work_.path_off());
@@ -408,12 +409,13 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     check_spacing(job, operation);
     std::vector<PlannedOperation> out;
     const bool mesh = !complete && !operation.part.mesh.empty();
+    const LevelFloors floors = level_floors(job, operation);
     std::optional<IsocurvePlanner> planner;
     if (!mesh) {
         const cancellation::Part part{"the model of ",
                                       static_cast<int>(operation.part.floor.size()),
                                       " faces" + place_of_faces(operation)};
-        planner.emplace(job, operation);
+        planner.emplace(job, operation, floors);
     }
     PlannedOperation finish;
     const auto rough = [&] {
@@ -423,12 +425,12 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
                 part.emplace("the roughing of ", static_cast<int>(operation.part.floor.size()),
                              " faces" + place_of_faces(operation));
             }
-            out = plan_waterline_roughing(job, operation);
+            out = plan_waterline_roughing(job, operation, floors);
         }
     };
     parallel::both(rough, [&] {
         const auto begin = std::chrono::steady_clock::now();
-        finish = mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete);
+        finish = mesh ? plan_mesh_isocurves(job, operation, floors) : planner->plan(complete);
         finish.stats.planning_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     });

@@ -72,7 +72,7 @@ double scallop_of(const Operation& operation, double outward)
 
 class MeshPlanner {
 public:
-    MeshPlanner(const Job& job, const Operation& operation)
+    MeshPlanner(const Job& job, const Operation& operation, const LevelFloors& floors)
         : job_{job},
           operation_{operation},
           work_{job, operation, {}},
@@ -80,6 +80,7 @@ public:
           scallop_{scallop_of(operation, work_.outward())},
           scallop_check_{operation.part.mesh, work_.path_fitter(), scallop_, work_.path_off()}
     {
+        leave_out(floors, work_);
         const Vec3d low = work_.model().box_low();
         const Vec3d high = work_.model().box_high();
         if (finish_keys(operation).direction == 'v') {
@@ -362,9 +363,11 @@ private:
 
 }  // namespace
 
-PlannedOperation plan_mesh_isocurves(const Job& job, const Operation& operation)
+PlannedOperation plan_mesh_isocurves(const Job& job,
+                                     const Operation& operation,
+                                     const LevelFloors& floors)
 {
-    return MeshPlanner{job, operation}.plan();
+    return MeshPlanner{job, operation, floors}.plan();
 }
 
 }  // namespace cusp::adaptive_isocurve

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "host_tools/cam/adaptive_isocurve/level_floors.hpp"
 #include "host_tools/job/job/job.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -15,6 +16,7 @@ namespace cusp::adaptive_isocurve {
 //
 // Not claimed by the scallop bound: vertical walls beside which the ball has nothing below it.
 toolpath::PlannedOperation plan_mesh_isocurves(const job::Job& job,
-                                               const job::Operation& operation);
+                                               const job::Operation& operation,
+                                               const LevelFloors& floors = {});
 
 }  // namespace cusp::adaptive_isocurve

@@ -14,12 +14,13 @@
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/cam/adaptive_isocurve/cleared_level.hpp"
 #include "host_tools/cam/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/cam/adaptive_isocurve/rough_clearance.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_adaptive.hpp"
 #include "host_tools/cam/clearing/clearing.hpp"
 #include "host_tools/cam/clearing/layer_toolpath_writer.hpp"
 #include "host_tools/cam/clearing/rest_between_tools.hpp"
-#include "host_tools/geometry/offset/edge_tree.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/geometry/waterline_slices/fitted_edges.hpp"
 #include "host_tools/geometry/waterline_slices/waterline_slices.hpp"
@@ -45,11 +46,9 @@ using job::OutputForm;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
-using offset::EdgeTree;
 using offset::length;
 using offset::Region2d;
 using offset::RegionOffset;
-using toolpath::LineTo;
 using toolpath::OperationStats;
 using toolpath::Tool;
 using toolpath::ToolMove;
@@ -64,14 +63,11 @@ namespace {
 
 constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
 constexpr std::size_t kLevelsAtOnce = 8;
-constexpr std::size_t kMovesAtOnce = 64;   // proved by one thread
-constexpr std::size_t kProofsAtOnce = 64;  // of these, before cells of the model are forgotten
-constexpr double kFit = 1.5e-3;            // mm: tolerance of the edges of slices as lines and arcs
+constexpr double kFit = 1.5e-3;  // mm: tolerance of the edges of slices as lines and arcs
 // mm: how much more each level keeps off walls than the one above. Without it a level would cut
 // slivers at walls, as wide as the fits of both levels differ.
 constexpr double kTaper = 1e-3;
-constexpr double kChord = 1e-3;      // mm: tolerance of arcs written as lines
-constexpr double kProofStep = 1e-3;  // mm: how much too low a proved clearance may be
+constexpr double kChord = kRoughChord;
 // mm: how far a cutter is clear where another was, beyond the tolerance of fits. Without it many
 // short parts beside walls would have to be examined.
 constexpr double kMargin = 6e-3;
@@ -95,6 +91,7 @@ public:
         result_.levels.tool = tool;
     }
 
+    // Over 60 lines: levels share what is prepared for all of them.
     RoughedTool plan()
     {
         const auto begin = std::chrono::steady_clock::now();
@@ -136,9 +133,7 @@ public:
             if (!level) {
                 break;
             }
-            result_.levels.regions.push_back(std::make_unique<RegionOffset>(
-                level->adaptive ? off_slivers(level->region, *level->adaptive, tool_.radius)
-                                : level->region));
+            add_region(*level);
             if (level->adaptive) {
                 write_adaptive(*level, above, passes);
             } else {
@@ -147,6 +142,8 @@ public:
             // Scallops of passes and the rest of other cutters are higher than the level.
             above = heights[k] + scallops();
         }
+        roughed_moves_ = moves.size();
+        write_floors(passes, runs);
         if (adaptive) {
             writer.retract();
             finish({writer.retracts(), passes.plunges(), passes.entries()}, begin);
@@ -175,43 +172,6 @@ private:
                6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
     }
 
-    // True if a segment lies in the region: divided until the clearances at both ends of each part
-    // are together at least its length.
-    static bool line_inside(const RegionOffset& region, Vec2d from, Vec2d to)
-    {
-        const double room_from = region.clearance(from);
-        const double room_to = region.clearance(to);
-        const double length = norm(to - from);
-        if (room_from < 0 || room_to < 0) {
-            return false;
-        }
-        if (room_from + room_to >= length) {
-            return true;
-        }
-        if (length < 2.0 * kChord) {
-            return true;  // outside by no more than the tolerance of chords
-        }
-        const Vec2d middle = (from + to) * 0.5;
-        return line_inside(region, from, middle) && line_inside(region, middle, to);
-    }
-
-    // True if a link lies in the region. Links are made from samples 0.1 mm apart, which is no
-    // proof.
-    static bool line_inside(const RegionOffset& region, const std::vector<Edge>& way)
-    {
-        return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
-            const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / 0.02);
-            for (int k = 0; k < parts; ++k) {
-                const Vec2d from = point_on(edge, static_cast<double>(k) / parts);
-                const Vec2d to = point_on(edge, static_cast<double>(k + 1) / parts);
-                if (!line_inside(region, from, to)) {
-                    return false;
-                }
-            }
-            return true;
-        });
-    }
-
     struct Level {
         double bottom;
         Region2d region;
@@ -223,6 +183,62 @@ private:
         int plunges;
         int entries;  // of adaptive paths
     };
+
+    void add_region(const Level& level)
+    {
+        result_.levels.regions.push_back(std::make_unique<RegionOffset>(
+            level.adaptive ? off_slivers(level.region, *level.adaptive, tool_.radius)
+                           : level.region));
+    }
+
+    // Cuts the level floors to size, from the lowest of the levels above on that have cleared their ground.
+    void write_floors(AdaptivePathWriter& passes, LayerToolpathWriter& runs)
+    {
+        if (!work_.floors.tool() || work_.floors.tool()->number != tool_.number) {
+            return;
+        }
+        const double most = work_.operation.levels.max_depth.value_or(tool_.radius);
+        floors_ = work_.floors.levels().size();
+        for (const LevelFloor& floor : work_.floors.levels()) {
+            const RegionOffset* over = nullptr;
+            double top = work_.stock.top;
+            for (std::size_t k = 0; k < result_.levels.regions.size() &&
+                                    work_.depths.heights[k] >= floor.z + result_.keeps;
+                 ++k) {
+                over = result_.levels.regions[k].get();
+                top = work_.depths.heights[k] + scallops();
+            }
+            const double deep = top - floor.z;
+            const int steps = static_cast<int>(std::max(1.0, std::ceil(deep / most - 1e-9)));
+            for (int i = 1; i <= steps; ++i) {
+                const double above = floor.z + deep * (steps - i + 1) / steps;
+                const double z = floor.z + deep * (steps - i) / steps;
+                write_floor(floor, {above, z}, over, passes, runs);
+                over = floor.centres.get();
+            }
+        }
+    }
+
+    struct Heights {
+        double above;
+        double z;
+    };
+
+    // over  cleared down to the height above; null: nothing is
+    void write_floor(const LevelFloor& floor,
+                     Heights heights,
+                     const RegionOffset* over,
+                     AdaptivePathWriter& passes,
+                     LayerToolpathWriter& runs)
+    {
+        Level level{heights.z, {}, floor.cleared, floor.adaptive};
+        if (level.adaptive) {
+            write_adaptive(level, heights.above, passes);
+            return;
+        }
+        write_runs(runs_of(level.cleared, *floor.centres),
+                   space_of(level, heights.above, *floor.centres, over), runs);
+    }
 
     // The next levels.
     std::vector<std::optional<Level>> cleared_levels(const WaterlineSlices& slices,
@@ -266,7 +282,7 @@ private:
                 clearing.stepover = share * step_.stepover - 4.0 * inner_fit_;
                 clearing.direction = work_.operation.passes.direction_of_cut;
                 level.cleared = clear_region(level.region, clearing);
-                if (covers(level, clearing.stepover)) {
+                if (covers(level.cleared, level.region, clearing.stepover, work_.stock.plan)) {
                     return level;
                 }
             }
@@ -283,30 +299,6 @@ private:
         engagement_.add(*level.adaptive, 1, level.bottom);
         result_.loops += static_cast<int>(level.adaptive->runs.size());
         levels_ += level.adaptive->runs.empty() ? 0 : 1;
-    }
-
-    // True if the passes cover the level. At a point left out the next level would cut twice the
-    // depth.
-    bool covers(const Level& level, double step) const
-    {
-        constexpr double kReach = 0.55;  // of the stepover; planned is a half
-        std::vector<Edge> edges;
-        for (const ClearingPass& pass : level.cleared.passes) {
-            edges.insert(edges.end(), pass.path.begin(), pass.path.end());
-        }
-        const EdgeTree passes{edges};
-        const RegionOffset inside{level.region};
-        const double pitch = 0.4 * step;
-        for (double x = work_.stock.plan.x0; x <= work_.stock.plan.x1; x += pitch) {
-            for (double y = work_.stock.plan.y0; y <= work_.stock.plan.y1; y += pitch) {
-                const Vec2d at{x, y};
-                if (inside.clearance(at) > 2 * kFirst &&
-                    (edges.empty() || !passes.any_nearer(at, kReach * step))) {
-                    return false;
-                }
-            }
-        }
-        return true;
     }
 
     bool cuts_stock(const Contour& path) const
@@ -361,24 +353,41 @@ private:
     {
         const auto& regions = result_.levels.regions;
         const RegionOffset& region = *regions[k];
-        LayerSpace space{top, level.bottom, tool_.radius, {}, {}, {}};
-        space.scallop_height = before_.empty() ? 0.0 : scallops();
-        space.has_room = [&](Vec2d place, double extra) {
-            return region.clearance(place) >= extra;
-        };
-        space.beside_stock = [&](Vec2d place) {
-            return beside(work_.stock.plan, place) >= tool_.radius;
-        };
-        if (k > 0) {
-            space.cleared_above = [&](Vec2d from, Vec2d to) {
-                return line_inside(*regions[k - 1], from, to);
-            };
-        }
         std::vector<LayerRun> runs = runs_of(level.cleared, region);
         const std::vector<ClearedPlaces> before = cleared_before(k);
         if (!before.empty()) {
             runs = rest_regions(runs, tool_.radius, before);
         }
+        write_runs(runs, space_of(level, top, region, k > 0 ? regions[k - 1].get() : nullptr),
+                   moves);
+    }
+
+    // over  cleared down to the top; null: nothing is
+    LayerSpace space_of(const Level& level,
+                        double top,
+                        const RegionOffset& region,
+                        const RegionOffset* over) const
+    {
+        LayerSpace space{top, level.bottom, tool_.radius, {}, {}, {}};
+        space.scallop_height = before_.empty() ? 0.0 : scallops();
+        space.has_room = [&region](Vec2d place, double extra) {
+            return region.clearance(place) >= extra;
+        };
+        space.beside_stock = [this](Vec2d place) {
+            return beside(work_.stock.plan, place) >= tool_.radius;
+        };
+        if (over != nullptr) {
+            space.cleared_above = [over](Vec2d from, Vec2d to) {
+                return line_inside(*over, from, to);
+            };
+        }
+        return space;
+    }
+
+    void write_runs(const std::vector<LayerRun>& runs,
+                    const LayerSpace& space,
+                    LayerToolpathWriter& moves)
+    {
         for (const LayerRun& run : runs) {
             moves.add(run, space);
         }
@@ -386,53 +395,13 @@ private:
         levels_ += runs.empty() ? 0 : 1;
     }
 
-    // The least clearance of all moves below the clearance height.
-    double least_clearance() const
-    {
-        const std::size_t count = result_.planned.path.moves.size();
-        std::vector<double> least((count + kMovesAtOnce - 1) / kMovesAtOnce, kInfinite);
-        for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
-            const part_model::PartModel::SharedQueries shared{work_.model};
-            parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
-                const part_model::PartModel::SharedQueries::Part queries{work_.model};
-                const std::size_t first = (begin + k) * kMovesAtOnce;
-                least[begin + k] = least_clearance(first, std::min(count, first + kMovesAtOnce));
-            });
-        }
-        return *std::min_element(least.begin(), least.end());
-    }
-
-    // mm: the least clearance of the moves [first, last).
-    double least_clearance(std::size_t first, std::size_t last) const
-    {
-        const std::vector<ToolMove>& moves = result_.planned.path.moves;
-        double least = kInfinite;
-        for (std::size_t k = std::max<std::size_t>(1, first); k < last; ++k) {
-            const ToolMove& move = moves[k];
-            const Vec3d at = end_of(moves[k - 1]);
-            if (std::min(at.z, end_of(move).z) >=
-                work_.model.box_high().z + work_.operation.passes.allowance) {
-                continue;
-            }
-            const double sufficient = std::min(least, work_.operation.passes.allowance + 1.0);
-            const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
-            Vec3d from = at;
-            for (const Vec3d& to : points_of(move, at, kChord)) {
-                least = std::min(least, work_.model.move_clearance(tool_, from, to,
-                                                                   sufficient + bow, kProofStep) -
-                                            bow);
-                from = to;
-            }
-        }
-        return least;
-    }
-
     void finish(const Written& written, std::chrono::steady_clock::time_point begin)
     {
         if (result_.loops == 0) {
             return;
         }
-        const double least = least_clearance();
+        const double least =
+            least_clearance(work_, tool_, result_.planned.path.moves, roughed_moves_);
         Toolpath& path = result_.planned.path;
         set_tool(path, work_.job, tool_);
         path.comments = {
@@ -449,12 +418,17 @@ private:
         stats.gouge_bound_mm = std::max(0.0, -least);
         // Slices bound what is cut, not what is left: the only bound of that is the stock's height.
         stats.scallop_bound_mm = work_.stock.top - work_.stock.bottom;
-        stats.counts = {{"layers", levels_},
-                        {"loops", result_.loops},
-                        {"layer_depth_mm", work_.stock.top - work_.depths.heights.front()},
-                        {"clearance_bound_mm", least},
-                        {"allowance_mm", work_.operation.passes.allowance}};
-        if (least < work_.operation.passes.allowance - kProofStep) {
+        stats.counts = {
+            {"layers", levels_},
+            {"loops", result_.loops},
+            {"layer_depth_mm", work_.stock.top - work_.depths.heights.front()},
+            {"clearance_bound_mm", least},
+            {"level_floors",
+             static_cast<double>(work_.floors.tool() && work_.floors.tool()->number == tool_.number
+                                     ? work_.floors.levels().size()
+                                     : 0)},
+            {"allowance_mm", work_.operation.passes.allowance}};
+        if (least < work_.operation.passes.allowance - kClearanceResolution) {
             stats.warnings.push_back(
                 fmt::format("roughing comes within {:.4f} mm of the model, the allowance is {:g} "
                             "mm",
@@ -483,6 +457,8 @@ private:
     double inner_fit_{};
     RoughedTool result_;
     int levels_{};
+    std::size_t floors_{};         // cut to size
+    std::size_t roughed_moves_{};  // before those on level floors
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "host_tools/cam/adaptive_isocurve/level_floors.hpp"
 #include "host_tools/cam/adaptive_isocurve/rough_depths.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
@@ -30,6 +31,7 @@ struct RoughWork {
     const part_model::PartModel& model;
     RoughStock stock;
     RoughDepths depths;
+    const LevelFloors& floors;
     double least_pitch;   // mm, of the lattices of slices
     double share_before;  // of the progress: before this cutter
     double share;         // of the progress: of this cutter

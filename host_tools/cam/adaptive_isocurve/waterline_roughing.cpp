@@ -79,7 +79,9 @@ std::vector<PlannedOperation> nothing_roughed(const std::string& why)
 
 }  // namespace
 
-std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Operation& operation)
+std::vector<PlannedOperation> plan_waterline_roughing(const Job& job,
+                                                      const Operation& operation,
+                                                      const LevelFloors& floors)
 {
     const std::vector<Tool> tools = cutters_of(operation);
     check(job, operation, tools);
@@ -88,9 +90,15 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
     check_clearance(job, operation, model);
     const RoughStock stock = stock_of(job, model, operation.passes.allowance);
     const double share = kRoughingDone / static_cast<double>(tools.size());
-    RoughWork work{
-        job, operation, model, stock, rough_depths(job, operation, tools, stock.top, stock.bottom),
-        0.0, 0.0,       share};
+    RoughWork work{job,
+                   operation,
+                   model,
+                   stock,
+                   rough_depths(job, operation, tools, stock.top, stock.bottom),
+                   floors,
+                   0.0,
+                   0.0,
+                   share};
     if (work.depths.heights.empty()) {
         return nothing_roughed(fmt::format(
             "with an allowance of {:g} mm the lowest level is at z = {:.6g} mm, the stock's top at "

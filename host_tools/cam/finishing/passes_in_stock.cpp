@@ -1,4 +1,4 @@
-// A pass is a row of pieces, lines or moves; each is over the stock or not.
+// A pass is a row of pieces, lines or moves; each is idle or not.
 #include "host_tools/cam/finishing/passes_in_stock.hpp"
 
 #include <algorithm>
@@ -8,50 +8,44 @@
 
 namespace cusp::finishing {
 
+using toolpath::LineTo;
 using toolpath::points_of;
 using toolpath::ToolMove;
 
 namespace {
 
-constexpr double kSame = 1e-6;   // mm: rounding of a tip on the stock's top
 constexpr double kChord = 1e-4;  // mm: of points along a move
-
-bool is_over(const Points& points, double top)
-{
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Vec3d& at) { return at.z >= top - kSame; });
-}
 
 struct PassPiece {
     Vec3d begin;
-    Points way;  // after `begin`
-    bool over{};
+    Points way;   // after `begin`
+    bool over{};  // it is idle
     double length{};
 };
 
-PassPiece piece_of(Vec3d begin, Points way, double top)
+PassPiece piece_of(Vec3d begin, Points way, const IsIdle& is_idle)
 {
-    PassPiece piece{begin, std::move(way), begin.z >= top - kSame, 0};
-    piece.over = piece.over && is_over(piece.way, top);
+    PassPiece piece{begin, std::move(way), true, 0};
     for (const Vec3d& at : piece.way) {
+        piece.over = piece.over && is_idle(begin, at);
         piece.length += norm(at - begin);
         begin = at;
     }
     return piece;
 }
 
-std::vector<PassPiece> pieces_of(const SurfacePass& pass, double top)
+std::vector<PassPiece> pieces_of(const SurfacePass& pass, const IsIdle& is_idle)
 {
     std::vector<PassPiece> out;
     Vec3d at = pass.points.front();
     if (pass.moves.empty()) {
         for (std::size_t k = 1; k < pass.points.size(); ++k) {
-            out.push_back(piece_of(at, {pass.points[k]}, top));
+            out.push_back(piece_of(at, {pass.points[k]}, is_idle));
             at = pass.points[k];
         }
     }
     for (const ToolMove& move : pass.moves) {
-        out.push_back(piece_of(at, points_of(move, at, kChord), top));
+        out.push_back(piece_of(at, points_of(move, at, kChord), is_idle));
         at = end_of(move);
     }
     return out;
@@ -74,9 +68,12 @@ SurfacePass part_of(const SurfacePass& pass,
     return part;
 }
 
-void add_parts(const SurfacePass& pass, double top, double linked, std::vector<SurfacePass>& out)
+void add_parts(const SurfacePass& pass,
+               const IsIdle& is_idle,
+               double linked,
+               std::vector<SurfacePass>& out)
 {
-    const std::vector<PassPiece> pieces = pieces_of(pass, top);
+    const std::vector<PassPiece> pieces = pieces_of(pass, is_idle);
     std::size_t first = 0;  // of the part
     std::size_t last = 0;   // behind its last piece in the stock
     double over = 0;        // mm, since then
@@ -101,14 +98,65 @@ void add_parts(const SurfacePass& pass, double top, double linked, std::vector<S
     }
 }
 
+// The places on a line where an idle part begins or ends, then its end.
+Points ends_of_idle_parts(Vec3d from, Vec3d to, const IsIdle& is_idle)
+{
+    constexpr double kGrain = 0.5;  // mm
+    const int n = std::max(1, static_cast<int>(norm(to - from) / kGrain));
+    const auto at = [&](int i) {
+        return i == n ? to : from + (to - from) * (1.0 * i / n);
+    };
+    Points out;
+    bool was_idle = n > 1 && is_idle(from, at(1));
+    for (int i = 1; i < n; ++i) {
+        const bool idle = is_idle(at(i), at(i + 1));
+        if (idle != was_idle) {
+            out.push_back(at(i));
+        }
+        was_idle = idle;
+    }
+    out.push_back(to);
+    return out;
+}
+
 }  // namespace
 
+SurfacePass divided_where_idle(const SurfacePass& pass, const IsIdle& is_idle)
+{
+    if (pass.curve) {
+        return pass;
+    }
+    SurfacePass out{{pass.points.front()}, {}, {}};
+    Vec3d at = pass.points.front();
+    const auto add_line = [&](Vec3d to) {
+        const Points ends = ends_of_idle_parts(at, to, is_idle);
+        out.points.insert(out.points.end(), ends.begin(), ends.end());
+        return ends;
+    };
+    for (std::size_t k = 1; pass.moves.empty() && k < pass.points.size(); ++k) {
+        add_line(pass.points[k]);
+        at = pass.points[k];
+    }
+    for (const ToolMove& move : pass.moves) {
+        if (std::holds_alternative<LineTo>(move.shape)) {
+            for (const Vec3d end : add_line(end_of(move))) {
+                out.moves.push_back({move.kind, LineTo{end}});
+            }
+        } else {
+            out.points.push_back(end_of(move));
+            out.moves.push_back(move);
+        }
+        at = end_of(move);
+    }
+    return out;
+}
+
 std::vector<SurfacePass> passes_in_stock(const std::vector<SurfacePass>& passes,
-                                         double top,
+                                         const IsIdle& is_idle,
                                          double linked)
 {
     const auto is_low = [&](const Vec3d& at) {
-        return at.z < top - kSame;
+        return !is_idle(at, at);
     };
     std::vector<SurfacePass> out;
     for (const SurfacePass& pass : passes) {
@@ -117,7 +165,7 @@ std::vector<SurfacePass> passes_in_stock(const std::vector<SurfacePass>& passes,
         if (whole || (pass.curve && low > 0)) {
             out.push_back(pass);
         } else if (!pass.curve) {
-            add_parts(pass, top, linked, out);
+            add_parts(pass, is_idle, linked, out);
         }
     }
     return out;

@@ -1,21 +1,27 @@
-// Leaves out what passes would do over the stock's top, in air.
+// Leaves out what passes would do in air, as over the stock's top.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "host_tools/cam/finishing/pass_links.hpp"
 
 namespace cusp::finishing {
 
-// The parts of passes that go below `top`, the height of the stock. A tool whose tip is not below it
-// removes nothing: what stays cuts the same, and a proof of the scallop by all passes holds.
+// True if the tool removes nothing while its tip goes straight from `a` to `b`.
+using IsIdle = std::function<bool(Vec3d a, Vec3d b)>;
+
+// The parts of passes that are not idle: what stays cuts the same, and a proof of the scallop by all
+// passes holds.
 //
-// top      mm
-// linked   mm: parts over the stock no longer than this stay, since a link would be as long
+// linked   mm: idle parts no longer than this stay, since a link would be as long
 //
-// A pass that is one curve stays whole unless all of it is over the stock.
+// A pass that is one curve stays whole unless all of its points are idle.
 std::vector<SurfacePass> passes_in_stock(const std::vector<SurfacePass>& passes,
-                                         double top,
+                                         const IsIdle& is_idle,
                                          double linked);
+
+// The pass with points where long lines begin and cease to be idle, to half a millimetre.
+SurfacePass divided_where_idle(const SurfacePass& pass, const IsIdle& is_idle);
 
 }  // namespace cusp::finishing

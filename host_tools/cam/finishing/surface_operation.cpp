@@ -7,7 +7,6 @@
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/finishing/contact_tracker.hpp"
-#include "host_tools/cam/finishing/passes_in_stock.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
@@ -34,6 +33,7 @@ using toolpath::ToolShape;
 
 namespace {
 
+constexpr double kSameTip = 1e-6;    // mm: rounding of a tip on the stock's top
 constexpr double kSameTop = 1e-3;      // mm between the tops of stock and part
 constexpr double kOverStock = 1.0;     // mm above the stock at which rapids end
 constexpr double kLeastSize = 1e-6;    // mm
@@ -352,6 +352,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound, 
     OperationStats& stats = planned.stats;
     stats.strategy = operation_.name();
     keep_in_stock(rules.stay_down, stats);
+    leave_out_idle(rules.stay_down);
     stats.passes = static_cast<int>(passes_.size());
     LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
     stats.levels = 1;
@@ -382,7 +383,9 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
     if (model_->box_high().z > limit && model_->highest() > limit) {
         return;
     }
-    std::vector<SurfacePass> low = passes_in_stock(passes_, job_.stock_top, linked);
+    const double over = job_.stock_top - kSameTip;
+    std::vector<SurfacePass> low = passes_in_stock(
+        passes_, [&](Vec3d a, Vec3d b) { return std::min(a.z, b.z) >= over; }, linked);
     if (!low.empty()) {
         passes_ = std::move(low);
     } else {
@@ -390,6 +393,22 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
             "no surface is below the stock's top, z = {:.6g} mm: the finish removes nothing; "
             "if the stock is higher, give its height (top in [stock], --stock-top)",
             job_.stock_top));
+    }
+}
+
+// Where all passes are idle they stay: a finish has some pass.
+void SurfaceOperation::leave_out_idle(double linked)
+{
+    if (!is_idle_) {
+        return;
+    }
+    std::vector<SurfacePass> divided;
+    for (const SurfacePass& pass : passes_) {
+        divided.push_back(divided_where_idle(pass, is_idle_));
+    }
+    std::vector<SurfacePass> rest = passes_in_stock(divided, is_idle_, linked);
+    if (!rest.empty()) {
+        passes_ = std::move(rest);
     }
 }
 

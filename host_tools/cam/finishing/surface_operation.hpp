@@ -11,6 +11,7 @@
 
 #include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/finishing.hpp"
+#include "host_tools/cam/finishing/passes_in_stock.hpp"
 #include "host_tools/job/job/job.hpp"
 
 namespace cusp::finishing {
@@ -83,6 +84,9 @@ public:
     // True if some pass was moved off an edge that the tool would gouge from the side.
     bool moved_off_edges() const { return moved_off_edges_; }
 
+    // Parts of passes that are idle are left out: another tool has cut there.
+    void leave_out(IsIdle is_idle) { is_idle_ = std::move(is_idle); }
+
     // Links all passes. `spacing` (mm) is the approximate distance of neighbours, `lead_in` (mm) the
     // radius of level entries and exits.
     toolpath::PlannedOperation finish(double spacing, double scallop_bound, double lead_in = 0);
@@ -94,6 +98,7 @@ private:
     void check_form() const;
     void check_surfaces();
     void keep_in_stock(double linked, toolpath::OperationStats& stats);
+    void leave_out_idle(double linked);
     Points path_of(const SurfacePass& pass) const;
 
     const job::Job& job_;
@@ -102,6 +107,7 @@ private:
     std::unique_ptr<part_model::PartModel> model_;
     std::unique_ptr<GougeFreePathFitter> path_fitter_;
     std::vector<SurfacePass> passes_;
+    IsIdle is_idle_;  // empty: nowhere
     bool moved_off_edges_{};
     int upright_{};  // number of vertical surfaces
 };

@@ -1,6 +1,7 @@
 // Parts of passes above the stock's top are left out, parts below it stay.
 #include "host_tools/cam/finishing/passes_in_stock.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "CppUTest/TestHarness.h"
@@ -33,7 +34,8 @@ SurfacePass by_moves(const Points& points)
 
 std::vector<SurfacePass> kept(const SurfacePass& pass)
 {
-    return passes_in_stock({pass}, kTop, kLinked);
+    return passes_in_stock(
+        {pass}, [](Vec3d a, Vec3d b) { return std::min(a.z, b.z) >= kTop - 1e-6; }, kLinked);
 }
 
 void check_points(const Points& wanted, const Points& found)
@@ -100,6 +102,23 @@ TEST(PassesInStock, AnArcThatDipsBetweenItsEndsCuts)
     dip.weights = {1, 1, 1};
     pass.moves = {{MoveKind::kCut, toolpath::NurbsTo{dip}}};
     UNSIGNED_LONGS_EQUAL(1, kept(pass).size());
+}
+
+TEST(PassesInStock, LongLinesAreDividedWhereTheMiddleIsIdle)
+{
+    const auto is_idle = [](Vec3d a, Vec3d b) {
+        return std::min(a.x, b.x) >= 10 && std::max(a.x, b.x) <= 30;
+    };
+    for (const auto& make : {through, by_moves}) {
+        const SurfacePass divided = divided_where_idle(make({{0, 0, 5}, {40, 0, 5}}), is_idle);
+        check_points({{0, 0, 5}, {10, 0, 5}, {30, 0, 5}, {40, 0, 5}}, divided.points);
+        const auto found = passes_in_stock({divided}, is_idle, kLinked);
+        UNSIGNED_LONGS_EQUAL(2, found.size());
+        check_points({{0, 0, 5}, {10, 0, 5}}, found[0].points);
+        check_points({{30, 0, 5}, {40, 0, 5}}, found[1].points);
+        const SurfacePass whole = divided_where_idle(make({{0, 0, 5}, {9, 0, 5}}), is_idle);
+        UNSIGNED_LONGS_EQUAL(2, whole.points.size());
+    }
 }
 
 TEST(PassesInStock, OneCurveStaysUnlessAllOfItIsOverTheStock)
