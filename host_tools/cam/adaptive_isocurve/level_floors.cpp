@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/adaptive_isocurve/cleared_level.hpp"
+#include "host_tools/cam/adaptive_isocurve/rough_constants.hpp"
 #include "host_tools/cam/adaptive_isocurve/rough_depths.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
@@ -43,16 +44,11 @@ using waterline_slices::WaterlineSlices;
 
 namespace {
 
-constexpr double kLevel = 1e-6;        // mm: heights that differ by less are one
-constexpr double kUnderTop = 1e-3;     // mm: a floor is lower than the stock's top by more
-constexpr double kRounded = 1e-3;      // mm: more than rounding in the program
-constexpr double kFit = 1.5e-3;        // mm: of slices as lines and arcs
-constexpr double kChord = 1e-3;        // mm: tolerance of arcs written as lines
-constexpr double kEdgeError = 1e-3;    // mm: of a floor's edges
-constexpr double kFirst = 2e-3;        // mm from the edge of a region to the outermost pass
-constexpr double kLess = 0.02;         // mm: of what is said to be swept
-constexpr double kNarrow = 0.02;       // of the radius: half the width of a strip that has no pass
-constexpr double kPitchOfRadius = 15;  // radius over the finest pitch of slices
+constexpr double kLevel = 1e-6;      // mm: heights that differ by less are one
+constexpr double kUnderTop = 1e-3;   // mm: a floor is lower than the stock's top by more
+constexpr double kEdgeError = 1e-3;  // mm: of a floor's edges
+constexpr double kLess = 0.02;       // mm: of what is said to be swept
+constexpr double kNarrow = 0.02;     // of the radius: half the width of a strip that has no pass
 constexpr std::size_t kMostHeights = 12;
 constexpr std::size_t kMostPieces = 20000;  // of one floor
 
@@ -184,6 +180,16 @@ std::optional<PartModel> part_above(const Operation& operation, double z)
     return above.empty() ? std::nullopt : std::optional<PartModel>{above};
 }
 
+// mm off the part beyond the allowance: inside the slices of the levels above, which keep as much at smooth
+// walls. Beside them a floor would be cut from the stock's top on.
+double inside_levels(const SliceSettings& settings)
+{
+    constexpr double kFits = 0.04;  // mm: of up to twenty levels, and their margins
+    const double side = 1.42 * settings.least_pitch;
+    return elementary::hypot(settings.clearance, std::sqrt(0.5) * side) - settings.clearance +
+           0.01 * side + settings.excess + kFits;
+}
+
 // Where the axis may be over the floor with the tip at its height.
 Region2d centres_over(const Piece& floor, const Operation& operation, const Tool& tool)
 {
@@ -197,7 +203,7 @@ Region2d centres_over(const Piece& floor, const Operation& operation, const Tool
                                      tool.radius / kPitchOfRadius,
                                      {box.x0 - out, box.y0 - out, box.x1 + out, box.y1 + out}};
         const WaterlineSlices slices{*above, tool, settings};
-        centres = common(fitted_region(slices.at(floor.z, kFit + kChord), kFit), centres);
+        centres = common(fitted_region(slices.at(floor.z, inside_levels(settings)), kFit), centres);
     }
     const double narrow = kNarrow * tool.radius;
     const Region2d core =
@@ -214,7 +220,7 @@ bool fill(LevelFloor& floor, const Operation& operation, const Tool& tool)
         settings.tool_radius = tool.radius;
         settings.wall_clearance = kFirst;
         settings.max_engagement = *operation.passes.max_engagement * kPi / 180.0;
-        settings.tolerance = std::min(kChord, 0.005 * tool.radius);
+        settings.tolerance = std::min(kRoughChord, 0.005 * tool.radius);
         settings.corner = operation.tolerance.plan;
         settings.direction = operation.passes.direction_of_cut;
         floor.adaptive = clear_adaptively(region, settings);

@@ -3,11 +3,11 @@
 
 #include <vector>
 
+#include "host_tools/cam/adaptive_isocurve/rough_constants.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_rougher.hpp"
 
 namespace cusp::adaptive_isocurve {
 
-inline constexpr double kRoughChord = 1e-3;           // mm: tolerance of arcs written as lines
 inline constexpr double kClearanceResolution = 1e-3;  // mm: how much too low a clearance may be
 
 // mm: the least clearance of the first `count` moves, of those below the model's top and the allowance.

@@ -17,6 +17,7 @@
 #include "host_tools/cam/adaptive_isocurve/cleared_level.hpp"
 #include "host_tools/cam/adaptive_isocurve/rest_regions.hpp"
 #include "host_tools/cam/adaptive_isocurve/rough_clearance.hpp"
+#include "host_tools/cam/adaptive_isocurve/rough_constants.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_adaptive.hpp"
 #include "host_tools/cam/clearing/clearing.hpp"
 #include "host_tools/cam/clearing/layer_toolpath_writer.hpp"
@@ -61,13 +62,10 @@ using waterline_slices::WaterlineSlices;
 
 namespace {
 
-constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
 constexpr std::size_t kLevelsAtOnce = 8;
-constexpr double kFit = 1.5e-3;  // mm: tolerance of the edges of slices as lines and arcs
 // mm: how much more each level keeps off walls than the one above. Without it a level would cut
 // slivers at walls, as wide as the fits of both levels differ.
 constexpr double kTaper = 1e-3;
-constexpr double kChord = kRoughChord;
 // mm: how far a cutter is clear where another was, beyond the tolerance of fits. Without it many
 // short parts beside walls would have to be examined.
 constexpr double kMargin = 6e-3;
@@ -114,10 +112,11 @@ public:
         std::vector<ToolMove>& moves = result_.planned.path.moves;
         LayerToolpathWriter runs{result_.planned.path,
                                  tool_.radius,
-                                 {clearance_z, work_.operation.passes.entry, arcs, kChord}};
+                                 {clearance_z, work_.operation.passes.entry, arcs, kRoughChord}};
         ToolpathWriter writer{moves, {clearance_z, work_.operation.passes.entry, tool_.radius}};
         AdaptivePathWriter passes{
-            writer, {arcs, kChord, work_.operation.passes.entry == EntryKind::kPlunge, scallops()}};
+            writer,
+            {arcs, kRoughChord, work_.operation.passes.entry == EntryKind::kPlunge, scallops()}};
         double above = work_.stock.top;
         const std::vector<double>& heights = work_.depths.heights;
         std::vector<std::optional<Level>> ahead;  // cleared at once, from `first` on
@@ -169,7 +168,7 @@ private:
         const double side = 1.42 * pitch;
         const double levels = static_cast<double>(work_.depths.heights.size());
         return std::sqrt(core * core + 0.5 * side * side) - tool_.corner_radius + 0.01 * side +
-               6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
+               6.0 * kFit + kRoughChord + kTaper * levels + kFirst + kMargin;
     }
 
     struct Level {
@@ -264,7 +263,7 @@ private:
     {
         for (const double share : {1.0, 0.96, 0.9}) {
             for (const double fit : {kFit, 3.0 * kFit, kFit / 3.0}) {
-                const double more = fit + kChord + kTaper * static_cast<double>(k);
+                const double more = fit + kRoughChord + kTaper * static_cast<double>(k);
                 Level level{work_.depths.heights[k],
                             fitted_region(slices.at(work_.depths.heights[k], more), fit),
                             {}};
@@ -272,9 +271,9 @@ private:
                     return std::nullopt;
                 }
                 if (work_.operation.passes.max_engagement) {
-                    level.adaptive = adaptive_level(work_, level.region, tool_,
-                                                    {field_, kFirst, step_.scallop_height, kChord},
-                                                    cleared_before(k));
+                    level.adaptive = adaptive_level(
+                        work_, level.region, tool_,
+                        {field_, kFirst, step_.scallop_height, kRoughChord}, cleared_before(k));
                     return level;
                 }
                 ClearingSettings clearing;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cam/adaptive_isocurve/rough_constants.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_rougher.hpp"
 #include "host_tools/cam/finishing/surface_operation.hpp"
 
@@ -21,9 +22,6 @@ using toolpath::PlannedOperation;
 using toolpath::Tool;
 
 namespace {
-
-constexpr double kRounded = 1e-3;      // mm: more than rounding in the program
-constexpr double kPitchOfRadius = 15;  // radius over the finest pitch of a lattice
 
 RoughStock stock_of(const Job& job, const PartModel& model, double allowance)
 {

@@ -33,7 +33,7 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kSameTip = 1e-6;    // mm: rounding of a tip on the stock's top
+constexpr double kSameTip = 1e-6;      // mm: rounding of a tip on the stock's top
 constexpr double kSameTop = 1e-3;      // mm between the tops of stock and part
 constexpr double kOverStock = 1.0;     // mm above the stock at which rapids end
 constexpr double kLeastSize = 1e-6;    // mm
