@@ -75,10 +75,21 @@ class PartTop(CuspCase):
             self.assertLess(self.on_top(program, TOP), 0.1)
             self.verified()
 
-    def test_a_top_under_stock_is_finished(self):
+    def test_a_top_under_stock_is_finished_by_the_flat_end(self):
         program, _ = self.planned(stl(plate(POCKET)), "--stock-top", "13")
-        self.assertGreater(self.on_top(program, TOP), 0.3)
+        self.assertLess(self.on_top(program, TOP), 0.1)
+        at_top = sum(length for a, b, length in feed_moves(program[:program.rindex("T2")])
+                     if abs(a - TOP) < 1e-3 and abs(b - TOP) < 1e-3)
+        ground = 4 * 4 * sum(height == TOP for row in POCKET for height in row)
+        self.assertGreater(at_top, ground / 6)
         self.verified("--stock-top", "13")
+
+    def test_a_top_under_stock_is_finished_by_a_ball_alone(self):
+        self.write("p.stl", stl(plate(POCKET)))
+        self.cusp(0, "plan", "p.stl", "--tool", "ball:4", *CALL[4:], "--stock-top", "13", "-o", "p.ngc")
+        moves = feed_moves((self.folder / "p.ngc").read_text())
+        finish = [length for a, b, length in moves if max(abs(a - TOP), abs(b - TOP)) < 0.02]
+        self.assertGreater(sum(finish), 4 * 4 * (WIDE * DEEP - 16) / 4)
 
     def test_a_plate_as_high_as_the_stock_is_said_to_need_nothing(self):
         _, said = self.planned(stl(plate(squares(TOP))))
