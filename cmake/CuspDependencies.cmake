@@ -3,8 +3,8 @@
 # Included before project(), where the compiler or the generator's program may be missing too, and after it.
 
 # A package and a header of it.
-set(product_headers libcli11-dev CLI/CLI.hpp libcpp-httplib-dev httplib.h libfmt-dev fmt/format.h libserialport-dev libserialport.h
-  libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
+set(product_headers libcli11-dev CLI/CLI.hpp libcpp-httplib-dev httplib.h libfmt-dev fmt/format.h libpugixml-dev pugixml.hpp
+  libserialport-dev libserialport.h libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
   zlib1g-dev zlib.h)
 if(CUSP_THREADS)
   list(APPEND product_headers libtbb-dev oneapi/tbb/version.h)
@@ -122,6 +122,7 @@ if(CUSP_HOST_TOOLS)
   find_package(CLI11 REQUIRED)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
+  find_package(pugixml REQUIRED)
   if(CUSP_THREADS)
     find_package(TBB REQUIRED)
   endif()

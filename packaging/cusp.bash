@@ -8,7 +8,7 @@ _cusp_commands() { cusp --help 2>/dev/null | sed -n '/^Subcommands:/,/^$/s/^  \(
 _cusp_endings() {
     case $1 in
     plan) echo 'toml|json|step|stp|iges|igs|stl|STEP|STP|IGES|IGS|STL' ;;
-    info) echo 'json|step|stp|iges|igs|stl|dxf|STEP|STP|IGES|IGS|STL|DXF' ;;
+    info) echo 'json|step|stp|iges|igs|stl|dxf|svg|STEP|STP|IGES|IGS|STL|DXF|SVG' ;;
     verify | view) echo 'toml|ngc|nc|gcode|tap' ;;
     sim | fit | stream) echo 'ngc|nc|gcode|tap' ;;
     *) echo '.*' ;;

@@ -13,7 +13,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const cusp::test::TemporaryFolder folder;  // to the end of the process
-    static const std::array<const char*, 5> kNames{"s.json", "c.json", "c.dxf", "s.stl", "j.toml"};
+    static const std::array<const char*, 6> kNames{"s.json", "c.json", "c.dxf",
+                                                   "s.stl",  "j.toml", "c.svg"};
     if (size == 0) {
         return 0;
     }

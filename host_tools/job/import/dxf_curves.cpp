@@ -7,14 +7,13 @@
 #include <string_view>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/drawing_notes.hpp"
 #include "host_tools/job/import/dxf_drawing.hpp"
 #include "host_tools/job/import/dxf_expansion.hpp"
 #include "host_tools/job/import/dxf_plane.hpp"
-#include "host_tools/job/import/nearest_name.hpp"
 #include "host_tools/job/import/nurbs_validity.hpp"
 
 #include "fmt/format.h"
-#include "fmt/ranges.h"
 
 namespace cusp::import {
 
@@ -27,36 +26,6 @@ std::string named(const DxfDrawing& drawing, const std::string& layer)
     return drawing.file() + (layer.empty() ? "" : "#") + layer;
 }
 
-// Texts beside curves, which somebody may expect to be cut.
-void note_texts(const std::string& name,
-                const std::vector<DrawingPath>& texts,
-                std::vector<std::string>& notes)
-{
-    if (!texts.empty()) {
-        const bool one = texts.size() == 1;
-        const Vec3d first = texts.front().curves.front().points.front();
-        notes.push_back(fmt::format(
-            "{}: {} at x {:.6g} y {:.6g} mm {} not cut: convert text to curves in the drawing "
-            "program",
-            name, one ? "a text" : fmt::format("{} texts, the first", texts.size()), first.x,
-            first.y, one ? "is" : "are"));
-    }
-}
-
-void note_left_out(const std::string& name,
-                   const std::map<std::string, std::size_t>& kinds,
-                   std::vector<std::string>& notes)
-{
-    if (!kinds.empty()) {
-        std::vector<std::string> counts;
-        for (const auto& [kind, count] : kinds) {
-            counts.push_back(fmt::format("{} {}", count, kind));
-        }
-        notes.push_back(fmt::format("{}: left out, since they draw no curve: {}", name,
-                                    fmt::join(counts, ", ")));
-    }
-}
-
 void note_interpolated(const std::string& name,
                        std::size_t splines,
                        std::vector<std::string>& notes)
@@ -66,23 +35,6 @@ void note_interpolated(const std::string& name,
             "{}: {} given by fit points alone: cut as the cubic through them; between them other "
             "programs may draw another curve",
             name, splines == 1 ? "a SPLINE is" : fmt::format("{} SPLINEs are", splines)));
-    }
-}
-
-// Notes drawings that lie that far from the origin of the machine.
-void note_far(const std::string& file,
-              const std::vector<DrawingPath>& paths,
-              std::vector<std::string>& notes)
-{
-    constexpr double kFar = 1e5;  // mm: larger than most tables
-    const DrawingBox box = extent_of(paths);
-    const Vec3d nearest{std::max({box.low.x, -box.high.x, 0.0}),
-                        std::max({box.low.y, -box.high.y, 0.0}), 0};
-    if (!paths.empty() && norm(nearest) > kFar) {
-        notes.push_back(
-            fmt::format("{}: drawn at x {:.10g} y {:.10g} mm, far from the origin: "
-                        "[placing] with origin = \"corner\" moves it there",
-                        file, box.low.x, box.low.y));
     }
 }
 
@@ -135,7 +87,10 @@ public:
         if (no_points && !drawn.points.empty()) {
             kinds["POINT"] = drawn.points.size();
         }
-        note_texts(name, drawn.texts, notes);
+        if (!drawn.texts.empty()) {
+            note_texts(name, drawn.texts.size(),
+                       in_plan(drawn.texts.front().curves.front().points.front()), notes);
+        }
         note_left_out(name, kinds, notes);
         note_interpolated(name, drawn.interpolated, notes);
         note_far(drawing_.file(), drawn.paths, notes);
@@ -176,22 +131,17 @@ std::string no_curve(const DxfDrawing& drawing, const std::string& layer)
         text += fmt::format("; it holds {}: convert {} to curves in the drawing program", kinds,
                             kinds.find("TEXT") != std::string::npos ? "text" : "them");
     } else if (!layer.empty()) {
-        constexpr std::size_t kNamed = 3;
-        const std::set<std::string> layers = drawing.layers();
-        text += fmt::format(
-            "; layers of the drawing: \"{}\"{}",
-            fmt::join(nearest_names(layer, {layers.begin(), layers.end()}, kNamed), "\", \""),
-            layers.size() > kNamed ? " and more" : "");
+        text += nearest_layers(layer, drawing.layers());
     }
     return text;
 }
 
 }  // namespace
 
-DxfPaths read_dxf_paths(const std::string& file,
-                        double millimetres,
-                        const std::string& layer,
-                        std::vector<std::string>* notes)
+DrawnPaths read_dxf_paths(const std::string& file,
+                          double millimetres,
+                          const std::string& layer,
+                          std::vector<std::string>* notes)
 {
     const Reader reader{file, millimetres};
     DxfPieces drawn = reader.read(layer);
@@ -204,31 +154,31 @@ DxfPaths read_dxf_paths(const std::string& file,
     return {std::move(drawn.paths), reader.drawing().resolution()};
 }
 
-DxfPlaces read_dxf_places(const std::string& file,
-                          double millimetres,
-                          const std::string& layer,
-                          std::vector<std::string>* notes)
+DrawnPlaces read_dxf_places(const std::string& file,
+                            double millimetres,
+                            const std::string& layer,
+                            std::vector<std::string>* notes)
 {
     const Reader reader{file, millimetres};
     const DxfPieces drawn = reader.read(layer);
     if (notes != nullptr) {
         reader.add_notes(layer, drawn, false, *notes);
     }
-    DxfPlaces places{{}, curves_of(drawn.paths)};
+    DrawnPlaces places{{}, curves_of(drawn.paths)};
     for (const DrawingPath& point : drawn.points) {
         places.points.push_back(in_plan(point.curves.front().points.front()));
     }
     return places;
 }
 
-DxfLayers read_dxf_layers(const std::string& file, double millimetres)
+DrawnLayers read_dxf_layers(const std::string& file, double millimetres)
 {
     const Reader reader{file, millimetres};
     const DxfDrawing& drawing = reader.drawing();
-    DxfLayers out{
+    DrawnLayers out{
         drawing.unit(), drawing.unit_name(), drawing.resolution(), {}, reader.notes_on_file()};
     for (const std::string& name : drawing.layers()) {
-        DxfLayer layer{name, drawing.hidden(name), {}, {}};
+        DrawnLayer layer{name, drawing.hidden(name), {}, {}};
         try {
             DxfPieces drawn = reader.read(name);
             layer.paths = std::move(drawn.paths);

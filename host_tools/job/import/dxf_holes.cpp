@@ -10,7 +10,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/job/import/dxf_curves.hpp"
+#include "host_tools/job/import/drawing.hpp"
 #include "host_tools/job/import/geometry_json.hpp"
 #include "host_tools/job/import/loop_nesting.hpp"
 #include "host_tools/job/import/path_ending.hpp"
@@ -35,9 +35,9 @@ DrawingName parts_of(const std::string& name)
 {
     const std::size_t mark = layer_mark(name);
     DrawingName parts{name.substr(0, mark), mark == std::string::npos ? "" : name.substr(mark + 1)};
-    if (path_ending(parts.file) != ".dxf" && path_ending(parts.file) != ".json") {
-        throw InputError(fmt::format("{}: drawings are read from .dxf, not from \"{}\"", name,
-                                     path_ending(parts.file)));
+    if (!is_drawing_file(parts.file) && path_ending(parts.file) != ".json") {
+        throw InputError(fmt::format("{}: drawings are read from .dxf and .svg, not from \"{}\"",
+                                     name, path_ending(parts.file)));
     }
     return parts;
 }
@@ -186,7 +186,7 @@ std::vector<Hole> read_holes(const std::string& name,
                              std::vector<std::string>& notes)
 {
     const auto [file, layer] = parts_of(name);
-    const DxfPlaces drawn = read_dxf_places(file, millimetres, layer, &notes);
+    const DrawnPlaces drawn = read_drawn_places(file, millimetres, layer, &notes);
     std::vector<Hole> all;
     for (const Vec2d place : drawn.points) {
         all.push_back({place, 0});
@@ -234,7 +234,7 @@ std::vector<DrawingPath> read_paths(const std::string& name,
 {
     const auto [file, layer] = parts_of(name);
     if (path_ending(file) != ".json") {
-        return read_dxf_paths(file, millimetres, layer, notes).paths;
+        return read_drawn_paths(file, millimetres, layer, notes).paths;
     }
     std::vector<DrawingPath> paths;
     for (Curve& curve : read_json_curves(file, millimetres)) {

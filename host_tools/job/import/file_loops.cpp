@@ -6,7 +6,7 @@
 
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/job/import/dxf_curves.hpp"
+#include "host_tools/job/import/drawing.hpp"
 #include "host_tools/job/import/geometry_json.hpp"
 #include "host_tools/job/import/loop_nesting.hpp"
 #include "host_tools/job/import/path_ending.hpp"
@@ -73,7 +73,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
     const std::size_t mark = layer_mark(name);
     const std::string file = name.substr(0, mark);
     const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
-    const DxfPaths drawn = read_dxf_paths(file, millimetres, layer, &notes);
+    const DrawnPaths drawn = read_drawn_paths(file, millimetres, layer, &notes);
     const double join = gaps.given ? std::max(*gaps.given, kEndsMeet)
                                    : std::max(gaps.least, join_limit(drawn.resolution));
     const LoopNesting nesting = nest_loops(drawn.paths, join);
@@ -100,7 +100,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
 // True if the name is that of a drawing, in which "#layer" may follow the file.
 bool names_drawing(const std::string& name)
 {
-    return path_ending(name.substr(0, layer_mark(name))) == ".dxf";
+    return is_drawing_file(name.substr(0, layer_mark(name)));
 }
 
 }  // namespace
@@ -116,8 +116,8 @@ std::vector<FileLoop> read_loops(const std::string& name,
     if (path_ending(name) == ".json") {
         return {{closed_loop(read_json_curves(name, millimetres), name), name}};
     }
-    throw InputError(fmt::format("{}: loops are read from .json and .dxf, not from \"{}\"", name,
-                                 path_ending(name)));
+    throw InputError(fmt::format("{}: loops are read from .json, .dxf and .svg, not from \"{}\"",
+                                 name, path_ending(name)));
 }
 
 std::vector<Operation> pockets_of(const Operation& operation,

@@ -27,7 +27,7 @@ void check_range(const char* option, std::optional<double> value, double low, bo
 void check_parts(const OneLineRequest& request)
 {
     for (const std::string& part : request.parts) {
-        if (path_ending(part.substr(0, layer_mark(part))) == ".dxf") {
+        if (is_drawing_file(part.substr(0, layer_mark(part)))) {
             throw InputError(fmt::format(
                 "{}: a drawing is a boundary, not a part: cusp plan FLOOR.json --boundary {} "
                 "... with the surfaces of the floor",

@@ -6,7 +6,7 @@
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/cad_surfaces.hpp"
-#include "host_tools/job/import/dxf_curves.hpp"
+#include "host_tools/job/import/drawing.hpp"
 #include "host_tools/job/import/geometry_json.hpp"
 #include "host_tools/job/import/loop_nesting.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
@@ -106,14 +106,14 @@ void take_drawing(PartGeometry& part,
                   const std::string& layer,
                   double millimetres)
 {
-    DxfLayers drawing = read_dxf_layers(file, millimetres);
-    part.format = "DXF";
+    DrawnLayers drawing = read_drawn_layers(file, millimetres);
+    part.format = path_ending(file) == ".svg" ? "SVG" : "DXF";
     part.unit = drawing.unit_name.empty()
                     ? unit_of(drawing.millimetres, true)
                     : PartUnit{short_name(drawing.unit_name), drawing.millimetres, false};
     part.notes = drawing.notes;
     std::string names;
-    for (DxfLayer& drawn : drawing.layers) {
+    for (DrawnLayer& drawn : drawing.layers) {
         names += (names.empty() ? "\"" : ", \"") + drawn.name + "\"";
         if (layer.empty() || drawn.name == layer) {
             part.layers.push_back({drawn.name, drawn.hidden, drawn.problem,
@@ -164,7 +164,7 @@ void take_model(PartGeometry& part, const std::string& file)
 PartGeometry read_part_geometry(const std::string& name, double millimetres)
 {
     const std::size_t mark = layer_mark(name);
-    const bool layered = mark != std::string::npos && path_ending(name.substr(0, mark)) == ".dxf";
+    const bool layered = mark != std::string::npos && is_drawing_file(name.substr(0, mark));
     const std::string file = layered ? name.substr(0, mark) : name;
     const std::string ending = path_ending(file);
     PartGeometry part;
@@ -173,13 +173,13 @@ PartGeometry read_part_geometry(const std::string& name, double millimetres)
         take_json(part, file, millimetres);
     } else if (is_mesh_file(file)) {
         take_mesh(part, file, millimetres);
-    } else if (ending == ".dxf") {
+    } else if (is_drawing_file(file)) {
         take_drawing(part, file, layered ? name.substr(mark + 1) : "", millimetres);
     } else if (is_cad_file(file)) {
         take_model(part, file);
     } else {
-        throw InputError(fmt::format("{}: parts are read from .dxf, {}, not from \"{}\"", file,
-                                     kPartEndings, ending));
+        throw InputError(fmt::format("{}: parts are read from .dxf, .svg, {}, not from \"{}\"",
+                                     file, kPartEndings, ending));
     }
     return part;
 }

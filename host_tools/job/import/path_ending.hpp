@@ -9,7 +9,10 @@ namespace cusp::import {
 // With its dot, in lower case: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
-// Place of "#layer" in the name of a drawing: at the first # after ".dxf", since names of layers
+// True if it holds curves by layers: .dxf, .svg.
+bool is_drawing_file(const std::string& file);
+
+// Place of "#layer" in the name of a drawing: at the first # after its ending, since names of layers
 // may hold more of them, and folders too. npos: none.
 std::size_t layer_mark(const std::string& name);
 

@@ -65,7 +65,7 @@ Similarity scaling(double factor)
 std::string file_of(const std::string& name)
 {
     const std::string file = name.substr(0, layer_mark(name));
-    return path_ending(file) == ".dxf" ? file : name;
+    return is_drawing_file(file) ? file : name;
 }
 
 bool has(const std::vector<std::string>& list, const std::string& text)

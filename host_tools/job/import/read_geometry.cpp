@@ -38,11 +38,11 @@ std::string path_ending(const std::string& file)
 std::size_t layer_mark(const std::string& name)
 {
     for (std::size_t at = name.find('#'); at != std::string::npos; at = name.find('#', at + 1)) {
-        if (path_ending(name.substr(0, at)) == ".dxf") {
+        if (is_drawing_file(name.substr(0, at))) {
             return at;
         }
     }
-    return path_ending(name) == ".dxf" ? std::string::npos : name.rfind('#');
+    return is_drawing_file(name) ? std::string::npos : name.rfind('#');
 }
 
 namespace {
@@ -123,6 +123,12 @@ std::vector<Surface> mesh_surfaces(const std::string& file,
 }
 
 }  // namespace
+
+bool is_drawing_file(const std::string& file)
+{
+    const std::string ending = path_ending(file);
+    return ending == ".dxf" || ending == ".svg";
+}
 
 bool is_cad_file(const std::string& file)
 {
