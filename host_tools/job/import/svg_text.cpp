@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "firmware/base/inch.hpp"
 #include "host_tools/base/number_text/number_text.hpp"
 
 namespace cusp::import {

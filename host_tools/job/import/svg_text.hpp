@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware/base/inch.hpp"
+
 namespace cusp::import {
 
 // Reads a text from its start: numbers that blanks, commas or nothing but their signs and points keep apart.
@@ -34,7 +36,7 @@ private:
 };
 
 // Pixels of CSS in a millimetre.
-inline constexpr double kPixelsPerMillimetre = 96 / 25.4;
+inline constexpr double kPixelsPerMillimetre = 96 / kMillimetresPerInch;
 
 struct SvgLength {
     double pixels;  // per cent where `relative`
