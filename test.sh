@@ -42,8 +42,8 @@ run_tests() {
     shift
     results=$PWD/build/$preset/results.xml
     rm -f "$results"
-    # One more than cores: the tests of senders mostly wait.
-    ctest --preset "$preset" -j $((jobs + 1)) --output-junit "$results" "$@" || true
+    # Two more than cores: the tests of senders and of pages mostly wait.
+    ctest --preset "$preset" -j $((jobs + 2)) --output-junit "$results" "$@" || true
     [ -s "$results" ] || { echo "no results of the tests: $preset" >&2; exit 1; }
     count() { sed -n "s/^[[:space:]]*$1=\"\([0-9]*\)\".*/\1/p" "$results" | head -1; }
     tests=$(count tests)
