@@ -1,8 +1,10 @@
 // Tool by tool, in the order of the program.
 #include <algorithm>
 
+#include "host_tools/judge/verify/deep_rapids.hpp"
 #include "host_tools/judge/verify/earlier_programs.hpp"
 #include "host_tools/judge/verify/engagement_trace.hpp"
+#include "host_tools/judge/verify/stock_grid.hpp"
 #include "host_tools/judge/verify/tool_contact.hpp"
 #include "host_tools/judge/verify/uncut_stock.hpp"
 #include "host_tools/judge/verify/verify_stages.hpp"
@@ -31,6 +33,29 @@ void add_contacts(const Job& job,
                      run.tool.number,
                      long_enough(job, run.tool, contact)};
         }
+    }
+}
+
+void note_rapid(double depth, const FaultPlace& at, VerifyFigures& figures)
+{
+    if (depth > figures.rapid_cut_max) {
+        figures.rapid_cut_max = depth;
+        figures.rapid_cut_at = at;
+    }
+}
+
+// Where the stock is so large that its grid is coarser than the tools ask for, rapid moves are looked at in tiles.
+void look_at_rapids_closer(Verifying& work)
+{
+    const HeightGrid fine = stock_grid(work.job, part_box(work.scene.surfaces, work.scene.mesh),
+                                       std::nullopt, kUnbounded);
+    if (work.settings.pitch || fine.pitch >= work.result.grid.pitch) {
+        return;
+    }
+    for (const RapidOfRun& rapid :
+         deep_rapids(work.job, work.runs, work.spacing, fine, RapidCut::kAlong)) {
+        note_rapid(rapid.depth, {rapid.tip, rapid.line, work.runs[rapid.run].tool.number},
+                   work.result.figures);
     }
 }
 
@@ -69,9 +94,10 @@ void cut_program(Verifying& work)
         }
         done += run.tips.size();
         const DeepRapid* rapid = cut.deepest_rapid();
-        if (rapid != nullptr && rapid->depth > figures.rapid_cut_max) {
-            figures.rapid_cut_at = {run.tips[rapid->position], run.lines[rapid->position],
-                                    run.tool.number};
+        if (rapid != nullptr) {
+            note_rapid(rapid->depth,
+                       {run.tips[rapid->position], run.lines[rapid->position], run.tool.number},
+                       figures);
         }
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
@@ -80,6 +106,7 @@ void cut_program(Verifying& work)
             of_tool = std::max(of_tool, cut.cut_depth);
         }
     }
+    look_at_rapids_closer(work);
 }
 
 }  // namespace cusp::verify

@@ -8,6 +8,7 @@
 
 #include "host_tools/judge/verify/earlier_programs.hpp"
 #include "host_tools/judge/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/near_positions.hpp"
 #include "host_tools/judge/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
@@ -24,15 +25,8 @@ constexpr double kBeside = 4.0;        // pitches
 constexpr double kLift = 1.0;          // mm over the stock
 constexpr std::size_t kMostLooks = 2;  // at all positions, together
 constexpr double kConfirmed = 0.8;     // of the way over the limit
-constexpr std::size_t kNone = SIZE_MAX;
 
 using Tile = std::pair<long, long>;
-
-// The positions of a run near a window, and their places in the run.
-struct NearRun {
-    ToolPositions positions;
-    std::vector<std::size_t> places;
-};
 
 struct Window {
     Vec2d low;
@@ -144,32 +138,20 @@ private:
                 std::max(least_ / kPitchesPerRadius, std::sqrt(area / kMostWindowCells))};
     }
 
-    NearRun near_run(const ToolPositions& run, const Window& window) const
+    NearPositions near_run(const ToolPositions& run, const Window& window) const
     {
         const double reach = run.tool.radius + kBeside * grid_.pitch;
-        NearRun out{{run.tool, {}, {}, {}}, {}};
-        const auto add = [&](Vec3d tip, bool rapid, std::size_t place) {
-            out.positions.tips.push_back(tip);
-            out.positions.rapid.push_back(rapid);
-            out.places.push_back(place);
-        };
-        std::size_t before = kNone;
+        std::vector<std::size_t> places;
         for (std::size_t k = 0; k < run.tips.size(); ++k) {
             const Vec3d tip = run.tips[k];
-            if (tip.x < window.low.x - reach || tip.x > window.high.x + reach ||
-                tip.y < window.low.y - reach || tip.y > window.high.y + reach) {
-                continue;
+            if (tip.x >= window.low.x - reach && tip.x <= window.high.x + reach &&
+                tip.y >= window.low.y - reach && tip.y <= window.high.y + reach) {
+                places.push_back(k);
             }
-            const bool follows = before != kNone && before + 1 == k;
-            if (!follows) {
-                const double high = job_.stock_top + kLift;
-                if (before != kNone) {
-                    add({run.tips[before].x, run.tips[before].y, high}, true, kNone);
-                }
-                add({tip.x, tip.y, high}, true, kNone);
-            }
-            add(tip, run.rapid[k] || !follows, k);
-            before = k;
+        }
+        NearPositions out = near_positions(run, places, job_.stock_top + kLift);
+        for (std::size_t i = 1; i < out.places.size(); ++i) {  // not cut on its way there
+            out.positions.rapid[i] = out.positions.rapid[i] || out.places[i - 1] == kNoPlace;
         }
         return out;
     }
@@ -194,7 +176,7 @@ private:
         double left = 0;
         const std::size_t last = last_over(tile);
         for (std::size_t run = 0; run <= last; ++run) {
-            const NearRun near = near_run(runs_[run], window);
+            const NearPositions near = near_run(runs_[run], window);
             looked_at += near.places.size();
             EngagementTrace trace{fine, near.positions};
             stock.cut(
@@ -202,7 +184,7 @@ private:
             const EngagementRun closer = trace.finish();
             for (std::size_t i = 0; i < near.places.size(); ++i) {
                 const std::size_t k = near.places[i];
-                if (k == kNone || found_[run].kinds[k] != StepKind::kCut ||
+                if (k == kNoPlace || found_[run].kinds[k] != StepKind::kCut ||
                     tile_of(runs_[run].tips[k]) != tile) {
                     continue;
                 }

@@ -101,8 +101,8 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
             }
         }
         const Vec3d tip = positions.tips[k];
-        const bool is_passed =
-            !looked_at_.empty() && k + 1 < measured;  // on the way to a rapid's end
+        const bool ends_alone = rapids_ == RapidCut::kAtEnd;
+        const bool is_passed = ends_alone && k + 1 < measured;  // on the way to a rapid's end
         if (tip.z >= top_ || is_passed || !is_looked_at(tool, tip)) {
             continue;
         }
@@ -112,7 +112,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (contact != nullptr) {
             contact->look(heights_, k, band, begin, end);
         }
-        const bool from_here = looked_at_.empty() || !positions.rapid[k];
+        const bool from_here = !ends_alone || !positions.rapid[k];
         const bool goes_on = is_cylinder && from_here && k > 0 && positions.tips[k - 1].z <= tip.z;
         const double depth =
             cut_at(tool, tip, shrink, goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
@@ -211,8 +211,9 @@ double MachinedStock::level_around(double x, double y, std::size_t begin, std::s
     return least <= most && most - least <= kLevel ? least : -kUnbounded;
 }
 
-bool MachinedStock::look_at_rapids_alone(const std::vector<ToolPositions>& runs)
+bool MachinedStock::look_at_rapids_alone(const std::vector<ToolPositions>& runs, RapidCut rapids)
 {
+    rapids_ = rapids;
     bool any = false;
     // Each box of points adds 1 at one corner and takes it away behind the others; sums fill it.
     std::vector<std::int32_t> corners((grid_.nx + 1) * (grid_.ny + 1), 0);

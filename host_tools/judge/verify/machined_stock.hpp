@@ -34,6 +34,9 @@ struct CutFigures {
     const DeepRapid* deepest_rapid() const;
 };
 
+// What a rapid move cuts before those after it: all along, or as if the tool had come to its end from above.
+enum class RapidCut { kAlong, kAtEnd };
+
 // Called with the share done, from time to time.
 using Progress = std::function<void(double)>;
 
@@ -56,9 +59,8 @@ public:
                    ContactTrace* contact = nullptr);
 
     // From now on only what rapid moves of these runs meet is kept true: positions far from all of their
-    // moves below the stock's top are not cut. A rapid move cuts at its end alone, as if the tool had come there from
-    // above. False where there is no such move.
-    bool look_at_rapids_alone(const std::vector<ToolPositions>& runs);
+    // moves below the stock's top are not cut. False where there is no such move.
+    bool look_at_rapids_alone(const std::vector<ToolPositions>& runs, RapidCut rapids);
 
     // From now on there is no stock over the point of the grid: its height is
     // -kUnbounded.
@@ -151,6 +153,7 @@ private:
     // Number of points left of and below a point, both included, that are looked at; empty: all
     // are.
     std::vector<std::uint32_t> looked_at_;
+    RapidCut rapids_{RapidCut::kAlong};
 };
 
 }  // namespace cusp::verify

@@ -1,10 +1,9 @@
 // All paths are cut; what each cut says of its rapid moves is kept.
 #include "host_tools/judge/verify/path_rapids.hpp"
 
-#include "host_tools/judge/verify/earlier_programs.hpp"
+#include "host_tools/judge/verify/deep_rapids.hpp"
 #include "host_tools/judge/verify/path_positions.hpp"
 #include "host_tools/judge/verify/stock_grid.hpp"
-#include "host_tools/judge/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
 
@@ -21,18 +20,11 @@ std::vector<RapidInStock> rapids_in_stock(const Job& job, const std::vector<cons
         runs.push_back(positions_on(*path, spacing));
     }
     const PartBox floors = floors_box(job);
-    const double pitch = kCoarser * stock_grid(job, floors, std::nullopt).pitch;
-    MachinedStock stock = UncutStock{job}.on(stock_grid(job, floors, pitch));
+    const double pitch = kCoarser * stock_grid(job, floors, std::nullopt, kUnbounded).pitch;
     std::vector<RapidInStock> rapids;
-    if (!stock.look_at_rapids_alone(runs)) {
-        return rapids;
-    }
-    cut_earlier_programs(job, spacing, stock);
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        for (const DeepRapid& deep : stock.cut(runs[k], spacing, [](double) {}).deep_rapids) {
-            rapids.push_back({k, runs[k].lines[deep.end], deep.depth, runs[k].tips[deep.position],
-                              deep.end_depth});
-        }
+    for (const RapidOfRun& rapid : deep_rapids(
+             job, runs, spacing, stock_grid(job, floors, pitch, kUnbounded), RapidCut::kAtEnd)) {
+        rapids.push_back({rapid.run, rapid.line, rapid.depth, rapid.tip, rapid.end_depth});
     }
     return rapids;
 }

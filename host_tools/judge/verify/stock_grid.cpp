@@ -16,11 +16,10 @@ namespace {
 
 constexpr double kDefaultPitch = 0.173;  // no simple ratio to common stepovers
 constexpr double kDefaultSpacing = 0.1;
-constexpr double kMostCells = 4e6;
 
 }  // namespace
 
-HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch)
+HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch, double most)
 {
     PartBox box = parts;
     if (const auto plan = prismatic_box(job)) {
@@ -52,7 +51,7 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
     constexpr double kPitchesPerRadius = 16;
     const double wanted =
         pitch.value_or(std::min(kDefaultPitch, least_radius(job.tools) / kPitchesPerRadius));
-    const double used = std::max(wanted, std::sqrt(width * height / kMostCells));
+    const double used = std::max(wanted, std::sqrt(width * height / most));
     const auto count = [&](double length) {
         return std::max<std::size_t>(1, static_cast<std::size_t>(length / used));
     };

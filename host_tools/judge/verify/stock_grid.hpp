@@ -14,8 +14,12 @@ namespace cusp::verify {
 //
 // parts  the box of all floors
 // pitch  mm; without it 0.173, at most a sixteenth of the least radius of a tool. It is more where
-//        the grid would have over 4e6 points.
-HeightGrid stock_grid(const job::Job& job, PartBox parts, std::optional<double> pitch);
+//        the grid would have over `most` points
+// most   kUnbounded: the pitch holds however large the stock is
+HeightGrid stock_grid(const job::Job& job,
+                      PartBox parts,
+                      std::optional<double> pitch,
+                      double most = 4e6);
 
 // mm between positions of a tool: 0.1, and at most a twentieth of the least radius.
 double position_spacing(const job::Job& job);

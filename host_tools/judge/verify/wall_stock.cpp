@@ -23,11 +23,12 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kSpare = 0.02;    // mm: of the room that a tool needs
-constexpr double kStep = 0.1;      // mm along the wall
-constexpr double kSquare = 2.0;    // mm: side of a square of moves
-constexpr double kThickest = 1.0;  // mm: stock that is thicker is a pass that is missing
-constexpr double kNothing = 1e-9;  // mm
+constexpr double kSpare = 0.02;     // mm: of the room that a tool needs
+constexpr double kStep = 0.1;       // mm along the wall
+constexpr double kSquare = 2.0;     // mm: side of a square of moves
+constexpr double kThickest = 1.0;   // mm: stock that is thicker is a pass that is missing
+constexpr double kNothing = 1e-9;   // mm
+constexpr double kTipBeside = 0.2;  // mm from an edge: there the tip of a chamfer's tool passes
 
 bool follows_curves(const Operation& operation)
 {
@@ -279,13 +280,12 @@ private:
     {
         constexpr double kChords = 1e-3;  // mm
         const Tool& tool = operation_.tool;
-        const Vec2d place = in_plan(at);
-        const double needed =
-            (operation_.cuts(job::Region::kValleys) ? tool.tip_radius : tool.radius) + kSpare;
-        const Vec2d spare = place + needed * out;
+        const double needed = room_needed();
+        const Vec2d spare = in_plan(at) + needed * out;
         if (!on_curves_ && region_.room(spare.x, spare.y) < needed - kChords) {
             return;
         }
+        const Vec2d place = in_plan(at) - into_material() * out;
         const double known = faults_.stock ? faults_.stock->thickness : q_.allowed;
         const auto found = moves.nearest(place, !on_curves_, known);
         if (found.thickness <= known || found.cut == nullptr || !q_.stock.is_over(place, stands) ||
@@ -293,7 +293,23 @@ private:
              q_.is_open(place + tool.radius * out, 2 * tool.radius))) {
             return;
         }
-        faults_.stock = {found.thickness, {at, found.cut->line, found.cut->tool.number}};
+        faults_.stock = {found.thickness,
+                         {{place.x, place.y, at.z}, found.cut->line, found.cut->tool.number}};
+    }
+
+    // mm square to the wall, for the tool's axis where it cuts the wall's places.
+    double room_needed() const
+    {
+        const Tool& tool = operation_.tool;
+        return kSpare + (operation_.cuts(job::Region::kValleys) ? tool.tip_radius
+                         : operation_.cuts(job::Region::kEdges) ? tool.tip_radius + kTipBeside
+                                                                : tool.radius);
+    }
+
+    // mm from the loop to the places that are judged: of a chamfer the upper edge, which no other operation cuts.
+    double into_material() const
+    {
+        return operation_.cuts(job::Region::kEdges) ? operation_.prismatic->width : 0.0;
     }
 
     // z, from the top: where the walls begin below other regions.
@@ -358,8 +374,11 @@ WallFaults faults_at_walls(const CutRegion& region, const WallQuestion& question
         return {};
     }
     WallJudge judge{region, question};
-    judge.find_stock(judged_height(operation, question.floor_tolerance), false);
     const Prismatic& cut = *operation.prismatic;
+    judge.find_stock(operation.cuts(job::Region::kEdges)
+                         ? cut.top
+                         : judged_height(operation, question.floor_tolerance),
+                     false);
     if (cut.tabs) {
         const double over = cut.top - cut.depth + cut.tabs->height + question.floor_tolerance +
                             end_height(operation.tool);

@@ -93,13 +93,18 @@ class RandomJob:
         profile += r.choice(("", 'entry = "plunge"\n', 'output = "arcs"\n', 'direction_of_cut = "conventional"\n'))
         tool = 'strategy = "{}"\nboundary = "part.dxf#{}"\ntool = {}\ndepth = {}\n'
         operations = [profile, tool.format("pocket", "p", 1, number(2.5)), tool.format("drill", "h", 2, number(6))]
+        self.chamfer = 0.0
+        if r.random() < 0.6 and self.side == "outside":
+            self.chamfer = round(r.uniform(0.3, 0.8), 2)
+            operations.append(f'strategy = "chamfer"\nboundary = "part.dxf#o"\ntool = 3\nwidth = {number(self.chamfer)}\n')
         r.shuffle(operations)
         setups = '[[setup]]\nname = "front"\n[[setup]]\nname = "back"\nflip = "x"\n' if self.two_setups else ""
         if self.two_setups:
             operations.append('setup = "back"\n' + tool.format("drill", "h", 2, number(3)))
         (folder / "job.toml").write_text(
             f'units = "{"inch" if self.inch else "mm"}"\n[[tool]]\nshape = "flat"\ndiameter = {number(self.diameter)}\n'
-            f'[[tool]]\nshape = "drill"\ndiameter = {number(2.5)}\n[cutting]\nfeed = {number(800)}\n'
+            f'[[tool]]\nshape = "drill"\ndiameter = {number(2.5)}\n'
+            f'[[tool]]\nshape = "vee"\ndiameter = {number(6)}\ntip_angle = 90\n[cutting]\nfeed = {number(800)}\n'
             f"[stock]\ntop = 0\nbottom = {number(-8)}\nx = [{number(-32)}, {number(32)}]\ny = [{number(-32)}, {number(32)}]\n"
             f"{setups}" + "".join(f"[[operation]]\n{text}" for text in operations))
 
@@ -215,6 +220,55 @@ class Plant:
         self.name = "level_left_mm"
         return 2.5
 
+    def section(self, tool):
+        """Of the lines, those by a tool."""
+        begin = next((k for k, line in enumerate(self.lines) if re.match(rf"T{tool}\b", line)), len(self.lines))
+        end = next((k for k in range(begin + 1, len(self.lines)) if re.match(r"T\d", self.lines[k])), len(self.lines))
+        return range(begin, end)
+
+    def holes(self):
+        lines = self.section(2)
+        return [k for k in lines if self.lines[k].startswith("G1 Z-") and self.lines[k + 1].startswith("G0 Z")]
+
+    def missing_hole(self):
+        k = self.random.choice(self.holes())
+        self.lines[k] = re.sub(r" Z\S+", "", self.lines[k])
+        self.name = "level_left_mm"
+        return 6
+
+    def shallow_hole(self):
+        size = round(self.random.uniform(0.1, 1), 2)
+        k = self.random.choice(self.holes())
+        self.lines[k] = self.shifted(self.lines[k], "Z", size)
+        self.name = "level_left_mm"
+        return size
+
+    def moved_hole(self):
+        size = round(self.random.uniform(0.1, 0.6), 2)
+        k = self.random.choice(self.holes())
+        k = next(n for n in range(k, 0, -1) if re.match(r"G0 .*[XY]", self.lines[n]))
+        letter = "X" if "X" in self.lines[k] else "Y"
+        self.lines[k] = self.shifted(self.lines[k], letter, size)
+        self.name = "wall_gouge_max_mm"
+        return size
+
+    def low_chamfer(self, size=0.0):
+        size = size or -round(self.random.uniform(0.05, 0.2), 2)
+        lines = [k for k in self.section(3) if self.lines[k].startswith("G1 Z-")]
+        for k in lines:
+            self.lines[k] = self.shifted(self.lines[k], "Z", size)
+        self.name = "wall_gouge_max_mm" if size < 0 else "wall_stock_max_mm"
+        return abs(size) if lines else 0
+
+    def high_chamfer(self):
+        return self.low_chamfer(round(self.random.uniform(0.05, 0.25), 2))
+
+    def missing_chamfer(self):
+        for k in self.section(3):
+            self.lines[k] = "" if self.lines[k].startswith("G1") else self.lines[k]
+        self.name = "wall_stock_max_mm"
+        return self.job.chamfer
+
     def tool(self, size=0.5):
         """In the spindle is a tool whose radius is `size` more than that of the plan."""
         path = self.job.folder / "job.toml"
@@ -236,8 +290,9 @@ def planted(job, folder):
     if done.returncode:
         return f"plan: {done.stderr[-300:]}"
     lines = (folder / "p.ngc").read_text().splitlines()
-    for kind in (Plant.rapid, Plant.deeper, Plant.offset, Plant.height, Plant.missing, Plant.tool,
-                 Plant.thin_tool, Plant.moved):
+    for kind in (Plant.rapid, Plant.deeper, Plant.offset, Plant.height, Plant.missing, Plant.tool, Plant.thin_tool, Plant.moved,
+                 Plant.missing_hole, Plant.shallow_hole, Plant.moved_hole, Plant.low_chamfer, Plant.high_chamfer,
+                 Plant.missing_chamfer):
         plant = Plant(job, lines)
         size = kind(plant)
         if size == 0:

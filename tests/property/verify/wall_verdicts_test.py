@@ -224,7 +224,7 @@ def moved(job, lines, moves, place, inward, size):
     return out, (*new, v[2]), k + 1
 
 
-def true_size(job, lines, new, foot, low, inward):
+def true_size(job, lines, new, low, inward):
     """mm: by brute force; on curves the distance of the path from them. Then, for stock at a wall, the lines of the moves
     that come nearest, as another pass may: verify names one of them."""
     on = job.kind in ("engrave", "on")
@@ -232,23 +232,34 @@ def true_size(job, lines, new, foot, low, inward):
         beside = [tuple(u + (w - u) * k / 50 for u, w in zip(a, b)) for _, a, b in Moves(lines, job.unit).feeds
                   if math.dist(a, new) < 1e-3 or math.dist(b, new) < 1e-3 for k in range(51)]
         return max(nearest(p, job.walls)[0] if on else job.radius_at(-p[2]) - nearest(p, job.walls)[0] for p in beside), None
-    radius = job.radius_at(min(job.corner + 0.02, -low) if job.corner else 0.0)
-    segments = [(a[:2], b[:2], k + 1) for k, a, b in Moves(lines, job.unit).feeds
-                if max(a[2], b[2]) < low + 0.015 and away(foot, (a[:2], b[:2]))[0] < 10]
+    height = low + min(job.corner + 0.02, -low)
+    feeds = Moves(lines, job.unit).feeds
+    beside = [(a[:2], b[:2]) for _, a, b in feeds if math.dist(a, new) < 1e-3 or math.dist(b, new) < 1e-3]
+    box = [[side(p[axis] for s in beside for p in s) for axis in (0, 1)] for side in (min, max)]
+    reach = job.diameter + 1
+    segments = [(a, b, k + 1) for k, a, b in pieces(feeds) if max(a[2], b[2]) <= height + 1e-6 and all(
+        min(a[axis], b[axis]) < box[1][axis] + reach and max(a[axis], b[axis]) > box[0][axis] - reach for axis in (0, 1))]
     worst, lines_nearest = 0.0, set()
     for (ax, ay), (bx, by) in job.walls:
         steps = max(1, int(math.hypot(bx - ax, by - ay) / 0.05))
         for k in range(steps + 1):
             p = (ax + (bx - ax) * k / steps, ay + (by - ay) * k / steps)
-            if math.dist(p, foot) > 3 or max(map(abs, p)) > 26 or not segments:
+            if max(map(abs, p)) > 26 or nearest(p, beside)[0] > job.diameter / 2 + 0.3 or not fits(job, p, (ax, ay), (bx, by)):
                 continue
-            if not fits(job, p, (ax, ay), (bx, by)):
-                continue
-            found = sorted((away(p, (a, b))[0] - radius, number) for a, b, number in segments)
+            found = sorted((away(p, (a[:2], b[:2]))[0] - job.radius_at(height - (a[2] + b[2]) / 2), number)
+                           for a, b, number in segments)
             worst = max(worst, found[0][0])
             lines_nearest |= {number for thickness, number in found if found[0][0] > TOLERANCE and
                               thickness < found[0][0] + 0.002}
     return worst, lines_nearest
+
+
+def pieces(feeds):
+    """Level ones as they are, others in pieces that hardly rise."""
+    for k, a, b in feeds:
+        count = max(1, math.ceil(abs(b[2] - a[2]) / 0.01))
+        for n in range(count):
+            yield (k, *(tuple(u + (v - u) * (n + more) / count for u, v in zip(a, b)) for more in (0, 1)))
 
 
 def fits(job, p, a, b):
@@ -277,7 +288,7 @@ def planted(job, folder, lines):
                 continue
             place = job.random.choice(places)
             text, new, line = moved(job, lines, moves, place, inward, size)
-            true, blamed = true_size(job, text, new, place[1], low, inward)
+            true, blamed = true_size(job, text, new, low, inward)
             name = f"{'in' if inward else 'out'}-{size}.ngc"
             (folder / name).write_text("\n".join(text) + "\n")
             status, figures, said = verify(folder, name)
