@@ -166,6 +166,7 @@ class Cli(unittest.TestCase):
                              "--engagement-picture", "e.svg").stdout
         figures = json.loads((self.folder / "v.json").read_text())
         self.assertEqual(90, figures["max_engagement_deg"])
+        self.assertAlmostEqual(180, figures["engagement_limited_max_deg"], delta=0.01)
         self.assertAlmostEqual(180, figures["engagement_max_deg"], delta=0.01)
         self.assertEqual(5, figures["engagement_max_line"])
         x, y, z = figures["engagement_max_at_mm"]

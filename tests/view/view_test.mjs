@@ -334,7 +334,7 @@ max_engagement = 90.0
   }
   assert.equal(await page.locator(".charts .chart").count(), 5);
   assert.match(await page.locator(".charts").innerText(), /Engagement\s+degrees/);
-  assert.match(await page.locator(".facts").innerText(), /Engagement\s+180 °\s+90 °\s+broken/);
+  assert.match(await page.locator(".facts").innerText(), /Engagement\s+180 °\s+90 °\s+[\d.]+ mm over/);
   assert.match(await page.locator(".readout").innerText(), /Engagement\s*0°/);
   assert.deepEqual(faults, []);
   await close();

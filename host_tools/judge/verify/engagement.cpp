@@ -64,6 +64,7 @@ void add_engagement(const ToolPositions& positions,
     if (limit) {
         figures.limit = std::min(figures.limit.value_or(*limit), *limit);
         figures.over_length = figures.over_length.value_or(0);
+        figures.limited_max = figures.limited_max.value_or(0);
     }
     for (std::size_t k = 1; k < run.kinds.size(); ++k) {
         const double way = norm(positions.tips[k] - positions.tips[k - 1]);
@@ -72,6 +73,9 @@ void add_engagement(const ToolPositions& positions,
             figures.air_length += way;
         } else if (run.kinds[k] == StepKind::kCut && limit && angle > run.counts_over) {
             *figures.over_length += way;
+        }
+        if (limit) {
+            figures.limited_max = std::max(*figures.limited_max, angle);
         }
         if (angle > figures.angle_max) {
             figures.angle_max = angle;

@@ -17,6 +17,7 @@ struct EngagementFigures {
     Vec3d place{};                      // the tip there
     std::uint32_t line{};               // of the program; 0: nothing is cut
     std::optional<double> limit;        // degrees; the least, where tools have several
+    std::optional<double> limited_max;  // degrees: the greatest of tools that have a limit
     std::optional<double> over_length;  // mm of way over the limit; no value without a limit
     double air_length{};                // mm of feed moves that remove nothing
     double removed_volume{};            // mm^3

@@ -40,6 +40,7 @@ void add_engagement_to(Json& out, const EngagementFigures& f)
     }
     if (f.limit) {
         out["max_engagement_deg"] = *f.limit;
+        out["engagement_limited_max_deg"] = rounded(*f.limited_max);
         out["over_engagement_mm"] = rounded(*f.over_length);
     }
     out["air_mm"] = rounded(f.air_length);

@@ -172,6 +172,7 @@ Json verification_of(const RunFacts& facts)
              {"broken", facts.verification->broken}};
     if (f.engagement) {
         out["engagement"] = {{"max_deg", f.engagement->angle_max},
+                             {"limited_max_deg", optional(f.engagement->limited_max)},
                              {"line", f.engagement->line},
                              {"limit_deg", optional(f.engagement->limit)},
                              {"over_mm", optional(f.engagement->over_length)},

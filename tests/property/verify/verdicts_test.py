@@ -90,7 +90,9 @@ class RandomJob:
             profile += f"max_depth = {number(self.depth / 2)}\n"
         if r.random() < 0.5:
             profile += f"lead_in = {number(r.choice((0, 1.5, 4)))}\n"
-        profile += r.choice(("", 'entry = "plunge"\n', 'output = "arcs"\n', 'direction_of_cut = "conventional"\n'))
+        profile += r.choice(("", 'entry = "plunge"\n', 'entry = "ramp"\n', 'output = "arcs"\n', 'direction_of_cut = "conventional"\n'))
+        back = 'setup = "back"\n' if self.two_setups else ""
+        profile = (back if r.random() < 0.6 else "") + profile
         tool = 'strategy = "{}"\nboundary = "part.dxf#{}"\ntool = {}\ndepth = {}\n'
         operations = [profile, tool.format("pocket", "p", 1, number(2.5)), tool.format("drill", "h", 2, number(6))]
         self.chamfer = 0.0
@@ -98,9 +100,11 @@ class RandomJob:
             self.chamfer = round(r.uniform(0.3, 0.8), 2)
             operations.append(f'strategy = "chamfer"\nboundary = "part.dxf#o"\ntool = 3\nwidth = {number(self.chamfer)}\n')
         r.shuffle(operations)
-        setups = '[[setup]]\nname = "front"\n[[setup]]\nname = "back"\nflip = "x"\n' if self.two_setups else ""
+        setups = f'[[setup]]\nname = "front"\n[[setup]]\nname = "back"\nflip = "{r.choice("xy")}"\n' if self.two_setups else ""
         if self.two_setups:
-            operations.append('setup = "back"\n' + tool.format("drill", "h", 2, number(3)))
+            operations.append(back + tool.format("drill", "h", 2, number(3)))
+            if r.random() < 0.5:
+                operations.append(back + tool.format("pocket", "p", 1, number(2)))
         (folder / "job.toml").write_text(
             f'units = "{"inch" if self.inch else "mm"}"\n[[tool]]\nshape = "flat"\ndiameter = {number(self.diameter)}\n'
             f'[[tool]]\nshape = "drill"\ndiameter = {number(2.5)}\n'

@@ -144,6 +144,14 @@ TEST(Interpreter, GoesHomeThroughAPoint)
     at(5, 6, 7);
     run("G30 X0");
     at(0, 6, 7);
+    run("G30.1");
+    run("G90 G0 X9 Y9 Z9");
+    run("G30");
+    at(0, 6, 7);
+    run("G28 Z9");
+    at(0, 6, 7);
+    run("G28");
+    at(5, 6, 7);
 }
 
 TEST(Interpreter, YieldsActionsInGrblsOrder)

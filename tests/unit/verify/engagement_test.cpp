@@ -132,6 +132,32 @@ TEST(Engagement, OfSlantedCutsIsThatOfStraightOnes)
     }
 }
 
+// Such as roughing by one tool and a finish by another.
+TEST(Engagement, IsHeldAgainstTheLimitForToolsThatHaveOne)
+{
+    const auto add = [](int number, std::optional<double> limit, float angle,
+                        EngagementFigures& to) {
+        cusp::verify::ToolPositions run;
+        run.tool.number = number;
+        run.tool.radius = 3;
+        run.tips = {{0, 0, 0}, {1, 0, 0}};
+        run.rapid = {true, false};
+        run.lines = {1, 2};
+        EngagementRun found{{StepKind::kRapid, StepKind::kCut}, {0, angle}};
+        cusp::verify::set_limit(run.tool, limit, 0.01, found);
+        cusp::verify::add_engagement(run, limit, found, to);
+    };
+    EngagementFigures sum;
+    add(1, 60, 58, sum);
+    add(2, std::nullopt, 95, sum);
+    DOUBLES_EQUAL(95, sum.angle_max, 1e-4);
+    DOUBLES_EQUAL(58, *sum.limited_max, 1e-4);
+    DOUBLES_EQUAL(0, *sum.over_length, 0);
+    add(1, 60, 70, sum);
+    DOUBLES_EQUAL(70, *sum.limited_max, 1e-4);
+    DOUBLES_EQUAL(1, *sum.over_length, 1e-9);
+}
+
 TEST(Engagement, OfASlotIsHalfATurn)
 {
     const EngagementFigures& found = figures("G0 X-5 Y20\nG1 Z-2\nG1 X65\n");

@@ -60,7 +60,12 @@ function boundRows(facts: PageFacts): Content[][] {
     add("Scallop (99 %)", v.scallop_p99_mm, v.scallop_bound_mm);
     add("Over scallop", v.uncovered_share, v.uncovered_bound, "%");
   }
-  if (v.engagement?.limit_deg) add("Engagement", v.engagement.max_deg, v.engagement.limit_deg, "°", v.engagement.over_mm ? 0 : 180);
+  // No bound of the job: where it is over, the page says on how much of the way.
+  const { limit_deg: limit = null, limited_max_deg: most = null, over_mm: over = null } = v.engagement ?? {};
+  if (limit !== null && most !== null) {
+    rows.push(["Engagement", `${figure(most, 3)} °`, `${figure(limit, 3)} °`,
+      over ? `${figure(over, 2)} mm over` : element("span", { class: "holds" }, "holds")]);
+  }
   return rows;
 }
 

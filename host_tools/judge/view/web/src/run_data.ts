@@ -28,7 +28,7 @@ export interface Verification {
   rapid_cut_max_mm: number; rapid_cut_bound_mm: number; scallop_max_mm: number; scallop_p99_mm: number;
   uncovered_share: number; uncovered_bound: number; uncut_share: number; unreachable_share: number;
   cut_depth_max_mm: number; left_volume_mm3: number; broken: string[];
-  engagement?: { max_deg: number; line: number; limit_deg: number | null; over_mm: number | null; air_mm: number };
+  engagement?: { max_deg: number; limited_max_deg: number | null; line: number; limit_deg: number | null; over_mm: number | null; air_mm: number };
 }
 
 // host_tools/judge/view/run_facts.cpp writes it.
