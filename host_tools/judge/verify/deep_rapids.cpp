@@ -22,7 +22,7 @@ constexpr double kLiftOver = 1.0;          // mm over the stock
 
 using PlacesOfRuns = std::vector<std::vector<std::size_t>>;
 
-struct Tile {
+struct RapidTile {
     HeightGrid grid;
     PlacesOfRuns earlier;  // of the positions that reach it
     PlacesOfRuns own;
@@ -54,9 +54,9 @@ public:
     }
 
     // Notes which positions reach which tile.
-    void share(const std::vector<ToolPositions>& runs, PlacesOfRuns Tile::*places)
+    void share(const std::vector<ToolPositions>& runs, PlacesOfRuns RapidTile::*places)
     {
-        for (Tile& tile : tiles_) {
+        for (RapidTile& tile : tiles_) {
             (tile.*places).resize(runs.size());
         }
         for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -70,7 +70,7 @@ public:
         }
     }
 
-    const std::vector<Tile>& all() const { return tiles_; }
+    const std::vector<RapidTile>& all() const { return tiles_; }
 
 private:
     static std::size_t count(std::size_t points) { return (points - 1) / kTilePoints + 1; }
@@ -117,7 +117,7 @@ private:
     std::size_t nx_;
     std::size_t ny_;
     std::vector<std::size_t> numbers_;  // of each tile in tiles_, from 1; 0: it has none
-    std::vector<Tile> tiles_;
+    std::vector<RapidTile> tiles_;
 };
 
 std::vector<ToolPositions> near_runs(const std::vector<ToolPositions>& runs,
@@ -145,13 +145,13 @@ std::vector<RapidOfRun> deep_rapids(const Job& job,
         return {};
     }
     const std::vector<ToolPositions> earlier = earlier_positions(job, spacing);
-    tiles.share(earlier, &Tile::earlier);
-    tiles.share(runs, &Tile::own);
+    tiles.share(earlier, &RapidTile::earlier);
+    tiles.share(runs, &RapidTile::own);
     const UncutStock uncut{job};
     const double high = job.stock_top + kLiftOver;
     std::vector<std::vector<RapidOfRun>> found(tiles.all().size());
     parallel::for_each(found.size(), [&](std::size_t t) {
-        const Tile& tile = tiles.all()[t];
+        const RapidTile& tile = tiles.all()[t];
         const std::vector<ToolPositions> own = near_runs(runs, tile.own, high);
         MachinedStock stock = uncut.on(tile.grid);
         if (!stock.look_at_rapids_alone(own, rapids)) {
