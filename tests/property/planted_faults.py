@@ -52,6 +52,11 @@ FAULTS = {
     "verify forgives a hundred tolerances beside walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "if (beyond <= limits_.plan_tolerance) {",
         "if (beyond <= 100 * limits_.plan_tolerance) {", "wall_verdicts"),
+    "the pitch at which rapids are looked at grows with the stock": (
+        "host_tools/judge/verify/path_rapids.cpp", "stock_grid(job, floors, pitch, kUnbounded)", "stock_grid(job, floors, pitch)",
+        "rapid_walls"),
+    "verify looks at chamfers on the wall": (
+        "host_tools/judge/verify/wall_stock.cpp", "? operation_.prismatic->width : 0.0;", "? 0.0 : 0.0;", "verdicts"),
     "verify sees gouges in sound walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "- here.inside;\n    }\n\n    void look_around",
         "- here.inside + 0.1;\n    }\n\n    void look_around", "wall_verdicts"),
