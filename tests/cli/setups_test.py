@@ -263,7 +263,7 @@ class Setups(CuspCase):
         self.refused('setup 2: flip: is "z", known are "x", "y"', setups=SETUPS.format(flip="z"))
         self.refused("setup 2: flop: unknown key; the nearest known one is flip", setups=two.replace("flip", "flop"))
         self.refused('setup 3: no operation is in "side"', setups=two + '[[setup]]\nname = "side"\n')
-        self.refused("may_open: is a key of pocket, drill, face, engrave, v_carve, not of profile", operations=OPERATIONS +
+        self.refused("may_open: is no key of profile", operations=OPERATIONS +
                      '[[operation]]\nstrategy = "profile"\nboundary = "plate.dxf#outline"\ndepth = 1\nmay_open = true\n')
         for key in ("top = 1\n", "bottom = -9\n", "y = [-10, 30]\n"):
             self.refused("a set-up with a flip needs the stock's box", head=HEAD.replace(key, ""))

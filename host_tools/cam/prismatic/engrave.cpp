@@ -7,10 +7,8 @@
 #include "host_tools/cam/prismatic/contour_run.hpp"
 #include "host_tools/cam/prismatic/cut_levels.hpp"
 #include "host_tools/cam/prismatic/engrave_floor.hpp"
+#include "host_tools/cam/prismatic/line_paths.hpp"
 #include "host_tools/cam/prismatic/prismatic.hpp"
-#include "host_tools/cam/prismatic/profile_contours.hpp"
-#include "host_tools/geometry/nurbs/nurbs.hpp"
-#include "host_tools/geometry/offset/contour_fit.hpp"
 #include "host_tools/geometry/toolpath/short_tour.hpp"
 
 #include "fmt/format.h"
@@ -22,7 +20,6 @@ using job::Job;
 using job::Operation;
 using job::OutputForm;
 using offset::Edge;
-using offset::fit_edges;
 using toolpath::MoveKind;
 using toolpath::PlannedOperation;
 using toolpath::short_tour;
@@ -31,26 +28,6 @@ using toolpath::TourStep;
 using toolpath::TourStop;
 
 namespace {
-
-std::vector<Edge> edges_along(const Chain& chain)
-{
-    std::vector<Edge> edges;
-    for (const nurbs::Curve& curve : chain) {
-        for (const Edge& edge : fit_edges(curve, kFit)) {
-            edges.push_back(edge);
-        }
-    }
-    return edges;
-}
-
-std::vector<Edge> turned_around(std::vector<Edge> edges)
-{
-    std::reverse(edges.begin(), edges.end());
-    for (Edge& edge : edges) {
-        edge = reversed(edge);
-    }
-    return edges;
-}
 
 std::vector<std::vector<Edge>> in_order(std::vector<std::vector<Edge>> chains)
 {
@@ -94,7 +71,7 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
                         true};
     for (std::vector<Edge>& edges : in_order(std::move(chains))) {
         writer.approach(edges.front().start, rapid_end(job, operation.prismatic->top));
-        const bool closed = norm(edges.back().end - edges.front().start) <= kFit;
+        const bool closed = is_closed(edges);
         for (const double z : levels) {
             // the next level begins where this one ends: an open curve goes back and forth
             const Vec2d start = edges.front().start;

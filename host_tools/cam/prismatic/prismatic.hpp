@@ -21,6 +21,8 @@ namespace cusp::prismatic {
 // The records of the strategies below.
 extern const job::Strategy kProfile;
 extern const job::Strategy kDrill;
+extern const job::Strategy kBore;
+extern const job::Strategy kSlot;
 extern const job::Strategy kFace;
 extern const job::Strategy kEngrave;
 extern const job::Strategy kVCarve;

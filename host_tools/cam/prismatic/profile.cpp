@@ -7,6 +7,7 @@
 #include "host_tools/cam/prismatic/common_edges.hpp"
 #include "host_tools/cam/prismatic/contour_run.hpp"
 #include "host_tools/cam/prismatic/cut_levels.hpp"
+#include "host_tools/cam/prismatic/line_paths.hpp"
 #include "host_tools/cam/prismatic/prismatic.hpp"
 #include "host_tools/cam/prismatic/profile_contours.hpp"
 #include "host_tools/cam/prismatic/profile_leads.hpp"
@@ -168,17 +169,45 @@ private:
         const EdgeTree roughed{rough};
         const auto places = places_by_contour(centres);
         std::vector<LeadContour> led;
-        std::vector<Vec2d> starts;
         for (std::size_t n = 0; n < centres.contours.size(); ++n) {
-            led.push_back(led_contour(centres.contours[n], away, places[n]));
-            starts.push_back(start_of(led.back()));
+            led.push_back(led_contour(centres.contours[n], away, places[n], {}));
         }
-        const Vec2d here = writer_.started() ? in_plan(writer_.at()) : Vec2d{0, 0};
-        for (const std::size_t n :
-             inner_first_tour(starts, contours_around(centres.contours), here)) {
+        for (const std::size_t n : short_order(centres, away, places, led)) {
             cut_contour(led[n], away, places[n],
                         is_roughed(centres.contours[n], roughed) ? bottom : levels_);
         }
+    }
+
+    // The order of the contours. Those of several begin anew where the ways between them are short.
+    std::vector<std::size_t> short_order(const Region2d& centres,
+                                         double away,
+                                         const std::vector<std::vector<Vec2d>>& places,
+                                         std::vector<LeadContour>& led) const
+    {
+        constexpr int kRounds = 2;
+        const auto around = contours_around(centres.contours);
+        const Vec2d begin = writer_.started() ? in_plan(writer_.at()) : Vec2d{0, 0};
+        const auto tour = [&] {
+            std::vector<Vec2d> starts;
+            for (const LeadContour& one : led) {
+                starts.push_back(start_of(one));
+            }
+            return inner_first_tour(starts, around, begin);
+        };
+        std::vector<std::size_t> order = tour();
+        for (int round = 0; round < kRounds && led.size() > 1; ++round) {
+            Vec2d here = begin;
+            for (std::size_t k = 0; k < order.size(); ++k) {
+                const std::size_t n = order[k];
+                const Vec2d next = k + 1 < order.size() ? start_of(led[order[k + 1]]) : here;
+                led[n] = led_contour(centres.contours[n], away, places[n], [&](Vec2d p) {
+                    return distance(here, p) + distance(p, next);
+                });
+                here = start_of(led[n]);
+            }
+            order = tour();
+        }
+        return order;
     }
 
     static Vec2d start_of(const LeadContour& led)
@@ -260,7 +289,8 @@ private:
 
     LeadContour led_contour(const Contour& contour,
                             double away,
-                            const std::vector<Vec2d>& places) const
+                            const std::vector<Vec2d>& places,
+                            const std::function<double(Vec2d)>& way) const
     {
         const bool left = operation_.passes.direction_of_cut == CutDirection::kClimb;
         const ContourRun whole{left ? contour : reversed(contour)};
@@ -274,7 +304,7 @@ private:
         }
         const double free = cut_.tabs ? half_of_tab(*cut_.tabs, radius) : 0.0;
         return with_leads(whole, walls_, kept, free,
-                          {lead, cut_.lead_out.value_or(lead), away, left});
+                          {lead, cut_.lead_out.value_or(lead), away, left}, way);
     }
 
     void cut_contour(const LeadContour& led,
@@ -370,8 +400,64 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Open lines: on them, or with the tool's edge along them.
+PlannedOperation profile_of_lines(const Job& job, const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    if (cut.tabs || operation.passes.allowance > 0) {
+        throw InputError(fmt::format("{}{}: tabs and allowance are of closed loops, this has lines",
+                                     operation_text(job, operation), cut.file));
+    }
+    const bool on = cut.side == ProfileSide::kOn;
+    const bool left = cut.side == ProfileSide::kInside;
+    const bool climb = operation.passes.direction_of_cut == CutDirection::kClimb;
+    std::vector<LineCut> cuts;
+    std::vector<std::string> warnings;
+    for (const job::Chain& chain : cut.chains) {
+        const std::vector<Edge> line = edges_along(chain);
+        if (on || line.empty()) {
+            cuts.push_back({{line}});
+            continue;
+        }
+        const auto paths = beside_line(line, operation.tool.radius, left);
+        for (const std::vector<Edge>& path : paths) {
+            cuts.push_back({{climb ? path : turned_around(path)}, true});
+        }
+        if (paths.empty()) {
+            const Vec2d p = line.front().start;
+            warnings.push_back(fmt::format(
+                "{}: tool {} of {:g} mm fits nowhere beside the line at x {:.6g} y {:.6g} mm: not "
+                "cut",
+                cut.file, operation.tool.number, 2 * operation.tool.radius, p.x, p.y));
+        }
+    }
+    cuts.erase(std::remove_if(cuts.begin(), cuts.end(),
+                              [](const LineCut& one) { return one.paths.front().empty(); }),
+               cuts.end());
+    if (cuts.empty()) {
+        throw InputError(operation_text(job, operation) + cut.file +
+                         ": there is nothing to cut along");
+    }
+    const char* side = on ? "on" : left ? "left of" : "right of";
+    const std::size_t many = cuts.size();
+    PlannedOperation planned =
+        cut_lines(job, operation, fmt::format("{} {}", side, counted(cut.chains.size(), "line")),
+                  std::move(cuts));
+    planned.stats.gouge_bound_mm = on ? 0.0 : kFit;
+    planned.stats.warnings.insert(planned.stats.warnings.end(), warnings.begin(), warnings.end());
+    planned.stats.counts.emplace_back("contours", static_cast<double>(many));
+    return planned;
+}
+
+}  // namespace
+
 std::vector<PlannedOperation> plan_profile(const Job& job, const Operation& operation)
 {
+    if (!operation.prismatic->chains.empty()) {
+        return {profile_of_lines(job, operation)};
+    }
     return {ProfilePlanner{job, operation}.plan()};
 }
 

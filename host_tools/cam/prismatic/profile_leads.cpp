@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace cusp::prismatic {
 
@@ -62,27 +61,52 @@ std::optional<Leads> leads_at(const Edge& edge,
     return leads;
 }
 
+// A place that a contour may begin at.
+struct Place {
+    std::size_t edge;
+    double share;  // of the edge
+    double rank;   // mm: of the edge's length; straight sides count four times
+    double way;    // mm: of rapid moves
+};
+
+// The first that are worth a look, the best first.
+std::vector<Place> places_on(const std::vector<Edge>& edges,
+                             const std::function<double(Vec2d)>& way)
+{
+    constexpr std::size_t kMostPlaces = 192;
+    constexpr double kLong = 0.5;  // of the longest side
+    std::vector<Place> places;
+    double longest = 0;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const double rank = offset::length(edges[k]) * (edges[k].turn == 0 ? 4.0 : 1.0);
+        longest = std::max(longest, rank);
+        for (const double share : {0.5, 0.25, 0.75}) {
+            places.push_back({k, share, rank, way ? way(point_on(edges[k], share)) : 0.0});
+        }
+    }
+    std::stable_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+        const bool a_long = a.rank >= kLong * longest;
+        if (!way || a_long != (b.rank >= kLong * longest)) {
+            return a.rank > b.rank;
+        }
+        return a.way < b.way;
+    });
+    places.resize(std::min(places.size(), kMostPlaces));
+    return places;
+}
+
 }  // namespace
 
 LeadContour with_leads(const ContourRun& contour,
                        const EdgeTree& walls,
                        const std::vector<double>& kept,
                        double free,
-                       const LeadSettings& settings)
+                       const LeadSettings& settings,
+                       const std::function<double(Vec2d)>& way)
 {
     constexpr double kLeastScale = 1.0 / 16;
-    constexpr std::size_t kMostPlaces = 64;
     const std::vector<Edge>& edges = contour.edges();
-    std::vector<std::size_t> order(edges.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        // straight sides first, then the longest
-        const auto rank = [&](std::size_t k) {
-            return offset::length(edges[k]) * (edges[k].turn == 0 ? 4.0 : 1.0);
-        };
-        return rank(a) > rank(b);
-    });
-    order.resize(std::min(order.size(), kMostPlaces));
+    const std::vector<Place> places = places_on(edges, way);
     const auto is_free = [&](double at) {
         return std::all_of(kept.begin(), kept.end(), [&](double k) {
             const double apart = std::abs(k - at);
@@ -90,15 +114,14 @@ LeadContour with_leads(const ContourRun& contour,
         });
     };
     for (double scale = 1; scale >= kLeastScale; scale /= 2) {
-        for (const std::size_t k : order) {
-            for (const double share : {0.5, 0.25, 0.75}) {
-                const double at = contour.begin_of(k) + share * offset::length(edges[k]);
-                if (!is_free(at)) {
-                    continue;
-                }
-                if (const auto leads = leads_at(edges[k], share, walls, settings, scale)) {
-                    return {contour.turned(at), *leads};
-                }
+        for (const Place& place : places) {
+            const Edge& edge = edges[place.edge];
+            const double at = contour.begin_of(place.edge) + place.share * offset::length(edge);
+            if (!is_free(at)) {
+                continue;
+            }
+            if (const auto leads = leads_at(edge, place.share, walls, settings, scale)) {
+                return {contour.turned(at), *leads};
             }
         }
     }

@@ -11,6 +11,8 @@ set(CUSP_STRATEGIES
   contour_pocket::kPocket
   prismatic::kProfile
   prismatic::kDrill
+  prismatic::kBore
+  prismatic::kSlot
   prismatic::kFace
   prismatic::kEngrave
   prismatic::kVCarve

@@ -384,6 +384,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
         job_.operations.push_back(std::move(operation));
     } else {
         for (Operation& pocket : read_pockets(table, std::move(operation))) {
+            read_reliefs(table, parts_, pocket);
             check_operation(strategy, pocket, refuse_in(table));
             job_.operations.push_back(std::move(pocket));
         }

@@ -5,9 +5,12 @@
 #include <array>
 #include <utility>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/corner_relief.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
@@ -80,29 +83,42 @@ std::vector<NestedLoop> nested(const std::vector<FileLoop>& loops)
     return out;
 }
 
-// Takes out the holes that the tool doesn't fit into.
+// A tool that moves sideways in a hole bores it; another one drills it.
+bool is_bored(const Operation& operation)
+{
+    return find_key(keys_of(*operation.strategy), "direction_of_cut") != nullptr;
+}
+
+bool is_beside_lines(JobTable& table)
+{
+    const std::string side = table.choice_or_default("side");
+    return side == "left" || side == "right";
+}
+
+// Takes out the holes that the tool doesn't fit into, with room to move in a bore.
 void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
 {
     const Tool& tool = operation.tool;
     Prismatic& cut = *operation.prismatic;
     const auto fits = [&](const Hole& hole) {
-        return !(hole.diameter > 0 && hole.diameter < 2 * tool.radius - kSameDiameter);
+        const double least = 2 * tool.radius + (is_bored(operation) ? 1 : -1) * kSameDiameter;
+        return !(hole.diameter > 0 && hole.diameter < least);
     };
     const auto narrower = std::stable_partition(cut.holes.begin(), cut.holes.end(), fits);
     cut.narrower_holes.assign(narrower, cut.holes.end());
     cut.holes.erase(narrower, cut.holes.end());
     if (cut.holes.empty()) {
         const Hole& hole = cut.narrower_holes.front();
-        table.refuse(
-            "boundary",
-            fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
-                        "tool {} of {:g} mm, as are all; diameter chooses holes",
-                        hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius));
+        table.refuse("boundary",
+                     fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
+                                 "tool {} of {:g} mm{}, as are all; diameter chooses holes",
+                                 hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius,
+                                 is_bored(operation) ? " with room to move" : ""));
     }
     const auto larger = std::count_if(cut.holes.begin(), cut.holes.end(), [&](const Hole& hole) {
         return hole.diameter > 2 * tool.radius + kSameDiameter;
     });
-    if (larger > 0) {
+    if (larger > 0 && !is_bored(operation)) {
         parts.note(fmt::format(
             "operation {}: drill: {} of {} {} wider than tool {} of {:g} mm: {} its diameter",
             operation.number, larger, counted(cut.holes.size(), "hole"), larger == 1 ? "is" : "are",
@@ -121,9 +137,10 @@ void settle_holes(const Job& job, Operation& operation)
         const double depth = cut.top - job::tip_in_hole(cut, hole, operation.tool);
         if (!(depth > 0)) {
             throw InputError(fmt::format(
-                "{}: operation {}: drill: the hole at x {:.6g} y {:.6g} mm ends {:.4g} mm above "
+                "{}: operation {}: {}: the hole at x {:.6g} y {:.6g} mm ends {:.4g} mm above "
                 "the top of z {:.6g} mm; raise top",
-                job.file, operation.number, hole.at.x, hole.at.y, -depth, cut.top));
+                job.file, operation.number, operation.name(), hole.at.x, hole.at.y, -depth,
+                cut.top));
         }
         cut.depth = std::max(cut.depth, depth);
     }
@@ -160,9 +177,10 @@ void read_prismatic_keys(JobTable& table,
     const auto depth = table.length("depth", unit);
     cut.given_top = table.length("top", unit);
     const std::string side = table.choice_or_default("side");
-    cut.side = side == "outside"  ? ProfileSide::kOutside
-               : side == "inside" ? ProfileSide::kInside
-                                  : ProfileSide::kOn;
+    // as a loop that runs counter-clockwise has its inside on the left
+    cut.side = side == "outside" || side == "right" ? ProfileSide::kOutside
+               : side == "inside" || side == "left" ? ProfileSide::kInside
+                                                    : ProfileSide::kOn;
     if (const toml::table* tabs = table.inline_table("tabs")) {
         JobTable keys = table.inner(*tabs, "tabs", job::tabs_table().keys);
         cut.tabs = read_tabs(keys, unit);
@@ -194,25 +212,64 @@ void read_prismatic_keys(JobTable& table,
     }
 }
 
-void read_drawing(const JobTable& table, double unit, PartFiles& parts, Operation& operation)
+void read_reliefs(JobTable& table, PartFiles& parts, Operation& operation)
+{
+    const std::string kind = table.choice_or_default("relief");
+    const bool has_walls = operation.outline.boundary || operation.cuts(job::Region::kOutline);
+    if (kind == "none" || !has_walls) {
+        return;
+    }
+    if (operation.cuts(job::Region::kOutline) &&
+        (operation.prismatic->side == ProfileSide::kOn || !operation.prismatic->chains.empty())) {
+        table.refuse("relief", "belongs to a profile outside or inside closed loops");
+    }
+    const std::size_t left_out = add_reliefs(
+        {kind == "dogbone" ? ReliefKind::kDogbone : ReliefKind::kTBone, operation.tool.radius},
+        operation);
+    if (left_out > 0) {
+        parts.note(fmt::format("operation {}: {}: {} too short for a relief", operation.number,
+                               operation.name(),
+                               left_out == 1 ? "1 corner has a side"
+                                             : fmt::format("{} corners have sides", left_out)));
+    }
+}
+
+void read_drawing(JobTable& table, double unit, PartFiles& parts, Operation& operation)
 {
     Prismatic& cut = *operation.prismatic;
     const std::string& file = cut.file;
     if (operation.cuts(job::Region::kHoles)) {
         const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, job::kLargest});
         cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
-                                cut.diameters.has_value());
+                                cut.diameters.has_value() || is_bored(operation));
         check_holes(table, operation, parts);
-        if (!cut.given_depth && !cut.holes.front().span) {
-            table.refuse("depth",
-                         "is missing: drill needs how deep it cuts where the holes are "
-                         "those of a drawing");
+        if (is_bored(operation)) {
+            cut.side = ProfileSide::kInside;
+            for (const Hole& hole : cut.holes) {
+                cut.loops.push_back(
+                    {{arc_curve(hole.at, hole.diameter / 2, 0, 2 * kPi)}, file, false});
+            }
         }
-    } else if (operation.cuts(job::Region::kGrooves)) {
+        if (!cut.given_depth && !cut.holes.front().span) {
+            table.refuse("depth", fmt::format("is missing: {} needs how deep it cuts where the "
+                                              "holes are those of a drawing",
+                                              operation.name()));
+        }
+    } else if (operation.cuts(job::Region::kGrooves) || is_beside_lines(table)) {
         cut.chains = parts.chains(file, unit);
     } else if (!file.empty()) {
-        cut.loops = nested(
-            parts.loops(file, unit, {operation.tolerance.plan, operation.tolerance.join_gaps}));
+        try {
+            cut.loops = nested(
+                parts.loops(file, unit, {operation.tolerance.plan, operation.tolerance.join_gaps}));
+        } catch (const InputError&) {
+            if (!operation.cuts(job::Region::kOutline) || cut.side != ProfileSide::kOn) {
+                throw;
+            }
+            cut.chains = parts.chains(file, unit);  // on lines that may be open
+        }
+    }
+    if (operation.cuts(job::Region::kOutline)) {
+        read_reliefs(table, parts, operation);
     }
 }
 

@@ -24,10 +24,12 @@ void read_prismatic_keys(JobTable& table,
 //
 // Errors: InputError: no such layer, open loops, no hole of the wanted diameter, a hole narrower
 // than the tool.
-void read_drawing(const JobTable& table,
-                  double millimetres,
-                  PartFiles& parts,
-                  job::Operation& operation);
+void read_drawing(JobTable& table, double millimetres, PartFiles& parts, job::Operation& operation);
+
+// Gives the loops of a pocket or a profile reliefs at their inner corners, where the job asks for them.
+//
+// Errors: InputError on a profile on the line.
+void read_reliefs(JobTable& table, PartFiles& parts, job::Operation& operation);
 
 // When the stock's sides are known: refuses a profile beside the part in a job whose stock, for an operation
 // on a floor without a boundary, would be the part's box.

@@ -1,4 +1,4 @@
-// Depth to which the tip of a tool goes into a hole.
+// Width and depth of a hole that is drilled or bored.
 #pragma once
 
 #include "host_tools/geometry/toolpath/tool.hpp"
@@ -19,6 +19,12 @@ inline double tip_in_hole(const Prismatic& cut, const Hole& hole, const toolpath
     const double beyond =
         hole.span->through ? kBreakThrough + profile_height(tool, tool.radius) : 0.0;
     return hole.span->bottom - beyond;
+}
+
+// mm: a hole with a loop of its own is bored as wide as that, else it is as wide as the drill.
+inline double radius_of_hole(const Prismatic& cut, const Hole& hole, const toolpath::Tool& tool)
+{
+    return cut.loops.empty() ? tool.radius : hole.diameter / 2;
 }
 
 }  // namespace cusp::job

@@ -36,6 +36,9 @@ const std::vector<Key>& part_keys()
         choice("entry", {"auto", "helix", "ramp", "plunge"},
                "into pockets; auto takes the first of helix, ramp and plunge that has room"),
         choice("traversal", {"zigzag", "one_way"}, "of neighbouring passes"),
+        choice("relief", {"none", "dogbone", "t_bone"},
+               "of inner corners between straight sides, so that square corners fit: "
+               "`\"dogbone\"` into the corner, `\"t_bone\"` along its longer side"),
         {"allowance", Kind::kLength, "0", "what roughing leaves on the floor and the walls",
          kNotNegative},
         {"max_depth", Kind::kLength, "none",

@@ -8,6 +8,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/plan_vector.hpp"
+#include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
 #include "fmt/format.h"
@@ -65,7 +66,9 @@ std::vector<Outline> outlines_of(const Job& job)
             }
         } else if (operation.cuts(Region::kHoles)) {
             for (const Hole& hole : operation.prismatic->holes) {
-                out.push_back(outline_of(operation, circle(hole.at, operation.tool.radius)));
+                out.push_back(outline_of(
+                    operation,
+                    circle(hole.at, radius_of_hole(*operation.prismatic, hole, operation.tool))));
             }
         }
     }

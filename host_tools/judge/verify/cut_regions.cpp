@@ -24,6 +24,7 @@ using job::NestedLoop;
 using job::Operation;
 using job::Prismatic;
 using job::ProfileSide;
+using job::radius_of_hole;
 using toolpath::end_height;
 using toolpath::Tool;
 
@@ -41,6 +42,13 @@ double widest(const Operation& operation)
     const double lead =
         std::sqrt(2.0) * std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
     return 2 * radius + operation.passes.allowance + lead + cut.width;
+}
+
+// mm: half the width of a groove along curves.
+double half_width(const Operation& operation)
+{
+    return std::max(operation.tool.radius,
+                    operation.cuts(job::Region::kGrooves) ? operation.prismatic->width / 2 : 0.0);
 }
 
 // A closed loop on an open chain: no line from its end to its start.
@@ -160,12 +168,16 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
         for (const auto& island : operation.outline.islands) {
             walls_.emplace_back(island, false, cap_);
         }
-    } else if (operation.prismatic) {
+    } else if (operation.prismatic && !operation.cuts(job::Region::kHoles)) {
         for (const NestedLoop& loop : operation.prismatic->loops) {
             walls_.emplace_back(loop.loop, true, cap_);
         }
         for (const Chain& chain : operation.prismatic->chains) {
             walls_.emplace_back(there_and_back(chain), true, cap_);
+            if (operation.cuts(job::Region::kOutline) &&
+                operation.prismatic->side != ProfileSide::kOn) {
+                lines_.emplace_back(open_polyline(chain, kWallChord));
+            }
         }
     }
     if (operation.cuts(job::Region::kGrooves) && !operation.part.floor.empty()) {
@@ -218,10 +230,35 @@ double CutRegion::room(double x, double y) const
         }
         return least;
     }
+    if (operation_->cuts(job::Region::kHoles)) {
+        return hole_at(x, y).inside;
+    }
+    if (!lines_.empty()) {
+        return beside_lines(x, y).value_or(-cap_);
+    }
     const double inward = into_material(x, y);
     const bool within = operation_->cuts(job::Region::kValleys) ||
                         operation_->prismatic->side == ProfileSide::kInside;
     return within ? inward : -inward;
+}
+
+std::optional<double> CutRegion::beside_lines(double x, double y) const
+{
+    std::size_t best = 0;
+    double nearest = kUnbounded;
+    for (std::size_t n = 0; n < walls_.size(); ++n) {
+        const double away = std::abs(walls_[n].at(x, y));
+        best = away < nearest ? n : best;
+        nearest = std::min(nearest, away);
+    }
+    if (nearest >= cap_) {
+        return cap_;
+    }
+    const std::optional<double> left = lines_[best].left(x, y);
+    if (!left) {
+        return std::nullopt;
+    }
+    return operation_->prismatic->side == ProfileSide::kInside ? *left : -*left;
 }
 
 RegionAt CutRegion::profile_at(double x, double y) const
@@ -231,22 +268,26 @@ RegionAt CutRegion::profile_at(double x, double y) const
     if (cut.side == ProfileSide::kOn) {
         return engraved_at(x, y);
     }
-    const double away = room(x, y);
+    // round the ends of lines the tool may be on either side
+    const double away =
+        lines_.empty() ? room(x, y) : beside_lines(x, y).value_or(from_curves(x, y));
     return {std::min(away, widest(*operation_) - away), bottom};
 }
 
+// The nearest hole's wall: drilled as wide as the tool, bored as wide as drawn.
 RegionAt CutRegion::hole_at(double x, double y) const
 {
     const Prismatic& cut = *operation_->prismatic;
-    double nearest = kUnbounded;
+    const Tool& tool = operation_->tool;
+    double beyond = kUnbounded;
     double tip = cut.top - cut.depth;
     for (const Hole& hole : cut.holes) {
-        const double away = norm(Vec2d{x, y} - hole.at);
-        tip = away < nearest ? tip_in_hole(cut, hole, operation_->tool) : tip;
-        nearest = std::min(nearest, away);
+        const double d = norm(Vec2d{x, y} - hole.at) - radius_of_hole(cut, hole, tool);
+        tip = d < beyond ? tip_in_hole(cut, hole, tool) : tip;
+        beyond = std::min(beyond, d);
     }
-    const double radius = operation_->tool.radius;
-    return {radius - nearest, tip + profile_height(operation_->tool, std::min(nearest, radius))};
+    return {-beyond,
+            tip + profile_height(tool, std::clamp(beyond + tool.radius, 0.0, tool.radius))};
 }
 
 // Flanks of the vee rise to the outlines. The tip's flat leaves no more beside the axis than its
@@ -270,13 +311,15 @@ RegionAt CutRegion::engraved_at(double x, double y) const
     const Tool& tool = operation_->tool;
     const double away = from_curves(x, y);
     const double tolerance = operation_->tolerance.plan;
+    const double half = half_width(*operation_);
+    const double level = half - tool.radius;  // of its bottom, on either side
     const auto height = [&](double distance) {
-        return profile_height(tool, std::clamp(distance, 0.0, tool.radius));
+        return profile_height(tool, std::clamp(distance - level, 0.0, tool.radius));
     };
     const double exact = height(away);
-    return {tool.radius - away, operation_->prismatic->top - operation_->prismatic->depth + exact,
-            0.0, exact - height(std::min(away, tool.radius) - tolerance),
-            away + tolerance < tool.radius ? height(away + tolerance) - exact : kUnbounded};
+    return {half - away, operation_->prismatic->top - operation_->prismatic->depth + exact, 0.0,
+            exact - height(std::min(away, half) - tolerance),
+            away + tolerance < half ? height(away + tolerance) - exact : kUnbounded};
 }
 
 RegionAt CutRegion::at(double x, double y, std::size_t k) const
@@ -359,7 +402,7 @@ std::optional<PlanBox> prismatic_box(const Job& job)
         const double around = operation.cuts(job::Region::kOutline) &&
                                       operation.prismatic->side != ProfileSide::kInside
                                   ? widest(operation)
-                                  : operation.tool.radius;
+                                  : half_width(operation);
         const auto add = [&](const Chain& chain) {
             for (const Vec2d p : loop_polyline(chain, kBoxChord)) {
                 widen(p, around);

@@ -15,6 +15,7 @@
 
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/judge/verify/height_grid.hpp"
+#include "host_tools/judge/verify/line_side.hpp"
 #include "host_tools/judge/verify/wall_distance.hpp"
 
 namespace cusp::verify {
@@ -52,6 +53,8 @@ private:
     // mm from the loops, positive in the material that they bound.
     double into_material(double x, double y) const;
     double from_curves(double x, double y) const;
+    // mm from the line that is nearest, on the side that is cut; nothing beyond its ends. Far away: from it.
+    std::optional<double> beside_lines(double x, double y) const;
     RegionAt profile_at(double x, double y) const;
     RegionAt hole_at(double x, double y) const;
     RegionAt carved_at(double x, double y) const;
@@ -61,6 +64,7 @@ private:
     HeightGrid grid_;
     double cap_;
     std::vector<WallDistance> walls_;
+    std::vector<LineSide> lines_;  // of a profile beside lines: their walls, in the same order
     std::vector<double> heights_;  // of surfaces; NaN where there is none
 };
 

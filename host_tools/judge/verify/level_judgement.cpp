@@ -129,9 +129,11 @@ private:
     std::vector<char> required(const CutRegion& region) const
     {
         const Operation& operation = region.operation();
-        const bool walled = operation.cuts(job::Region::kLevelPocket) ||
-                            (operation.cuts(job::Region::kOutline) &&
-                             operation.prismatic->side != ProfileSide::kOn);
+        const bool walled =
+            operation.cuts(job::Region::kLevelPocket) ||
+            (operation.cuts(job::Region::kHoles) && !operation.prismatic->loops.empty()) ||
+            (operation.cuts(job::Region::kOutline) &&
+             operation.prismatic->side != ProfileSide::kOn);
         std::vector<char> out(q_.grid.size(), 0);
         const double pitch = q_.grid.pitch;
         const double radius = operation.tool.radius;

@@ -16,10 +16,11 @@ using toolpath::Tool;
 
 namespace {
 
-// The tool's axis follows curves or stands in holes.
+// The tool's axis follows curves or stands in drilled holes.
 bool is_on_curves(const Operation& operation)
 {
-    return operation.cuts(job::Region::kGrooves) || operation.cuts(job::Region::kHoles) ||
+    return operation.cuts(job::Region::kGrooves) ||
+           (operation.cuts(job::Region::kHoles) && operation.prismatic->loops.empty()) ||
            (operation.cuts(job::Region::kOutline) &&
             operation.prismatic->side == job::ProfileSide::kOn);
 }

@@ -7,6 +7,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 #include "host_tools/judge/verify/wall_distance.hpp"
 
@@ -40,7 +41,19 @@ bool follows_curves(const Operation& operation)
 bool has_walls(const Operation& operation)
 {
     return operation.cuts(job::Region::kLevelPocket) || operation.cuts(job::Region::kOutline) ||
-           operation.cuts(job::Region::kValleys) || operation.cuts(job::Region::kEdges);
+           operation.cuts(job::Region::kValleys) || operation.cuts(job::Region::kEdges) ||
+           (operation.cuts(job::Region::kHoles) && !operation.prismatic->loops.empty());
+}
+
+// z: the bottom, of several holes that of the shallowest.
+double bottom_of(const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    double bottom = cut.top - cut.depth;
+    for (const job::Hole& hole : cut.holes) {
+        bottom = std::max(bottom, tip_in_hole(cut, hole, operation.tool));
+    }
+    return bottom;
 }
 
 // z at which the operation's walls are judged.
@@ -53,7 +66,7 @@ double judged_height(const Operation& operation, double floor_tolerance)
     if (operation.cuts(job::Region::kEdges)) {
         return cut.top - cut.width / elementary::tan(operation.tool.tip_angle / 2);
     }
-    return std::min(cut.top, cut.top - cut.depth + floor_tolerance + end_height(operation.tool));
+    return std::min(cut.top, bottom_of(operation) + floor_tolerance + end_height(operation.tool));
 }
 
 // Moves whose tool comes below a height, in squares.

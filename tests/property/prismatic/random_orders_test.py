@@ -36,7 +36,7 @@ class RandomOrder:
     def __init__(self, seed):
         r = self.random = random.Random(seed)
         self.two = r.random() < 0.25
-        kinds = r.choices(("face", "pocket", "pocket", "drill", "drill", "profile", "engrave", "chamfer"),
+        kinds = r.choices(("face", "pocket", "pocket", "drill", "drill", "profile", "engrave", "chamfer", "slot"),
                           k=r.randint(2, 5))
         self.operations = [self.operation(kind) for kind in kinds]
         if self.two:
@@ -54,6 +54,8 @@ class RandomOrder:
         if kind == "drill":
             return text + f'boundary = "part.dxf#{r.choice(("h", "k"))}"\ndepth = {depth}\ntool = 3\n' + \
                 r.choice(("", f"peck = {round(r.uniform(0.5, 2), 2)}\n"))
+        if kind == "slot":
+            return text + f'boundary = "part.dxf#e"\ndepth = {depth}\ntool = 1\n'
         if kind == "engrave":
             return text + f'boundary = "part.dxf#e"\ndepth = {min(depth, 1)}\ntool = 4\n'
         if kind == "chamfer":

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "host_tools/geometry/toolpath/near_places.hpp"
-
 #include "CppUTest/TestHarness.h"
+
+#include "host_tools/geometry/toolpath/near_places.hpp"
 
 using cusp::Vec2d;
 using cusp::toolpath::inner_first_tour;
