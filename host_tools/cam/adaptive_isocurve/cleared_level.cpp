@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -12,8 +13,33 @@ using clearing::ClearingPass;
 using offset::Box2d;
 using offset::Edge;
 using offset::EdgeTree;
+using offset::length;
 using offset::Region2d;
 using offset::RegionOffset;
+
+namespace {
+
+struct PartOfEdge {
+    double from;
+    double to;
+};
+
+// Divided until the distance of the middle decides.
+bool part_comes_near(const Box2d& box, const Edge& edge, double distance_to_box, PartOfEdge part)
+{
+    constexpr double kShort = 5e-4;  // mm
+    const double middle = 0.5 * (part.from + part.to);
+    const double half = 0.5 * (part.to - part.from) * length(edge);
+    const double room = distance(box, point_on(edge, middle)) - distance_to_box;
+    if (room >= half) {
+        return false;
+    }
+    return room < 0 || half < kShort ||
+           part_comes_near(box, edge, distance_to_box, {part.from, middle}) ||
+           part_comes_near(box, edge, distance_to_box, {middle, part.to});
+}
+
+}  // namespace
 
 bool covers(const ClearedRegion& cleared, const Region2d& region, double step, const Box2d& box)
 {
@@ -36,6 +62,17 @@ bool covers(const ClearedRegion& cleared, const Region2d& region, double step, c
         }
     }
     return true;
+}
+
+double distance(const Box2d& box, Vec2d place)
+{
+    return elementary::hypot(std::max({box.x0 - place.x, place.x - box.x1, 0.0}),
+                             std::max({box.y0 - place.y, place.y - box.y1, 0.0}));
+}
+
+bool comes_near(const Box2d& box, const Edge& edge, double distance_to_box)
+{
+    return part_comes_near(box, edge, distance_to_box, {0.0, 1.0});
 }
 
 // Divided until the clearances at both ends of each part are together at least its length.

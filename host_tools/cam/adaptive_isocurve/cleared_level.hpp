@@ -1,4 +1,4 @@
-// Proofs for a level: its passes leave nothing, a way lies in its region.
+// Proofs for a level: its passes leave nothing, a way lies in its region or keeps off the stock.
 #pragma once
 
 #include <vector>
@@ -15,6 +15,12 @@ bool covers(const clearing::ClearedRegion& cleared,
             const offset::Region2d& region,
             double step,
             const offset::Box2d& box);
+
+// mm, from a place to the box; 0 inside.
+double distance(const offset::Box2d& box, Vec2d place);
+
+// False if the edge keeps that far off the box; true may be wrong by 0.001 mm.
+bool comes_near(const offset::Box2d& box, const offset::Edge& edge, double distance);
 
 // True if a line lies in the region, at least `radius` (mm) from its edge, but for 0.002 mm.
 bool line_inside(const offset::RegionOffset& region, Vec2d from, Vec2d to, double radius = 0.0);

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "host_tools/base/cancellation/cancellation.hpp"
-#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
@@ -45,9 +44,7 @@ using clearing::rest_offset_between_tools;
 using job::EntryKind;
 using job::OutputForm;
 using offset::Box2d;
-using offset::Contour;
 using offset::Edge;
-using offset::length;
 using offset::Region2d;
 using offset::RegionOffset;
 using toolpath::OperationStats;
@@ -69,12 +66,6 @@ constexpr double kTaper = 1e-3;
 // mm: how far a cutter is clear where another was, beyond the tolerance of fits. Without it many
 // short parts beside walls would have to be examined.
 constexpr double kMargin = 6e-3;
-
-double beside(const Box2d& box, Vec2d p)
-{
-    return elementary::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.0}),
-                             std::max({box.y0 - p.y, p.y - box.y1, 0.0}));
-}
 
 class WaterlineRougher {
 public:
@@ -300,35 +291,36 @@ private:
         levels_ += level.adaptive->runs.empty() ? 0 : 1;
     }
 
-    bool cuts_stock(const Contour& path) const
+    bool cuts_stock(const std::vector<Edge>& path) const
     {
         return std::any_of(path.begin(), path.end(), [&](const Edge& edge) {
-            const double room = beside(work_.stock.plan, point_on(edge, 0.5));
-            return room < tool_.radius + 0.5 * length(edge);
+            return comes_near(work_.stock.plan, edge, tool_.radius);
         });
     }
 
+    // Passes beside the stock are left out. A pass that is linked to one enters where the link begins.
     std::vector<LayerRun> runs_of(const ClearedRegion& cleared, const RegionOffset& region)
     {
         const bool arcs = work_.operation.output != OutputForm::kLines;
         std::vector<LayerRun> out;
-        bool linked = false;  // the pass before is the last of `out`
+        bool in_stock = false;  // the pass before is the last of `out`
         for (const ClearingPass& pass : cleared.passes) {
-            if (!cuts_stock(pass.path)) {
-                linked = false;
+            const bool before_in_stock = std::exchange(in_stock, cuts_stock(pass.path));
+            if (!in_stock) {
                 continue;
             }
             // The outermost passes are not fitted: levels below depend on them.
             const std::vector<Edge> edges =
                 arcs || pass.ring == 0 ? pass.path : fitted_edges(pass.path, inner_fit_, false);
-            if (linked && pass.start == PassStart::kLink && line_inside(region, pass.link)) {
-                std::vector<Edge>& run = out.back().edges;
-                run.insert(run.end(), pass.link.begin(), pass.link.end());
-                run.insert(run.end(), edges.begin(), edges.end());
+            const bool linked = pass.start == PassStart::kLink && line_inside(region, pass.link);
+            if (!linked || !before_in_stock) {
+                out.push_back({linked ? pass.link : edges, false});
             } else {
-                out.push_back({edges, false});
+                out.back().edges.insert(out.back().edges.end(), pass.link.begin(), pass.link.end());
             }
-            linked = true;
+            if (linked) {
+                out.back().edges.insert(out.back().edges.end(), edges.begin(), edges.end());
+            }
         }
         return out;
     }
@@ -373,7 +365,7 @@ private:
             return region.clearance(place) >= extra;
         };
         space.beside_stock = [this](Vec2d place) {
-            return beside(work_.stock.plan, place) >= tool_.radius;
+            return distance(work_.stock.plan, place) >= tool_.radius;
         };
         if (over != nullptr) {
             space.cleared_above = [over](Vec2d from, Vec2d to) {

@@ -1,6 +1,7 @@
 // Depths of levels, and what smaller cutters remove after larger ones.
 #include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -95,6 +96,30 @@ TEST(WaterlineRoughing, ASmallerCutterTakesOnlyWhatTheLargerOneCouldNotReach)
         const Vec3d at = end_of(move);
         CHECK(move.kind != MoveKind::kCut || (at.x > 29 && at.x < 37));
     }
+}
+
+// A boss on a plate: the outermost pass of each level keeps off the stock, and its corners too.
+TEST(WaterlineRoughing, NoPassRunsBesideTheStock)
+{
+    Job job = channel_job();
+    Operation& operation = job.operations.front();
+    operation.part.floor = {plate(0, 0, 60, 40, -6), plate(25, 15, 35, 25, 0)};
+    const PlannedOperation planned = plan_waterline_roughing(job, operation).front();
+    const auto is_beside = [](Vec3d at) {
+        return std::hypot(std::max({-at.x, at.x - 60, 0.0}), std::max({-at.y, at.y - 40, 0.0})) >=
+               kFlat10.radius;
+    };
+    double beside = 0;
+    Vec3d at = end_of(planned.path.moves.front());
+    for (const ToolMove& move : planned.path.moves) {
+        const Vec3d to = end_of(move);
+        if (move.kind == MoveKind::kCut && is_beside(at) && is_beside(to) &&
+            is_beside(0.5 * (at + to))) {
+            beside += norm(to - at);
+        }
+        at = to;
+    }
+    CHECK(beside < 0.02 * cut_length(planned));
 }
 
 TEST(WaterlineRoughing, ACutterThatFindsNothingIsNamedAndLeftOut)
