@@ -9,6 +9,7 @@
 #include "host_tools/job/import/one_line_check.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/import/placing.hpp"
+#include "host_tools/job/import/sheet_job.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -24,6 +25,11 @@ namespace {
 
 constexpr const char* kGroup = "Without a job file";
 
+bool is_part(const std::string& file)
+{
+    return is_part_file(file) || import::is_drawing_name(file);
+}
+
 bool is_job_file(const std::string& file) { return path_ending(file) == ".toml"; }
 
 // CLI11 takes files after `--tool ball:6` for tools.
@@ -37,7 +43,7 @@ void take_files_from_tools(PlanCall& call)
     }
     const auto files = std::stable_partition(
         tools.begin(), tools.end(),
-        [](const std::string& text) { return !is_part_file(text) && !is_job_file(text); });
+        [](const std::string& text) { return !is_part(text) && !is_job_file(text); });
     call.files.insert(call.files.end(), files, tools.end());
     tools.erase(files, tools.end());
 }
@@ -63,6 +69,25 @@ std::vector<std::string> one_line_strategies()
     return names;
 }
 
+void add_drawing_options(CLI::App& command, OneLineRequest& request)
+{
+    const auto add = [&](const char* name, auto& value, const char* text) {
+        return command.add_option(name, value, text)->group(kGroup);
+    };
+    add("--depth", request.depth, "of a drawing's outlines and holes, below the stock's top");
+    add("--layer", request.layers,
+        "NAME=OPERATION or NAME=OPERATION:DEPTH for a layer of a drawing: pocket, drill, engrave, "
+        "v_carve, chamfer, profile, outside, inside, on, none; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME=OPERATION");
+    add("--tabs", request.tabs, "that hold a drawing's outlines: COUNT or COUNT:WIDTH:HEIGHT")
+        ->type_name("TABS");
+    add("--side", request.side, "of a drawing's outlines: outside (the default), inside, on")
+        ->check(CLI::IsMember({"outside", "inside", "on"}))
+        ->type_name("SIDE");
+    add("--join-gaps", request.join_gaps, "largest gap between lines of a drawing that is closed");
+}
+
 }  // namespace
 
 std::string PlanCall::job_name() const
@@ -77,9 +102,10 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         return command.add_option(name, value, text)->group(kGroup);
     };
     add("--tool", request.tools,
-        "ball:6, flat:8, bull:10:1.5: diameter, corner radius; the first rough, the last finishes")
+        "ball:6, flat:8, bull:10:1.5, drill:5, vee:6:60: the first roughs, the last finishes")
         ->type_name("SHAPE:DIAMETER ...");
     add("--scallop", request.scallop, "height of the scallops that may remain, tolerance included");
+    add_drawing_options(command, request);
     add("--units", call.units,
         "unit of the options, the G-code, and .json, .stl and .obj files, which have no unit")
         ->check(CLI::IsMember({"mm", "inch"}))
@@ -148,7 +174,7 @@ void sort_call(const CLI::App& command, PlanCall& call)
         }
         return;
     }
-    if (call.files.size() == 1 && option == nullptr && !is_part_file(call.files.front())) {
+    if (call.files.size() == 1 && option == nullptr && !is_part(call.files.front())) {
         return;  // a job with another ending
     }
     call.request.parts = call.files;

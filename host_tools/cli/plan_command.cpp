@@ -192,6 +192,8 @@ void add_plan_command(CLI::App& app, Work& work)
         "  cusp plan part.stl --tool flat:8 ball:6 --scallop 0.05 --feed 800 -o part.ngc\n"
         "  cusp plan floor.json --boundary plate.dxf#outline --island boss.json --tool ball:12 \\\n"
         "            --scallop 0.4 -o pocket.ngc\n"
+        "  cusp plan plate.dxf --tool flat:3 drill:5 --depth 6 --layer text=engrave:0.3 -o "
+        "plate.ngc\n"
         "It prints the values it chose. --print-job instead of -o prints the job file, to edit "
         "and\n"
         "plan: ... --print-job > part.toml\n\n"
@@ -218,7 +220,8 @@ void add_plan_command(CLI::App& app, Work& work)
         "A job with several set-ups gives a program for each: part-NAME.ngc.");
     auto options = std::make_shared<PlanArguments>();
     command->add_option("JOB", options->call.files,
-                        "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf");
+                        "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf; "
+                        "drawings: .dxf, .svg");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
     command

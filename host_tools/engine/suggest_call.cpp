@@ -31,6 +31,11 @@ Json suggest_call(Call& call)
     request.roughing = given.flag("roughing", true);
     request.strategy = given.find_text("strategy").value_or("");
     request.output = given.find_text("moves").value_or("lines");
+    request.depth = given.find_number("depth");
+    request.layers = given.find_texts("layers");
+    request.tabs = given.find_text("tabs").value_or("");
+    request.side = given.find_text("side").value_or("");
+    request.join_gaps = given.find_number("join_gaps");
     request.post = given.find_text("post").value_or("");
     given.check_all_read();
     call.report(0, "reading " + request.parts.front());

@@ -179,6 +179,11 @@ std::vector<Hole> circles_of(const std::vector<Curve>& curves, std::size_t& othe
 
 }  // namespace
 
+std::optional<Hole> circle_of_loop(const Chain& loop)
+{
+    return loop.size() == 1 ? circle_of(loop.front()) : circle_of_arcs(loop);
+}
+
 std::vector<Hole> read_holes(const std::string& name,
                              double millimetres,
                              DiameterRange range,

@@ -1,6 +1,7 @@
 // Places to drill and lines to engrave: what a drawing holds beside closed loops.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ std::vector<job::Hole> read_holes(const std::string& name,
                                   DiameterRange range,
                                   bool only_circles,
                                   std::vector<std::string>& notes);
+
+// The circle that the curves of a closed loop make; nothing where they make none.
+std::optional<job::Hole> circle_of_loop(const job::Chain& loop);
 
 // The curves of a drawing, or of a JSON file.
 //

@@ -13,6 +13,7 @@
 #include "host_tools/job/job/loop_shape.hpp"
 
 #include "fmt/format.h"
+#include "fmt/ranges.h"
 
 namespace cusp::import {
 
@@ -65,21 +66,63 @@ void describe_loops(const std::string& name,
     }
 }
 
-std::vector<FileLoop> drawn_loops(const std::string& name,
-                                  double millimetres,
-                                  EndDistance gaps,
-                                  std::vector<std::string>& notes)
+// The paths of several layers, in the order of their names.
+DrawnPaths paths_of_layers(const std::string& file,
+                           const std::vector<std::string>& layers,
+                           double millimetres,
+                           std::vector<std::string>& notes)
+{
+    DrawnLayers drawing = read_drawn_layers(file, millimetres);
+    notes.insert(notes.end(), drawing.notes.begin(), drawing.notes.end());
+    DrawnPaths out{{}, drawing.resolution};
+    for (const std::string& wanted : layers) {
+        const auto found = std::find_if(drawing.layers.begin(), drawing.layers.end(),
+                                        [&](const DrawnLayer& one) { return one.name == wanted; });
+        if (found == drawing.layers.end()) {
+            std::vector<std::string> names;
+            for (const DrawnLayer& one : drawing.layers) {
+                names.push_back(one.name);
+            }
+            throw InputError(
+                fmt::format("{}: no curve on the layer \"{}\"; layers with curves: "
+                            "\"{}\"",
+                            file, wanted, fmt::join(names, "\", \"")));
+        }
+        if (!found->problem.empty()) {
+            throw InputError(found->problem);
+        }
+        out.paths.insert(out.paths.end(), found->paths.begin(), found->paths.end());
+    }
+    return out;
+}
+
+struct NestedDrawing {
+    LoopNesting nesting;
+    double join;  // mm
+};
+
+// layers  empty: what `name` says
+NestedDrawing nested_drawing(const std::string& name,
+                             const std::vector<std::string>& layers,
+                             double millimetres,
+                             EndDistance gaps,
+                             std::vector<std::string>& notes)
 {
     const std::size_t mark = layer_mark(name);
     const std::string file = name.substr(0, mark);
     const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
-    const DrawnPaths drawn = read_drawn_paths(file, millimetres, layer, &notes);
+    const DrawnPaths drawn = layers.empty() ? read_drawn_paths(file, millimetres, layer, &notes)
+                                            : paths_of_layers(file, layers, millimetres, notes);
     const double join = gaps.given ? std::max(*gaps.given, kEndsMeet)
                                    : std::max(gaps.least, join_limit(drawn.resolution));
-    const LoopNesting nesting = nest_loops(drawn.paths, join);
-    if (!nesting.open.empty()) {
-        refuse_open(name, nesting, join);
-    }
+    return {nest_loops(drawn.paths, join), join};
+}
+
+std::vector<FileLoop> loops_of(const std::string& name,
+                               const NestedDrawing& drawn,
+                               std::vector<std::string>& notes)
+{
+    const auto& [nesting, join] = drawn;
     if (nesting.crossing) {
         throw InputError(fmt::format("{}: its loops cross each other at x {:.6g} y {:.6g} mm", name,
                                      nesting.crossing->x, nesting.crossing->y));
@@ -111,13 +154,30 @@ std::vector<FileLoop> read_loops(const std::string& name,
                                  std::vector<std::string>& notes)
 {
     if (names_drawing(name)) {
-        return drawn_loops(name, millimetres, gaps, notes);
+        const NestedDrawing drawn = nested_drawing(name, {}, millimetres, gaps, notes);
+        if (!drawn.nesting.open.empty()) {
+            refuse_open(name, drawn.nesting, drawn.join);
+        }
+        return loops_of(name, drawn, notes);
     }
     if (path_ending(name) == ".json") {
         return {{closed_loop(read_json_curves(name, millimetres), name), name}};
     }
     throw InputError(fmt::format("{}: loops are read from .json, .dxf and .svg, not from \"{}\"",
                                  name, path_ending(name)));
+}
+
+FileShapes read_shapes(const std::string& name,
+                       const std::vector<std::string>& layers,
+                       double millimetres,
+                       EndDistance gaps,
+                       std::vector<std::string>& notes)
+{
+    if (!names_drawing(name)) {
+        return {read_loops(name, millimetres, gaps, notes), {}};
+    }
+    const NestedDrawing drawn = nested_drawing(name, layers, millimetres, gaps, notes);
+    return {loops_of(name, drawn, notes), drawn.nesting.open};
 }
 
 std::vector<Operation> pockets_of(const Operation& operation,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/job/job/part_geometry.hpp"
 
 namespace cusp::import {
 
@@ -22,6 +23,23 @@ struct EndDistance {
     double least{};               // mm: join_limit() of the drawing may be larger
     std::optional<double> given;  // mm: by join_gaps, takes the place of both
 };
+
+// The loops of a drawing, and what is open.
+struct FileShapes {
+    std::vector<FileLoop> loops;       // the largest first
+    std::vector<job::OpenChain> open;  // gaps are not measured again where the drawing is placed
+};
+
+// Loops and open chains of a drawing, or of some of its layers together.
+//
+// layers  their names; empty: what `name` says
+//
+// Errors: as read_loops(), but for open chains; a layer that there is not, with those that there are.
+FileShapes read_shapes(const std::string& name,
+                       const std::vector<std::string>& layers,
+                       double millimetres,
+                       EndDistance gaps,
+                       std::vector<std::string>& notes);
 
 // All loops of a drawing, the largest first; one loop of a JSON file.
 //

@@ -368,6 +368,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     read_depths(table, operation);
     read_strategy_keys(table, strategy, operation);
     read_prismatic_keys(table, unit_, strategy, operation);
+    const DrawingChoice choice = read_drawing_choice(table, unit_, operation);
     if (operation.prismatic) {
         if (table.has("floor")) {  // of an engraving
             read_parts(table, strategy, operation);
@@ -380,7 +381,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
         const auto name = table.text("boundary");
         operation.prismatic->file = name ? path_of(*name) : "";
         check_operation(strategy, operation, refuse_in(table));
-        read_drawing(table, unit_, parts_, operation);
+        read_drawing(table, choice, unit_, parts_, operation);
         job_.operations.push_back(std::move(operation));
     } else {
         for (Operation& pocket : read_pockets(table, std::move(operation))) {

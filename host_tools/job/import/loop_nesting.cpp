@@ -203,7 +203,7 @@ OpenChain open_chain(const CurveChain& chain)
     // loop_polyline() closes the chain
     std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
     outline.back() = end;
-    return {outline, chain.size(), length, begin, end, 0, begin, end};
+    return {outline, chain.size(), length, begin, end, 0, begin, end, chain};
 }
 
 void measure_gaps(std::vector<OpenChain>& open)

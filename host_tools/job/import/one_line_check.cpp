@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
@@ -14,6 +15,18 @@
 
 namespace cusp::import {
 namespace {
+
+using Offered = std::pair<const char*, bool>;
+
+// Refuses the first option that is given and does not go with the parts.
+void refuse_given(const std::vector<Offered>& options, const char* what)
+{
+    for (const auto& [option, given] : options) {
+        if (given) {
+            throw InputError(fmt::format("{}: is for {}", option, what));
+        }
+    }
+}
 
 void check_range(const char* option, std::optional<double> value, double low, bool above_low)
 {
@@ -135,6 +148,12 @@ const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strat
 void check_request(const OneLineRequest& request, const job::Strategies& strategies)
 {
     check_parts(request);
+    refuse_given({{"--depth", request.depth.has_value()},
+                  {"--layer", !request.layers.empty()},
+                  {"--tabs", !request.tabs.empty()},
+                  {"--side", !request.side.empty()},
+                  {"--join-gaps", request.join_gaps.has_value()}},
+                 "drawings, such as cusp plan plate.dxf --tool flat:3 --depth 6");
     if (request.tools.empty()) {
         throw InputError(
             "--tool: is missing: the tools in the order of their use, such as --tool ball:6 or "
@@ -150,8 +169,46 @@ void check_request(const OneLineRequest& request, const job::Strategies& strateg
     check_strategy(request, strategies);
 }
 
+void check_sheet_request(const OneLineRequest& request)
+{
+    refuse_given({{"--scallop", request.scallop.has_value()},
+                  {"--tolerance", request.tolerance.has_value()},
+                  {"--boundary", request.boundary.has_value()},
+                  {"--island", !request.islands.empty()},
+                  {"--strategy", !request.strategy.empty()},
+                  {"--up", !request.up.empty()},
+                  {"--no-roughing", !request.roughing}},
+                 "surfaces; a drawing is cut to --depth, and --layer says how");
+    if (request.tools.empty()) {
+        throw InputError(
+            "--tool: is missing: the tools in the order of their use, such as --tool flat:3 or "
+            "--tool flat:6 flat:3 drill:5 vee:6:60");
+    }
+    if (!request.depth) {
+        throw InputError(
+            "--depth: is missing: how deep outlines are cut below the stock's top, such as --depth "
+            "6 (mm)");
+    }
+    constexpr std::array<const char*, 4> kSides{"", "outside", "inside", "on"};
+    if (std::find(kSides.begin(), kSides.end(), request.side) == kSides.end()) {
+        throw InputError(
+            fmt::format("--side: is \"{}\", it must be outside, inside or on", request.side));
+    }
+    check_range("--depth", request.depth, 0, true);
+    check_range("--join-gaps", request.join_gaps, 0, false);
+    check_numbers(request);
+    check_placing(request);
+}
+
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)
 {
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (tools[i].tip_angle > 0) {
+            throw InputError(
+                fmt::format("--tool {}: is for drawings; parts are cut by ball, flat and bull",
+                            request.tools[i]));
+        }
+    }
     if (!request.roughing && tools.size() > 1) {
         throw InputError(
             fmt::format("--tool {}: only roughs, and --no-roughing leaves that out: "

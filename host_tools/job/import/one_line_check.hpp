@@ -11,6 +11,9 @@ namespace cusp::import {
 // Errors: InputError that names the option or the file, its value, its limit and what to do.
 void check_request(const OneLineRequest& request, const job::Strategies& strategies);
 
+// As check_request(), where the parts are drawings.
+void check_sheet_request(const OneLineRequest& request);
+
 // The one that is asked for; else that of a pocket where there is a boundary, or of a finish.
 // Throws InputError where there is none of the name.
 const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strategies& strategies);

@@ -9,6 +9,7 @@
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/one_line_check.hpp"
 #include "host_tools/job/import/placing.hpp"
+#include "host_tools/job/import/sheet_job.hpp"
 
 #include "fmt/format.h"
 
@@ -34,8 +35,6 @@ constexpr double kSpindle = 12000;  // rpm
 constexpr double kAllowanceOfDiameter = 0.05;
 constexpr double kOverRounding = 0.15;  // of a step: excess of the measured box that is ignored
 
-double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
-
 double least_diameter(const std::vector<NamedTool>& tools)
 {
     return std::min_element(
@@ -51,15 +50,12 @@ public:
                    PartFiles& parts)
         : request_{request}, parts_{parts}, defaults_{request.inch ? kInch : kMetric}
     {
+        choice_ = choose_rates(request);
         choice_.strategy = strategy_of(request, strategies).name;
-        choice_.unit = defaults_.unit;
-        choice_.steps = defaults_.steps;
-        for (const std::string& text : request.tools) {
-            choice_.tools.push_back(tool_of_text(text, request.inch));
-        }
         check_tools(request, choice_.tools);
-        choose_numbers();
-        place();
+        choice_.tolerance =
+            request_.tolerance.value_or(std::min(defaults_.tolerance, *request_.scallop / 2));
+        place_request(request_, parts_);
         measure();
         check_sizes();
         choose_roughing();
@@ -68,8 +64,6 @@ public:
     OneLineChoice choice() const { return choice_; }
 
 private:
-    void choose_numbers();
-    void place();
     void measure();
     void check_sizes() const;
     void choose_roughing();
@@ -85,48 +79,6 @@ private:
     const Defaults& defaults_;
     OneLineChoice choice_{};
 };
-
-void OneLineChooser::choose_numbers()
-{
-    choice_.tolerance =
-        request_.tolerance.value_or(std::min(defaults_.tolerance, *request_.scallop / 2));
-    for (const NamedTool& tool : choice_.tools) {
-        const double feed = request_.feed.value_or(
-            three_digits(std::min(defaults_.feed, defaults_.feed_of_diameter * tool.diameter)));
-        choice_.feeds.push_back(feed);
-        choice_.plunge_feeds.push_back(request_.plunge_feed.value_or(three_digits(feed / 4)));
-    }
-    choice_.spindle = request_.spindle.value_or(kSpindle);
-    choice_.clearance = request_.clearance.value_or(defaults_.clearance);
-}
-
-// True if an option asks for it.
-void OneLineChooser::place()
-{
-    if (!request_.scale && request_.up.empty() && request_.rotate.empty() &&
-        request_.origin.empty() && request_.move.empty()) {
-        return;
-    }
-    Placing placing;
-    placing.scale = request_.scale.value_or(placing.scale);
-    placing.up = request_.up.empty() ? placing.up : request_.up;
-    placing.origin = request_.origin;
-    const std::vector<double>& turn = request_.rotate;
-    if (turn.size() == 1) {
-        placing.rotate = {0, 0, turn[0]};
-    } else if (turn.size() == 3) {
-        placing.rotate = {turn[0], turn[1], turn[2]};
-    }
-    if (request_.move.size() == 3) {
-        placing.move =
-            defaults_.millimetres * Vec3d{request_.move[0], request_.move[1], request_.move[2]};
-    }
-    PlacedFiles files{request_.parts, request_.islands};
-    if (is_pocket()) {
-        files.drawings.push_back(*request_.boundary);
-    }
-    place_parts({placing}, files, defaults_.millimetres, parts_);
-}
 
 // Reads the parts in the form that the strategy needs, so that no file is read twice.
 void OneLineChooser::measure()
@@ -192,6 +144,58 @@ std::string OneLineChoice::words(double length) const
 std::vector<NamedTool> OneLineChoice::roughing_tools() const
 {
     return {tools.begin(), tools.size() > 1 ? tools.end() - 1 : tools.end()};
+}
+
+double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
+
+OneLineChoice choose_rates(const OneLineRequest& request)
+{
+    const Defaults& defaults = request.inch ? kInch : kMetric;
+    OneLineChoice choice{};
+    choice.unit = defaults.unit;
+    choice.steps = defaults.steps;
+    for (const std::string& text : request.tools) {
+        choice.tools.push_back(tool_of_text(text, request.inch));
+    }
+    for (const NamedTool& tool : choice.tools) {
+        const double feed = request.feed.value_or(
+            three_digits(std::min(defaults.feed, defaults.feed_of_diameter * tool.diameter)));
+        choice.feeds.push_back(feed);
+        choice.plunge_feeds.push_back(request.plunge_feed.value_or(three_digits(feed / 4)));
+    }
+    choice.spindle = request.spindle.value_or(kSpindle);
+    choice.clearance = request.clearance.value_or(defaults.clearance);
+    return choice;
+}
+
+void place_request(const OneLineRequest& request, PartFiles& parts)
+{
+    const double unit = request.inch ? kMillimetresPerInch : 1.0;
+    if (!request.scale && request.up.empty() && request.rotate.empty() && request.origin.empty() &&
+        request.move.empty()) {
+        return;
+    }
+    Placing placing;
+    placing.scale = request.scale.value_or(placing.scale);
+    placing.up = request.up.empty() ? placing.up : request.up;
+    placing.origin = request.origin;
+    const std::vector<double>& turn = request.rotate;
+    if (turn.size() == 1) {
+        placing.rotate = {0, 0, turn[0]};
+    } else if (turn.size() == 3) {
+        placing.rotate = {turn[0], turn[1], turn[2]};
+    }
+    if (request.move.size() == 3) {
+        placing.move = unit * Vec3d{request.move[0], request.move[1], request.move[2]};
+    }
+    PlacedFiles files{request.parts, request.islands};
+    if (is_sheet_request(request)) {
+        files = {{}, request.parts};
+    }
+    if (request.boundary) {
+        files.drawings.push_back(*request.boundary);
+    }
+    place_parts({placing}, files, unit, parts);
 }
 
 OneLineChoice choose(const OneLineRequest& request,

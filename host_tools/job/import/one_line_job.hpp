@@ -1,5 +1,5 @@
-// Builds a job from a command line with parts, tools and a scallop height. Other values are chosen
-// and reported.
+// Builds a job from a command line: parts, tools and a scallop height, or drawings, tools and a depth. Other
+// values are chosen and reported.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace cusp::import {
 
 // Lengths in inches or mm, feeds in that unit per minute. A value that is absent is chosen.
 struct OneLineRequest {
-    std::vector<std::string> parts;  // files of surfaces
+    std::vector<std::string> parts;  // files of surfaces, or drawings
     std::vector<std::string> tools;  // as `tool_of_text` reads them; the last finishes
     std::optional<std::string> boundary;
     std::vector<std::string> islands;
@@ -33,6 +33,12 @@ struct OneLineRequest {
     std::vector<double> rotate;  // degrees: about z, or about x, y, z
     std::string origin;
     std::vector<double> move;  // x, y, z
+    // Of drawings alone (sheet_job.hpp).
+    std::optional<double> depth;
+    std::vector<std::string> layers;  // "NAME=OPERATION", "NAME=OPERATION:DEPTH"
+    std::string tabs;                 // "COUNT", "COUNT:WIDTH:HEIGHT"
+    std::string side;                 // "": outside; "inside", "on"
+    std::optional<double> join_gaps;
     bool roughing{true};
     std::string strategy;         // "": the first for parts, with a boundary for pockets
     std::string output{"lines"};  // "lines", "arcs", "nurbs"
@@ -47,6 +53,8 @@ struct OneLineJob {
 // The stock reaches from the part's lowest point to its highest (for a pocket: to z = 0 where the
 // floor is below). If the part is deeper than half the diameter of the roughing tools, or several
 // tools are given, all but the last rough in layers of at most that depth.
+//
+// Drawings are sorted as sheet_job.hpp says.
 //
 // strategies  that the job may name
 // parts       caches the files read here for `read_job`

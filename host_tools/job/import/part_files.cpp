@@ -112,6 +112,24 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
     return found->second;
 }
 
+FileShapes PartFiles::shapes(const std::string& file,
+                             const std::vector<std::string>& layers,
+                             double millimetres,
+                             EndDistance gaps)
+{
+    const Similarity move = placed_drawing(file);
+    FileShapes shapes = read_shapes(file, layers, millimetres, gaps, notes_);
+    move_loops(move, shapes.loops);
+    for (const FileLoop& loop : shapes.loops) {
+        check_place(loop.loop, file);
+    }
+    for (job::OpenChain& chain : shapes.open) {
+        move_curves(move, chain.pieces);
+        check_place(chain.pieces, file);
+    }
+    return shapes;
+}
+
 std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres) const
 {
     std::vector<Curve> curves = read_curves(file, millimetres, nullptr);

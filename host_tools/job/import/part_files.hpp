@@ -36,6 +36,11 @@ public:
     const std::vector<FileLoop>& loops(const std::string& file,
                                        double millimetres,
                                        EndDistance gaps);
+    // As read_shapes(), placed; read anew by each call.
+    FileShapes shapes(const std::string& file,
+                      const std::vector<std::string>& layers,
+                      double millimetres,
+                      EndDistance gaps);
     // All curves of a drawing, or of a JSON file, wherever they are.
     std::vector<nurbs::Curve> curves(const std::string& file, double millimetres) const;
 

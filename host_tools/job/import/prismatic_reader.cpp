@@ -15,6 +15,7 @@
 #include "host_tools/job/import/file_loops.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
@@ -33,9 +34,6 @@ using job::Tabs;
 using toolpath::Tool;
 
 namespace {
-
-// mm: circles and tools whose diameters differ by no more are of one size.
-constexpr double kSameDiameter = 0.01;
 
 Tabs read_tabs(JobTable& keys, double unit)
 {
@@ -93,6 +91,23 @@ bool is_beside_lines(JobTable& table)
 {
     const std::string side = table.choice_or_default("side");
     return side == "left" || side == "right";
+}
+
+// The circles that the choice takes, of the wanted diameters.
+std::vector<Hole> chosen_holes(const JobTable& table,
+                               const DrawingChoice& choice,
+                               const FileShapes& shapes,
+                               DiameterRange range)
+{
+    std::vector<Hole> holes = chosen_circles(choice, shapes);
+    const auto is_other = [&](const Hole& hole) {
+        return hole.diameter < range.least || hole.diameter > range.greatest;
+    };
+    holes.erase(std::remove_if(holes.begin(), holes.end(), is_other), holes.end());
+    if (holes.empty()) {
+        table.refuse("boundary", "no circle of the wanted diameter among the loops to drill");
+    }
+    return holes;
 }
 
 // Takes out the holes that the tool doesn't fit into, with room to move in a bore.
@@ -234,14 +249,29 @@ void read_reliefs(JobTable& table, PartFiles& parts, Operation& operation)
     }
 }
 
-void read_drawing(JobTable& table, double unit, PartFiles& parts, Operation& operation)
+void read_drawing(JobTable& table,
+                  const DrawingChoice& choice,
+                  double unit,
+                  PartFiles& parts,
+                  Operation& operation)
 {
     Prismatic& cut = *operation.prismatic;
     const std::string& file = cut.file;
+    const EndDistance gaps{operation.tolerance.plan, operation.tolerance.join_gaps};
+    if (!choice.layers.empty() && layer_mark(file) != std::string::npos) {
+        table.refuse("drawing_layers", "goes with a drawing without #layer in boundary");
+    }
+    FileShapes shapes;
+    if (!choice.takes_all()) {
+        shapes = parts.shapes(file, choice.layers, unit, gaps);
+    }
     if (operation.cuts(job::Region::kHoles)) {
         const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, job::kLargest});
-        cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
-                                cut.diameters.has_value() || is_bored(operation));
+        const DiameterRange range{least - kSameDiameter, greatest + kSameDiameter};
+        cut.holes =
+            choice.takes_all()
+                ? parts.holes(file, unit, range, cut.diameters.has_value() || is_bored(operation))
+                : chosen_holes(table, choice, shapes, range);
         check_holes(table, operation, parts);
         if (is_bored(operation)) {
             cut.side = ProfileSide::kInside;
@@ -256,11 +286,18 @@ void read_drawing(JobTable& table, double unit, PartFiles& parts, Operation& ope
                                               operation.name()));
         }
     } else if (operation.cuts(job::Region::kGrooves) || is_beside_lines(table)) {
-        cut.chains = parts.chains(file, unit);
+        cut.chains = choice.takes_all() ? parts.chains(file, unit) : chosen_chains(choice, shapes);
+        if (cut.chains.empty()) {
+            table.refuse("loops", "the drawing has none of these");
+        }
+    } else if (!choice.takes_all()) {
+        cut.loops = nested(chosen_loops(choice, shapes));
+        if (cut.loops.empty()) {
+            table.refuse("loops", "the drawing has none of these");
+        }
     } else if (!file.empty()) {
         try {
-            cut.loops = nested(
-                parts.loops(file, unit, {operation.tolerance.plan, operation.tolerance.join_gaps}));
+            cut.loops = nested(parts.loops(file, unit, gaps));
         } catch (const InputError&) {
             if (!operation.cuts(job::Region::kOutline) || cut.side != ProfileSide::kOn) {
                 throw;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host_tools/job/import/drawing_choice.hpp"
 #include "host_tools/job/import/job_table.hpp"
 #include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/job/job.hpp"
@@ -22,9 +23,15 @@ void read_prismatic_keys(JobTable& table,
 
 // Reads the drawing, `prismatic->file`, that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
 //
+// choice  which of its shapes
+//
 // Errors: InputError: no such layer, open loops, no hole of the wanted diameter, a hole narrower
 // than the tool.
-void read_drawing(JobTable& table, double millimetres, PartFiles& parts, job::Operation& operation);
+void read_drawing(JobTable& table,
+                  const DrawingChoice& choice,
+                  double millimetres,
+                  PartFiles& parts,
+                  job::Operation& operation);
 
 // Gives the loops of a pocket or a profile reliefs at their inner corners, where the job asks for them.
 //

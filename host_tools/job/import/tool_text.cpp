@@ -55,29 +55,61 @@ double length_of(const std::string& text, const char* what, const std::string& f
     return unit == "mm" && inch ? value / kMillimetresPerInch : value;
 }
 
+// degrees
+double angle_of(const std::string& text, const std::string& field)
+{
+    constexpr double kStraight = 180;
+    const auto found = number_text::leading_number(field);
+    if (!found || found->size != field.size() || !(found->value > 0 && found->value < kStraight)) {
+        refuse(text,
+               fmt::format("\"{}\" is no angle of the tip: degrees above 0 and below 180, such "
+                           "as vee:6:60",
+                           field));
+    }
+    return found->value;
+}
+
+bool has_tip(const std::string& shape) { return shape == "drill" || shape == "vee"; }
+
+void check_fields(const std::string& text, const std::string& shape, std::size_t count)
+{
+    if (count > 3 && has_tip(shape)) {
+        refuse(text,
+               fmt::format("a {} has a diameter and the angle of its tip: {}:6:90", shape, shape));
+    }
+    const bool bull = shape == "bull";
+    if (count > (bull ? 3U : 2U) && !has_tip(shape)) {
+        refuse(text, bull ? "a bull-nose end has a diameter and a corner radius: bull:10:1.5"
+                          : fmt::format("a {} end has a diameter only: {}:6; bull:10:1.5 has "
+                                        "round corners",
+                                        shape, shape));
+    }
+}
+
 }  // namespace
 
 NamedTool tool_of_text(const std::string& text, bool inch)
 {
+    constexpr double kDrillTip = 118;  // degrees
     const std::vector<std::string> fields = fields_of(text);
     NamedTool tool;
     tool.shape = fields[0];
-    if (tool.shape != "ball" && tool.shape != "flat" && tool.shape != "bull") {
-        refuse(text, fmt::format("no shape is named \"{}\": ball:DIAMETER, flat:DIAMETER or "
-                                 "bull:DIAMETER:CORNER_RADIUS",
-                                 tool.shape));
+    const bool bull = tool.shape == "bull";
+    if (tool.shape != "ball" && tool.shape != "flat" && !bull && !has_tip(tool.shape)) {
+        refuse(text,
+               fmt::format("no shape is named \"{}\": ball:DIAMETER, flat:DIAMETER or "
+                           "bull:DIAMETER:CORNER_RADIUS; for drawings also drill:DIAMETER and "
+                           "vee:DIAMETER:ANGLE",
+                           tool.shape));
     }
     tool.diameter = length_of(text, "diameter", fields.size() > 1 ? fields[1] : "", inch);
-    const bool bull = tool.shape == "bull";
-    if (fields.size() > (bull ? 3U : 2U)) {
-        refuse(text, bull ? "a bull-nose end has a diameter and a corner radius: bull:10:1.5"
-                          : fmt::format("a {} end has a diameter only: {}:6; bull:10:1.5 has "
-                                        "round corners",
-                                        tool.shape, tool.shape));
-    }
-    if (bull) {
-        tool.corner_radius =
-            length_of(text, "corner radius", fields.size() > 2 ? fields[2] : "", inch);
+    check_fields(text, tool.shape, fields.size());
+    const std::string last = fields.size() > 2 ? fields[2] : "";
+    if (has_tip(tool.shape)) {
+        const bool known = tool.shape == "drill" && fields.size() == 2;
+        tool.tip_angle = known ? kDrillTip : angle_of(text, last);
+    } else if (bull) {
+        tool.corner_radius = length_of(text, "corner radius", last, inch);
         if (tool.corner_radius > tool.diameter / 2) {
             refuse(text, fmt::format("the corner radius is {:g}, the tool's radius only {:g}",
                                      tool.corner_radius, tool.diameter / 2));
@@ -92,6 +124,9 @@ std::string words_of(const NamedTool& tool, bool inch)
     std::string words = fmt::format("{} {:.6g} {}", tool.shape, tool.diameter, unit);
     if (tool.corner_radius > 0) {
         words += fmt::format(" with corners of {:.6g} {}", tool.corner_radius, unit);
+    }
+    if (tool.shape == "vee") {
+        words += fmt::format(" of {:g} degrees", tool.tip_angle);
     }
     return words;
 }

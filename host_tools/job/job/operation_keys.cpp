@@ -78,6 +78,11 @@ const std::vector<Key>& pass_keys()
          kPositive},
         {"top", Kind::kLength, "where the last `face` ended, else the stock's top",
          "z at which the operation begins"},
+        {"drawing_layers", Kind::kTexts, "all",
+         "layers of `boundary` that count, together; in place of `#layer`"},
+        choice("loops", {"all", "outer", "inner", "open"},
+               "or those in no other one, those in others by themselves, open lines alone "
+               "(`engrave`)"),
         {"may_open", Kind::kFlag, "false",
          "its cut may open into that of the other side (Set-ups, below)"},
     };

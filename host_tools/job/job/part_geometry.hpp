@@ -32,6 +32,7 @@ struct OpenChain {
     // From one of its ends to the nearest end of any chain, this one's other end included.
     double gap{};
     Vec2d gap_from, gap_to;
+    std::vector<nurbs::Curve> pieces;  // in order
 };
 
 struct LoopNesting {

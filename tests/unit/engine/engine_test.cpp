@@ -207,6 +207,22 @@ TEST(Engine, SuggestsAJobThatItChecksAndPlans)
     CHECK(facets["triangles"].get<int>() > 0);
 }
 
+TEST(Engine, SuggestsTheOperationsOfADrawing)
+{
+    const std::string drawing =
+        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n30\n"
+        "0\nCIRCLE\n8\n0\n10\n5\n20\n0\n40\n8\n0\nENDSEC\n0\nEOF\n";
+    const files::FileSet set{{"d.dxf", drawing}};
+    const Given suggested = called(
+        "suggest", {{"parts", {"d.dxf"}}, {"tools", {"flat:3"}}, {"depth", 6}, {"tabs", "3"}}, set);
+    STRCMP_EQUAL(
+        "d.dxf: 1 outline: profile outside, flat 3 mm, 6 mm deep in cuts of at most 1.5, 3 "
+        "tabs of 3 x 1.5 on each",
+        suggested.result()["said"].back().get<std::string>().c_str());
+    const Given checked = called("check", {{"job", suggested.result()["job"]}}, set);
+    CHECK(checked.result()["faults"].empty());
+}
+
 TEST(Engine, DescribesAMeshAndGivesItsTriangles)
 {
     const Given given = called("describe", {{"files", {"p.stl"}}}, {{"p.stl", pyramid()}});

@@ -227,7 +227,7 @@ TEST(OneLineJob, RefusesPartsThatAreNone)
     };
     STRCMP_CONTAINS("none.json: can't be read", part("none.json").c_str());
     STRCMP_CONTAINS("part.ply: parts end in .json", part("part.ply").c_str());
-    STRCMP_CONTAINS("plate.dxf#a: a drawing is a boundary", part("plate.dxf#a").c_str());
+    STRCMP_CONTAINS("--scallop: is for surfaces", part("plate.dxf#a").c_str());
     STRCMP_CONTAINS("--island: needs --boundary",
                     refused([](OneLineRequest& asked) { asked.islands = {"i.json"}; }).c_str());
 }

@@ -31,6 +31,18 @@ TEST(ToolText, NamesShapeDiameterAndCornerRadius)
     DOUBLES_EQUAL(0.0, ball.corner_radius, 0.0);
 }
 
+TEST(ToolText, DrillsAndVeesHaveATip)
+{
+    DOUBLES_EQUAL(118.0, tool_of_text("drill:5", false).tip_angle, 0.0);
+    DOUBLES_EQUAL(90.0, tool_of_text("drill:5:90", false).tip_angle, 0.0);
+    const NamedTool vee = tool_of_text("vee:6:60", false);
+    DOUBLES_EQUAL(60.0, vee.tip_angle, 0.0);
+    STRCMP_EQUAL("vee 6 mm of 60 degrees", words_of(vee, false).c_str());
+    STRCMP_CONTAINS("--tool vee:6: \"\" is no angle of the tip", refused("vee:6").c_str());
+    STRCMP_CONTAINS("\"180\" is no angle", refused("vee:6:180").c_str());
+    STRCMP_CONTAINS("a drill has a diameter and the angle", refused("drill:6:90:1").c_str());
+}
+
 TEST(ToolText, LengthsMayNameTheirUnit)
 {
     DOUBLES_EQUAL(6.35, tool_of_text("ball:0.25in", false).diameter, 1e-12);
