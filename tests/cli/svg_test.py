@@ -271,7 +271,9 @@ class Svg(CuspCase):
         self.refused(svg('<line x2="5"/>', 'viewBox="0 0 0 5"'), "viewBox")
         self.refused(svg('<line x2="1e12"/>'), "d.svg:3")
         many = "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 9 + "</g>" for k in range(12)) + '<line id="g12" x2="1"/>'
-        self.refused(svg(f"<defs>{many}</defs>" + '<use href="#g0"/>'), "more than")
+        self.refused(svg(f"<defs>{many}</defs>" + '<use href="#g0"/>'), "more than 500000 elements")
+        self.refused(svg(f'<defs>{many.replace("line", "g")}</defs>' + '<use href="#g0"/>'), "more than 500000 elements")
+        self.refused(svg("<g>" * 100000 + "</g>" * 100000), "elements more than 256 deep")
 
 
 if __name__ == "__main__":

@@ -163,7 +163,7 @@ std::vector<Piece> floors_of(std::vector<Piece> pieces, double least_area)
     return out;
 }
 
-// What rises over a height; none where nothing does.
+// The facets or surfaces that rise over a height; none: nothing does.
 std::optional<PartModel> part_above(const Operation& operation, double z)
 {
     if (!operation.part.mesh.empty()) {
@@ -190,7 +190,7 @@ double inside_levels(const SliceSettings& settings)
            0.01 * side + settings.excess + kFits;
 }
 
-// Where the axis may be over the floor with the tip at its height.
+// The places of the axis over the floor with the tip at its height.
 Region2d centres_over(const Piece& floor, const Operation& operation, const Tool& tool)
 {
     const std::optional<PartModel> above = part_above(operation, floor.z);

@@ -396,7 +396,7 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
     }
 }
 
-// Where all passes are idle they stay: a finish has some pass.
+// Passes stay if all of them are idle: a finish has some pass.
 void SurfaceOperation::leave_out_idle(double linked)
 {
     if (!is_idle_) {

@@ -33,7 +33,7 @@ std::vector<std::vector<offset::Edge>> beside_line(const std::vector<offset::Edg
                                                    bool left);
 
 // Paths that are cut one after the other at each level, without a lift: each begins in what those before have cut.
-// Those after the first are closed, with their waste on the left for a climb cut, else on the right.
+// Paths after the first are closed, with their waste on the left for a climb cut, else on the right.
 struct LineCut {
     std::vector<std::vector<offset::Edge>> paths;
     // The first has a wall beside it, and runs like those after it. Else it may begin at either end.

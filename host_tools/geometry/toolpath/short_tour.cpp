@@ -393,7 +393,7 @@ private:
     std::vector<TourStop> stops_;
     std::size_t home_;
     bool open_;
-    // Of each stop the one that it lies in, and those that lie in it; empty: none does.
+    // The stop that each one lies in, and those that lie in it; empty: none does.
     std::vector<std::optional<std::size_t>> outer_;
     std::vector<std::vector<std::size_t>> inner_;
     std::vector<TourStep> ring_;

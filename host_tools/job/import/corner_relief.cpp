@@ -1,4 +1,4 @@
-// What the tool sweeps as it goes into the corner: a strip with a round end, as wide as the tool.
+// A relief is the strip with a round end that the tool sweeps on its way into the corner.
 #include "host_tools/job/import/corner_relief.hpp"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ struct DrawnPaths {
     double resolution{};
 };
 
-// What can be drilled: points, and curves; either may be empty.
+// Places to drill: points, and curves; either may be empty.
 struct DrawnPlaces {
     std::vector<Vec2d> points;
     std::vector<nurbs::Curve> curves;

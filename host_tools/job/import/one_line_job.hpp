@@ -33,7 +33,7 @@ struct OneLineRequest {
     std::vector<double> rotate;  // degrees: about z, or about x, y, z
     std::string origin;
     std::vector<double> move;  // x, y, z
-    // Of drawings alone (sheet_job.hpp).
+    // These are for drawings alone (sheet_job.hpp).
     std::optional<double> depth;
     std::vector<std::string> layers;  // "NAME=OPERATION", "NAME=OPERATION:DEPTH"
     std::string tabs;                 // "COUNT", "COUNT:WIDTH:HEIGHT"

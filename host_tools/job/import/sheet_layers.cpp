@@ -86,7 +86,7 @@ bool cuts_layers(const job::Strategy& strategy, const job::Strategies& strategie
            strategy_for(region, strategies).name == strategy.name;
 }
 
-// What the name of a layer may ask for: outlines are found by nesting, flanks of a vee need more than a name.
+// Uses that the name of a layer may ask for: outlines are found by nesting, flanks of a vee need more than a name.
 bool is_named(Region region)
 {
     return region == Region::kLevelPocket || region == Region::kHoles || region == Region::kGrooves;

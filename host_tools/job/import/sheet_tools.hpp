@@ -1,4 +1,4 @@
-// Which of the tools of a one-line call cuts what in a drawing.
+// Chooses the tool of a one-line call that cuts each thing in a drawing.
 #pragma once
 
 #include <cstddef>

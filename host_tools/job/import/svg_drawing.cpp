@@ -24,11 +24,12 @@
 namespace cusp::import {
 namespace {
 
-constexpr int kDeepest = 16;           // of `use` in `use`
-constexpr std::size_t kMost = 100000;  // shapes
+constexpr int kDeepest = 16;  // of `use` in `use`
+constexpr int kDeepestElement = 256;
+constexpr std::size_t kMost = 500000;  // elements, those that are used again counted again
 constexpr const char* kNoLayer = "0";  // of shapes in no named group
 
-// What one shape draws.
+// The paths of one shape.
 struct SvgPiece {
     std::vector<DrawingPath> paths;  // mm
     std::string layer;
@@ -36,14 +37,15 @@ struct SvgPiece {
     bool hidden{};
 };
 
-// What holds for an element and all that is in it.
+// Everything that holds for an element and all that is in it.
 struct Surroundings {
     PlaneMap map;  // to millimetres, y upwards
     Vec2d viewport{};
     std::string layer{kNoLayer};
     std::vector<std::string> names;
     bool hidden{};
-    int uses{};
+    int uses{};   // around it
+    int depth{};  // of elements
 };
 
 bool is_group(const std::string& name)
@@ -67,6 +69,11 @@ class SvgReader {
 public:
     explicit SvgReader(const std::string& file) : file_{file}, text_{files::text_of_file(file)}
     {
+        for (std::size_t k = 0; k < text_.size(); ++k) {
+            if (text_[k] == '\n') {
+                line_ends_.push_back(static_cast<std::ptrdiff_t>(k));
+            }
+        }
         const pugi::xml_parse_result parsed = document_.load_buffer(
             text_.data(), text_.size(), pugi::parse_default | pugi::parse_trim_pcdata);
         if (!parsed) {
@@ -125,9 +132,8 @@ public:
 private:
     std::string place_at(std::ptrdiff_t offset) const
     {
-        const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(
-                                             offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-        return fmt::format("{}:{}", file_, 1 + std::count(text_.begin(), end, '\n'));
+        const auto line = std::lower_bound(line_ends_.begin(), line_ends_.end(), offset);
+        return fmt::format("{}:{}", file_, 1 + (line - line_ends_.begin()));
     }
 
     std::string place_of(const pugi::xml_node& node) const { return place_at(node.offset_debug()); }
@@ -234,6 +240,13 @@ private:
 
     void walk(const pugi::xml_node& node, Surroundings here)
     {
+        if (++here.depth > kDeepestElement) {
+            throw InputError(
+                fmt::format("{}: elements more than {} deep", place_of(node), kDeepestElement));
+        }
+        if (++walked_ > kMost) {
+            throw InputError(fmt::format("{}: more than {} elements", place_of(node), kMost));
+        }
         const std::string name = svg_name(node);
         const bool group = is_group(name);
         if (name == "symbol" && here.uses == 0) {
@@ -325,9 +338,6 @@ private:
     void draw(const pugi::xml_node& node, const Surroundings& here)
     {
         const std::string place = place_of(node);
-        if (++shapes_ > kMost) {
-            throw InputError(fmt::format("{}: more than {} shapes", place, kMost));
-        }
         if (here.map.determinant() == 0) {
             return;  // stretched to nothing
         }
@@ -346,12 +356,13 @@ private:
 
     std::string file_;
     std::string text_;
+    std::vector<std::ptrdiff_t> line_ends_;  // places in the text
     pugi::xml_document document_;
     std::map<std::string, pugi::xml_node> ids_;
     std::vector<SvgPiece> pieces_;
     std::map<std::string, std::size_t> left_out_;
     std::size_t texts_{};
-    std::size_t shapes_{};
+    std::size_t walked_{};
     Vec2d first_text_{};  // mm
     double height_{};     // of the page, pixels
     double unit_{};       // mm

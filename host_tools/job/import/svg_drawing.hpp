@@ -17,7 +17,7 @@ namespace cusp::import {
 //
 // Bezier curves, and circles and ellipses as rational quadratics, are exact.
 // Errors: InputError with file and line: no XML, no SVG, malformed values, `use` of what is not there or more than 16
-// deep, more than 100000 shapes, no curve at all.
+// deep, elements more than 256 deep, more than 500000 of them, no curve at all.
 DrawnPaths read_svg_paths(const std::string& file,
                           const std::string& layer,
                           std::vector<std::string>* notes);

@@ -33,7 +33,7 @@ struct ShapeLengths {
     {
         return svg_length_of(node, name, viewport.y, 0, place);
     }
-    // Of radii: per cent are of the mean diagonal.
+    // Per cent of radii are of the mean diagonal.
     double radius(const char* name) const
     {
         return svg_length_of(node, name, elementary::hypot(viewport.x, viewport.y) / std::sqrt(2.0),

@@ -27,7 +27,7 @@ public:
     // A name of letters, such as "translate"; may be empty.
     std::string_view word();
     std::size_t position() const { return at_; }
-    // What is left, for messages.
+    // The next characters, for messages.
     std::string_view rest() const { return text_.substr(at_, 20); }
 
 private:

@@ -44,7 +44,7 @@ void note_rapid(double depth, const FaultPlace& at, VerifyFigures& figures)
     }
 }
 
-// Where the stock is so large that its grid is coarser than the tools ask for, rapid moves are looked at in tiles.
+// Rapid moves are looked at in tiles if the stock is so large that its grid is coarser than the tools ask for.
 void look_at_rapids_closer(Verifying& work)
 {
     const HeightGrid fine = stock_grid(work.job, part_box(work.scene.surfaces, work.scene.mesh),

@@ -34,7 +34,7 @@ struct CutFigures {
     const DeepRapid* deepest_rapid() const;
 };
 
-// What a rapid move cuts before those after it: all along, or as if the tool had come to its end from above.
+// The cut of a rapid move, before the moves after it: all along, or as if the tool had come to its end from above.
 enum class RapidCut { kAlong, kAtEnd };
 
 // Called with the share done, from time to time.
