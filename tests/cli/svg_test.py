@@ -239,7 +239,7 @@ class Svg(CuspCase):
         self.cusp(0, "info", "d.svg", "--stats", "i.json")
         part = json.loads((self.folder / "i.json").read_text())["files"][0]
         self.assertEqual("SVG", part["format"])
-        self.assertEqual({"cut": 1, "inner": 1}, {layer["name"]: len(layer["loops"]) for layer in part["layers"] if not layer["hidden"]})
+        self.assertEqual({"cut": 2}, {layer["name"]: len(layer["loops"]) for layer in part["layers"] if not layer["hidden"]})
 
     def test_it_is_cut_as_a_dxf_is(self):
         """A pocket with an island, holes to drill, letters of curves."""

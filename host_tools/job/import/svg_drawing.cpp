@@ -43,6 +43,7 @@ struct Surroundings {
     Vec2d viewport{};
     std::string layer{kNoLayer};
     std::vector<std::string> names;
+    bool in_layer{};  // of Inkscape
     bool hidden{};
     int uses{};   // around it
     int depth{};  // of elements
@@ -330,8 +331,12 @@ private:
                 here.names.push_back(name);
             }
         }
-        if (group && !here.names.empty() && !(label.empty() && id.empty())) {
+        const bool layer =
+            node.attribute("inkscape:groupmode").value() == std::string_view{"layer"};
+        const bool outermost = !here.in_layer && here.layer == kNoLayer;
+        if (group && (layer || outermost) && !(label.empty() && id.empty())) {
             here.layer = here.names.back();
+            here.in_layer = layer;
         }
     }
 
@@ -377,11 +382,12 @@ DrawnPaths read_svg_paths(const std::string& file,
 {
     const SvgReader reader{file};
     DrawnPaths drawn;
+    const bool is_layer = std::any_of(reader.pieces().begin(), reader.pieces().end(),
+                                      [&](const SvgPiece& piece) { return piece.layer == layer; });
     for (const SvgPiece& piece : reader.pieces()) {
-        const bool wanted = layer.empty() ? !piece.hidden
-                                          : piece.layer == layer ||
-                                                std::find(piece.names.begin(), piece.names.end(),
-                                                          layer) != piece.names.end();
+        const bool named =
+            std::find(piece.names.begin(), piece.names.end(), layer) != piece.names.end();
+        const bool wanted = layer.empty() ? !piece.hidden : is_layer ? piece.layer == layer : named;
         if (wanted) {
             drawn.paths.insert(drawn.paths.end(), piece.paths.begin(), piece.paths.end());
         }

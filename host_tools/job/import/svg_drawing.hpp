@@ -22,7 +22,7 @@ DrawnPaths read_svg_paths(const std::string& file,
                           const std::string& layer,
                           std::vector<std::string>* notes);
 
-// Each shape is on the layer of the innermost group with a label or an id; "0": in none.
+// Each shape is on one layer: of Inkscape, the innermost; else the outermost group with a label or an id; "0": in none.
 DrawnLayers read_svg_layers(const std::string& file);
 
 }  // namespace cusp::import
