@@ -100,7 +100,7 @@ else
     run_tests thread
     echo "building without Eigen, Open CASCADE and lib3mf, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
-        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF \
+        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF -DCUSP_FONTS=OFF \
         -DCUSP_VIEW=OFF \
         -DCUSP_UNITY=ON
     quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp

@@ -3,15 +3,15 @@
 # Builds the product.
 host_packages="g++ cmake ninja-build libcli11-dev libcpp-httplib-dev libeigen3-dev libfmt-dev libpugixml-dev libserialport-dev libtbb-dev libtomlplusplus-dev
     nlohmann-json3-dev zlib1g-dev"
-# Also reads STEP, IGES, BREP and 3MF.
-cad_packages="libocct-data-exchange-dev lib3mf-dev"
+# Also reads STEP, IGES, BREP and 3MF, and letters of font files.
+cad_packages="libocct-data-exchange-dev lib3mf-dev libharfbuzz-dev"
 # Builds the images of the boards.
 image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
 # Makes the Debian packages of it all, and checks them.
 package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian pybind11-dev python3-dev
     python3-numpy python3-wheel"
 # Runs all tests.
-test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-jsonschema python3-numpy
+test_packages="$host_packages $cad_packages $image_packages cpputest fonts-dejavu-core libpolyclipping-dev python3 python3-jsonschema python3-numpy
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
 # Builds the core in WebAssembly, for the pages and npm.
 wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"

@@ -68,7 +68,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the C
 freestanding core that cusp simulates: G-code, planner, interpolator, pulses.
 For a board of one's own. Programs that plan, verify and simulate link
 cusp::plan, cusp::verify and cusp::simulate.")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "lib3mf-dev, libfmt-dev, libpugixml-dev, libtbb-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "lib3mf-dev, libfmt-dev, libharfbuzz-dev, libpugixml-dev, libtbb-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-cusp)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)

@@ -24,7 +24,7 @@ bash -c '. /usr/share/bash-completion/completions/cusp
     COMP_WORDS=(cusp plan --sta) COMP_CWORD=2; _cusp; [ "${COMPREPLY[*]}" = --stats ]'
 
 # The core, for a board of one's own.
-apt-get install -y -qq --no-install-recommends ./cusp-dev_*.deb g++ cmake make lib3mf-dev libfmt-dev libpugixml-dev libtbb-dev nlohmann-json3-dev >/dev/null
+apt-get install -y -qq --no-install-recommends ./cusp-dev_*.deb g++ cmake make lib3mf-dev libfmt-dev libharfbuzz-dev libpugixml-dev libtbb-dev nlohmann-json3-dev >/dev/null
 cmake -S cusp/tests/checks/installed -B board >/dev/null
 cmake --build board >/dev/null
 board/board

@@ -91,9 +91,9 @@ void check_v_carve(const Operation& operation, const Refuse& refuse)
 const Strategy kProfile{
     "profile",
     "around the loops of a drawing, or on them, down to a level",
-    shared_keys({"output", "join_gaps", "direction_of_cut", "entry", "allowance", "max_depth",
-                 "chip_load", "feed_min", "feed_max", "depth", "top", "relief", "drawing_layers",
-                 "loops"}),
+    shared_keys(job::with_text({"output", "join_gaps", "direction_of_cut", "entry", "allowance",
+                                "max_depth", "chip_load", "feed_min", "feed_max", "depth", "top",
+                                "relief", "drawing_layers", "loops"})),
     {choice("side",
             {"outside", "inside", "on", "left", "right"},
             "of the loops, or on them. A loop within a loop is a hole: outside the part is inside "
@@ -145,8 +145,8 @@ const Strategy kFace{
 const Strategy kEngrave{
     "engrave",
     "along lines and curves of a drawing, open or closed, at a level or following a floor",
-    shared_keys({"output", "join_gaps", "max_depth", "depth", "top", "may_open", "drawing_layers",
-                 "loops"}),
+    shared_keys(job::with_text({"output", "join_gaps", "max_depth", "depth", "top", "may_open",
+                                "drawing_layers", "loops"})),
     {{"floor", Kind::kFiles, "none", "files of surfaces that it follows"}},
     {Region::kGrooves},
     nullptr,
@@ -156,8 +156,8 @@ const Strategy kEngrave{
 const Strategy kVCarve{
     "v_carve",
     "between the loops of a drawing, with slanted walls down to where they meet: letters, inlays",
-    shared_keys(
-        {"output", "join_gaps", "direction_of_cut", "max_depth", "step_over", "top", "may_open"}),
+    shared_keys(job::with_text(
+        {"output", "join_gaps", "direction_of_cut", "max_depth", "step_over", "top", "may_open"})),
     {{"depth", Kind::kLength, "the height of the flank", "below `top`: the most", kPositive},
      {"scallop", Kind::kLength, "0.05 mm", "the ridges on a level floor", job::kToleranceRange}},
     {Region::kValleys},
@@ -165,14 +165,15 @@ const Strategy kVCarve{
     check_v_carve,
     plan_v_carve};
 
-const Strategy kChamfer{"chamfer",
-                        "the upper edge of the loops' material",
-                        shared_keys({"output", "join_gaps", "direction_of_cut", "top"}),
-                        {{"width", Kind::kLength, "needed",
-                          "seen from above; the vee's angle makes the depth", kPositive}},
-                        {Region::kEdges},
-                        nullptr,
-                        check_chamfer,
-                        plan_chamfer};
+const Strategy kChamfer{
+    "chamfer",
+    "the upper edge of the loops' material",
+    shared_keys(job::with_text({"output", "join_gaps", "direction_of_cut", "top"})),
+    {{"width", Kind::kLength, "needed", "seen from above; the vee's angle makes the depth",
+      kPositive}},
+    {Region::kEdges},
+    nullptr,
+    check_chamfer,
+    plan_chamfer};
 
 }  // namespace cusp::prismatic

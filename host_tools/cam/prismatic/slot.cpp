@@ -80,8 +80,8 @@ std::vector<PlannedOperation> plan_slot(const Job& job, const Operation& operati
 const job::Strategy kSlot{
     "slot",
     "along lines and curves of a drawing, as wide as the tool or wider, with round ends",
-    job::shared_keys({"output", "direction_of_cut", "entry", "max_depth", "step_over", "depth",
-                      "top", "may_open"}),
+    job::shared_keys(job::with_text({"output", "direction_of_cut", "entry", "max_depth",
+                                     "step_over", "depth", "top", "may_open"})),
     {{"width", Kind::kLength, "the tool's diameter", "across the line", job::kPositive}},
     {job::Region::kGrooves},
     nullptr,

@@ -25,6 +25,18 @@ Curve line_curve(Vec2d a, Vec2d b)
     return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};
 }
 
+Curve bezier_curve(const std::vector<Vec2d>& points)
+{
+    const auto degree = static_cast<int>(points.size()) - 1;
+    Curve curve{degree, {}, {}, std::vector<double>(points.size(), 1)};
+    curve.knots.assign(points.size(), 0);
+    curve.knots.insert(curve.knots.end(), points.size(), 1);
+    for (const Vec2d p : points) {
+        curve.points.push_back({p.x, p.y, 0});
+    }
+    return curve;
+}
+
 Curve bulged_curve(Vec2d from, Vec2d to, double bulge)
 {
     constexpr double kStraight = 1e-9;

@@ -28,6 +28,9 @@ nurbs::Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
 // bulge  tangent of a quarter of the sweep; positive: counter-clockwise
 nurbs::Curve bulged_curve(Vec2d from, Vec2d to, double bulge);
 
+// By its control points, first and last on the curve: a line of two, else of the degree of their number less one.
+nurbs::Curve bezier_curve(const std::vector<Vec2d>& points);
+
 // Splits the curve at inner knots of multiplicity degree + 1, with which some programs write chains
 // of Bezier curves. Wrong counts of knots or weights are left to check_curve().
 std::vector<nurbs::Curve> parts_of(const nurbs::Curve& curve);

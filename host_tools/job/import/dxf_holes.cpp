@@ -69,7 +69,7 @@ Vec2d begin_of(const Chain& chain) { return in_plan(chain.front().points.front()
 Vec2d end_of(const Chain& chain) { return in_plan(chain.back().points.back()); }
 
 // Curves whose ends meet, in order.
-std::vector<Chain> chains_of(const std::vector<Curve>& curves)
+std::vector<Chain> joined(const std::vector<Curve>& curves)
 {
     std::vector<Chain> chains;
     std::vector<bool> used(curves.size(), false);
@@ -167,7 +167,7 @@ std::vector<Hole> circles_of(const std::vector<Curve>& curves, std::size_t& othe
             rest.push_back(curve);
         }
     }
-    for (const Chain& chain : chains_of(rest)) {
+    for (const Chain& chain : joined(rest)) {
         const auto circle = circle_of_arcs(chain);
         others += circle ? 0 : chain.size();
         if (circle) {
@@ -257,17 +257,23 @@ std::vector<Curve> read_curves(const std::string& name,
     return curves_of(read_paths(name, millimetres, notes));
 }
 
+std::vector<Chain> chains_of(const std::string& name,
+                             const std::vector<Curve>& curves,
+                             std::vector<std::string>& notes)
+{
+    std::size_t repeated = 0;
+    const std::vector<Curve> once = without_repeats(curves, repeated);
+    if (repeated > 0) {
+        notes.push_back(repeats_text(name, repeated));
+    }
+    return joined(once);
+}
+
 std::vector<Chain> read_chains(const std::string& name,
                                double millimetres,
                                std::vector<std::string>& notes)
 {
-    std::size_t repeated = 0;
-    const std::vector<Curve> once =
-        without_repeats(read_curves(name, millimetres, &notes), repeated);
-    if (repeated > 0) {
-        notes.push_back(repeats_text(name, repeated));
-    }
-    return chains_of(once);
+    return chains_of(name, read_curves(name, millimetres, &notes), notes);
 }
 
 }  // namespace cusp::import

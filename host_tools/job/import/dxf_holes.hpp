@@ -43,6 +43,13 @@ std::vector<nurbs::Curve> read_curves(const std::string& name,
                                       double millimetres,
                                       std::vector<std::string>* notes);
 
+// Curves in chains, as read_chains() makes them.
+//
+// name  of their drawing, for the note
+std::vector<job::Chain> chains_of(const std::string& name,
+                                  const std::vector<nurbs::Curve>& curves,
+                                  std::vector<std::string>& notes);
+
 // The curves of a drawing, or of a JSON file, in chains: ends no farther apart than 1e-3 mm meet.
 //
 // notes  gets a sentence on curves that are drawn twice, and those of the reader

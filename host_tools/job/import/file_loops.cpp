@@ -96,31 +96,34 @@ DrawnPaths paths_of_layers(const std::string& file,
     return out;
 }
 
+// layers  empty: what `name` says
+DrawnPaths drawn_paths(const std::string& name,
+                       const std::vector<std::string>& layers,
+                       double millimetres,
+                       std::vector<std::string>& notes)
+{
+    const std::size_t mark = layer_mark(name);
+    const std::string file = name.substr(0, mark);
+    const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
+    return layers.empty() ? read_drawn_paths(file, millimetres, layer, &notes)
+                          : paths_of_layers(file, layers, millimetres, notes);
+}
+
 struct NestedDrawing {
     LoopNesting nesting;
     double join;  // mm
 };
 
-// layers  empty: what `name` says
-NestedDrawing nested_drawing(const std::string& name,
-                             const std::vector<std::string>& layers,
-                             double millimetres,
-                             EndDistance gaps,
-                             std::vector<std::string>& notes)
+NestedDrawing nested_drawing(const DrawnPaths& drawn, EndDistance gaps)
 {
-    const std::size_t mark = layer_mark(name);
-    const std::string file = name.substr(0, mark);
-    const std::string layer = mark == std::string::npos ? "" : name.substr(mark + 1);
-    const DrawnPaths drawn = layers.empty() ? read_drawn_paths(file, millimetres, layer, &notes)
-                                            : paths_of_layers(file, layers, millimetres, notes);
     const double join = gaps.given ? std::max(*gaps.given, kEndsMeet)
                                    : std::max(gaps.least, join_limit(drawn.resolution));
     return {nest_loops(drawn.paths, join), join};
 }
 
-std::vector<FileLoop> loops_of(const std::string& name,
-                               const NestedDrawing& drawn,
-                               std::vector<std::string>& notes)
+std::vector<FileLoop> named_loops(const std::string& name,
+                                  const NestedDrawing& drawn,
+                                  std::vector<std::string>& notes)
 {
     const auto& [nesting, join] = drawn;
     if (nesting.crossing) {
@@ -148,17 +151,34 @@ bool names_drawing(const std::string& name)
 
 }  // namespace
 
+std::vector<FileLoop> loops_of(const std::string& name,
+                               const DrawnPaths& drawn,
+                               EndDistance gaps,
+                               std::vector<std::string>& notes)
+{
+    const NestedDrawing nested = nested_drawing(drawn, gaps);
+    if (!nested.nesting.open.empty()) {
+        refuse_open(name, nested.nesting, nested.join);
+    }
+    return named_loops(name, nested, notes);
+}
+
+FileShapes shapes_of(const std::string& name,
+                     const DrawnPaths& drawn,
+                     EndDistance gaps,
+                     std::vector<std::string>& notes)
+{
+    const NestedDrawing nested = nested_drawing(drawn, gaps);
+    return {named_loops(name, nested, notes), nested.nesting.open};
+}
+
 std::vector<FileLoop> read_loops(const std::string& name,
                                  double millimetres,
                                  EndDistance gaps,
                                  std::vector<std::string>& notes)
 {
     if (names_drawing(name)) {
-        const NestedDrawing drawn = nested_drawing(name, {}, millimetres, gaps, notes);
-        if (!drawn.nesting.open.empty()) {
-            refuse_open(name, drawn.nesting, drawn.join);
-        }
-        return loops_of(name, drawn, notes);
+        return loops_of(name, drawn_paths(name, {}, millimetres, notes), gaps, notes);
     }
     if (path_ending(name) == ".json") {
         return {{closed_loop(read_json_curves(name, millimetres), name), name}};
@@ -176,8 +196,7 @@ FileShapes read_shapes(const std::string& name,
     if (!names_drawing(name)) {
         return {read_loops(name, millimetres, gaps, notes), {}};
     }
-    const NestedDrawing drawn = nested_drawing(name, layers, millimetres, gaps, notes);
-    return {loops_of(name, drawn, notes), drawn.nesting.open};
+    return shapes_of(name, drawn_paths(name, layers, millimetres, notes), gaps, notes);
 }
 
 std::vector<Operation> pockets_of(const Operation& operation,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/job/import/drawing.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/job/job/part_geometry.hpp"
 
@@ -40,6 +41,18 @@ FileShapes read_shapes(const std::string& name,
                        double millimetres,
                        EndDistance gaps,
                        std::vector<std::string>& notes);
+
+// As the two others, of curves that stand in no file.
+//
+// name  of the drawing, for messages
+FileShapes shapes_of(const std::string& name,
+                     const DrawnPaths& drawn,
+                     EndDistance gaps,
+                     std::vector<std::string>& notes);
+std::vector<FileLoop> loops_of(const std::string& name,
+                               const DrawnPaths& drawn,
+                               EndDistance gaps,
+                               std::vector<std::string>& notes);
 
 // All loops of a drawing, the largest first; one loop of a JSON file.
 //

@@ -23,6 +23,7 @@
 #include "host_tools/job/import/prismatic_reader.hpp"
 #include "host_tools/job/import/setup_reader.hpp"
 #include "host_tools/job/import/stock_table.hpp"
+#include "host_tools/job/import/text_reader.hpp"
 #include "host_tools/job/import/tool_reader.hpp"
 #include "host_tools/job/import/trim_loops.hpp"
 #include "host_tools/job/job/job.hpp"
@@ -81,6 +82,7 @@ private:
     void read_units(JobTable& top);
     void read_cutting(JobTable& top);
     void read_operation(const toml::table& table, std::size_t index);
+    std::optional<std::string> read_boundary(JobTable& table, const Operation& operation);
     std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
     void read_rest(JobTable& table, Operation& operation);
@@ -295,23 +297,34 @@ void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation&
     }
 }
 
+// The file of the loops or curves that are cut, or what the operation spells in its place.
+std::optional<std::string> JobReader::read_boundary(JobTable& table, const Operation& operation)
+{
+    const auto file = table.text("boundary");
+    const bool spells = find_key(keys_of(*operation.strategy), "text") != nullptr;
+    const auto text = spells ? read_text(table, unit_, folder_, operation, parts_) : std::nullopt;
+    if (file && text) {
+        table.refuse("text", "takes the place of boundary: one of them");
+    }
+    return text ? text : file ? std::optional{path_of(*file)} : std::nullopt;
+}
+
 // One operation for each pocket; the operation itself where it has no boundary.
 std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
 {
-    const auto loops_of = [&](const std::string& name) {
-        return parts_.loops(path_of(name), unit_,
-                            {operation.tolerance.plan, operation.tolerance.join_gaps});
+    const auto loops_of = [&](const std::string& file) {
+        return parts_.loops(file, unit_, {operation.tolerance.plan, operation.tolerance.join_gaps});
     };
     std::vector<FileLoop> islands;
     for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
-        for (const FileLoop& loop : loops_of(name)) {
+        for (const FileLoop& loop : loops_of(path_of(name))) {
             if (loop.depth == 0) {
                 islands.push_back(loop);
             }
         }
     }
-    if (const auto name = table.text("boundary")) {
-        operation.outline.boundary_file = path_of(*name);
+    if (const auto name = read_boundary(table, operation)) {
+        operation.outline.boundary_file = *name;
         return pockets_of(operation, loops_of(*name), islands);
     }
     for (const FileLoop& island : islands) {
@@ -378,8 +391,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
         read_parts(table, strategy, operation);
     }
     if (operation.prismatic && !strategy.traits.pocket) {
-        const auto name = table.text("boundary");
-        operation.prismatic->file = name ? path_of(*name) : "";
+        operation.prismatic->file = read_boundary(table, operation).value_or("");
         check_operation(strategy, operation, refuse_in(table));
         read_drawing(table, choice, unit_, parts_, operation);
         job_.operations.push_back(std::move(operation));

@@ -103,7 +103,9 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
 {
     const auto [found, is_new] = loops_.try_emplace({file, gaps.least, gaps.given.value_or(-1)});
     if (is_new) {
-        found->second = read_loops(file, millimetres, gaps, notes_);
+        const auto drawn = drawn_.find(file);
+        found->second = drawn == drawn_.end() ? read_loops(file, millimetres, gaps, notes_)
+                                              : loops_of(file, drawn->second, gaps, notes_);
         move_loops(placed_drawing(file), found->second);
         for (const FileLoop& loop : found->second) {
             check_place(loop.loop, file);
@@ -118,7 +120,9 @@ FileShapes PartFiles::shapes(const std::string& file,
                              EndDistance gaps)
 {
     const Similarity move = placed_drawing(file);
-    FileShapes shapes = read_shapes(file, layers, millimetres, gaps, notes_);
+    const auto drawn = drawn_.find(file);
+    FileShapes shapes = drawn == drawn_.end() ? read_shapes(file, layers, millimetres, gaps, notes_)
+                                              : shapes_of(file, drawn->second, gaps, notes_);
     move_loops(move, shapes.loops);
     for (const FileLoop& loop : shapes.loops) {
         check_place(loop.loop, file);
@@ -196,7 +200,10 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
 std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres)
 {
     const Similarity move = placed_drawing(file);
-    std::vector<job::Chain> chains = read_chains(file, millimetres, notes_);
+    const auto drawn = drawn_.find(file);
+    std::vector<job::Chain> chains = drawn == drawn_.end()
+                                         ? read_chains(file, millimetres, notes_)
+                                         : chains_of(file, curves_of(drawn->second.paths), notes_);
     for (job::Chain& chain : chains) {
         move_curves(move, chain);
         check_place(chain, file);

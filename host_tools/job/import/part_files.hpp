@@ -52,6 +52,9 @@ public:
                                  bool only_circles);
     std::vector<job::Chain> chains(const std::string& file, double millimetres);
 
+    // A drawing that is no file, such as a text: loops(), shapes() and chains() find it by its name.
+    void draw(const std::string& name, DrawnPaths drawn) { drawn_[name] = std::move(drawn); }
+
     void note(const std::string& sentence) { notes_.push_back(sentence); }
 
     // Places a file that was not read yet; its name has no "#layer".
@@ -78,6 +81,7 @@ private:
     std::map<std::string, Triangles> meshes_;
     // keys: file, limits of gaps; below 0: not given
     std::map<std::tuple<std::string, double, double>, std::vector<FileLoop>> loops_;
+    std::map<std::string, DrawnPaths> drawn_;
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     Similarity turn_;                           // of all files, last

@@ -19,18 +19,6 @@ using nurbs::Curve;
 
 namespace {
 
-Curve bezier(const std::vector<Vec2d>& points)
-{
-    const auto degree = static_cast<int>(points.size()) - 1;
-    Curve curve{degree, {}, {}, std::vector<double>(points.size(), 1)};
-    curve.knots.assign(points.size(), 0);
-    curve.knots.insert(curve.knots.end(), points.size(), 1);
-    for (const Vec2d p : points) {
-        curve.points.push_back({p.x, p.y, 0});
-    }
-    return curve;
-}
-
 char upper(char command)
 {
     return command >= 'a' ? static_cast<char>(command - 'a' + 'A') : command;
@@ -105,7 +93,7 @@ private:
             extent = std::max(extent, norm(p - here_));
         }
         if (extent > 0) {
-            path_.curves.push_back(bezier(points));
+            path_.curves.push_back(bezier_curve(points));
         }
         here_ = end;
         last_ = kind;

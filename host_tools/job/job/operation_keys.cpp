@@ -83,6 +83,22 @@ const std::vector<Key>& pass_keys()
         choice("loops", {"all", "outer", "inner", "open"},
                "or those in no other one, those in others by themselves, open lines alone "
                "(`engrave`)"),
+        {"text", Kind::kText, "none",
+         "letters in place of `boundary`; a line break begins another line (Text, below)"},
+        {"font", Kind::kText, "single lines",
+         "of `text`: file of a font (.ttf, .otf), or a font's name such as `\"DejaVuSans-Bold\"`"},
+        {"size", Kind::kLength, "needed", "of `text`: height of its capitals", kPositive},
+        {"at", Kind::kLengths, "[0, 0]", "of `text`: place of its first baseline, as `align` says"},
+        choice("align", {"left", "centre", "right"},
+               "of `text`: the point of a line that is at `at`"),
+        {"angle",
+         Kind::kAngle,
+         "0",
+         "of `text`: its baseline, counter-clockwise from x",
+         {-360, 360}},
+        {"arc", Kind::kLength, "none",
+         "of `text`: radius of the circle through `at` that it follows; its centre is below the "
+         "letters, with a negative radius above them"},
         {"may_open", Kind::kFlag, "false",
          "its cut may open into that of the other side (Set-ups, below)"},
     };
@@ -160,6 +176,12 @@ std::vector<Key> shared_keys(const std::vector<std::string>& names)
         keys.push_back(*key);
     }
     return keys;
+}
+
+std::vector<std::string> with_text(std::vector<std::string> names)
+{
+    names.insert(names.end(), {"text", "font", "size", "at", "align", "angle", "arc"});
+    return names;
 }
 
 std::vector<Key> surface_keys(const std::vector<std::string>& names)

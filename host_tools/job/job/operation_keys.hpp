@@ -27,6 +27,9 @@ Key tables(const std::string& name,
 const std::vector<Key>& common_keys();
 // The shared keys of these names. Throws std::logic_error where there is none of a name.
 std::vector<Key> shared_keys(const std::vector<std::string>& names);
+
+// The names, and those of the keys that spell a text in place of a drawing.
+std::vector<std::string> with_text(std::vector<std::string> names);
 // Keys that all strategies on surfaces take, then the keys of these names.
 std::vector<Key> surface_keys(const std::vector<std::string>& names = {});
 // `tabs` of a profile.
