@@ -52,6 +52,7 @@ struct PlanArguments {
     PlanFiles output;
     double blend{};  // in the job's units: G64 P; 0: the exact path
     Resources resources;
+    bool list_posts{};
     bool schema{false};
     bool help_job{false};
     std::string help_name;  // of a strategy or table; "": all of them
@@ -67,7 +68,12 @@ bool explain_jobs(const PlanArguments& options)
     } else if (options.help_job) {
         fmt::print("{}", job_help(strategies::all(), options.help_name));
     }
-    return options.schema || options.help_job;
+    if (options.list_posts) {
+        for (const std::string& name : import::post_names()) {
+            fmt::print("{}: {}\n", name, import::post_text(read_post(name, "")));
+        }
+    }
+    return options.schema || options.help_job || options.list_posts;
 }
 
 // Builds the job from parts and options, prints it, and reads it as if it were a file.
@@ -179,6 +185,8 @@ void add_explaining_options(CLI::App& command, PlanArguments& options)
         ->expected(0, 1);
     command.add_flag("--schema", options.schema,
                      "print a JSON Schema of job files, for editors, and end");
+    command.add_flag("--list-posts", options.list_posts,
+                     "say for which controllers programs are written, and what they hold, and end");
 }
 
 }  // namespace
@@ -226,8 +234,8 @@ void add_plan_command(CLI::App& app, Work& work)
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
     command
         ->add_option("--post", options->call.request.post,
-                     "the controller to write for: cusp, grbl, grblhal, linuxcnc, mach3, fanuc, or "
-                     "a file .toml (docs/posts.md); default: the job's")
+                     "the controller to write for: cusp, grbl, linuxcnc ... (--list-posts), or a "
+                     "file .toml (docs/posts.md); default: the job's")
         ->type_name("NAME");
     command
         ->add_option("--blend", options->blend,

@@ -64,6 +64,12 @@ void check_words(const Job& job, double blend)
                 "\"arcs\" or \"lines\"",
                 job.file, operation.number, post.name));
         }
+        if (operation.output == OutputForm::kArcs && post.arcs == toolpath::ArcForm::kNone) {
+            throw InputError(
+                fmt::format("{}: operation {}: output = \"arcs\", but the post \"{}\" has no G2 "
+                            "and G3: say \"lines\"",
+                            job.file, operation.number, post.name));
+        }
         check_coolant(job, operation, operation.tool);
         for (const Tool& tool : operation.tools) {
             check_coolant(job, operation, tool);

@@ -41,6 +41,15 @@ std::string nine_digits(double value)
     return fixed_point(value, kKnotDigits - before_point);
 }
 
+std::string feed_text(double feed, bool point)
+{
+    std::string text = fixed_point(feed, 3);
+    if (point && text.find('.') == std::string::npos) {
+        text += '.';
+    }
+    return text;
+}
+
 void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool point)
 {
     const std::int64_t size = std::abs(value);

@@ -14,6 +14,11 @@ std::string fixed_point(double value, int decimals);
 // The value with nine significant digits: a knot or a weight.
 std::string nine_digits(double value);
 
+// A feed with at most three decimals.
+//
+// point  whether a whole number gets a point too
+std::string feed_text(double feed, bool point);
+
 // Appends value / scale, exact.
 //
 // scale  a power of ten

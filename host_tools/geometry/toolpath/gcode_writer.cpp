@@ -26,7 +26,6 @@ using nurbs::Curve;
 
 namespace {
 
-constexpr int kFeedDecimals = 3;
 // Arcs that leave their chord by less than this, in mm, are lines.
 constexpr double kLeastSagitta = 1e-4;
 // Arcs of posts with fewer decimals, or with a radius, leave the planned one by at most this, in
@@ -87,11 +86,18 @@ private:
     void end_coolant();
     void add_changed_axes(std::string& text, const Place& to) const;
     std::string feed_word(double feed);
+    std::string rapid_word() { return post_.rapid_feed > 0 ? feed_word(post_.rapid_feed) : ""; }
+    void rapid(Vec3d to);
     void change_tool(const Toolpath& path);
     void line(const char* word, Vec3d end, const std::string& feed);
     void arc(const ArcTo& to, const std::string& feed);
     void halves(const ArcTo& to, const ArcShape& shape, const std::string& feed);
-    Vec2d in_plane(const ArcTo& to, const Place& p) const;
+    // In the arc's plane, in last decimals.
+    static Vec2d in_plane(const ArcTo& to, const Place& p)
+    {
+        const auto axes = axes_of(to.plane);
+        return {static_cast<double>(p[axes[0]]), static_cast<double>(p[axes[1]])};
+    }
     std::array<std::int64_t, 2> written_centre(const ArcTo& to, const Place& end) const;
     bool leaves_arc(const ArcTo& to,
                     const Place& end,
@@ -173,7 +179,7 @@ void ProgramWriter::retract()
 {
     const std::int64_t z = rounded({0, 0, form_.clearance_z})[2];
     if (at_ && (*at_)[2] < z) {
-        put("G0 Z" + coordinate(z));
+        put("G0 Z" + coordinate(z) + rapid_word());
         (*at_)[2] = z;
     }
 }
@@ -212,11 +218,16 @@ std::string ProgramWriter::feed_word(double feed)
         return "";
     }
     feed_ = feed;
-    std::string text = " F" + fixed_point(feed / unit_, kFeedDecimals);
-    if (post_.point && text.find('.') == std::string::npos) {
-        text += '.';
-    }
-    return text;
+    return " F" + feed_text(feed / unit_, post_.point);
+}
+
+void ProgramWriter::rapid(Vec3d to)
+{
+    const double before = feed_;
+    wrote_ = false;
+    line("G0", to, rapid_word());
+    feed_ = wrote_ ? feed_ : before;
+    planned_at_ = to;
 }
 
 void ProgramWriter::spindle_and_coolant(const Toolpath& path)
@@ -297,13 +308,6 @@ void ProgramWriter::halves(const ArcTo& to, const ArcShape& shape, const std::st
     arc(first, feed);
     planned_at_ = first.end;
     arc(to, wrote_ ? "" : feed);
-}
-
-// In the arc's plane, in last decimals.
-Vec2d ProgramWriter::in_plane(const ArcTo& to, const Place& p) const
-{
-    const auto axes = axes_of(to.plane);
-    return {static_cast<double>(p[axes[0]]), static_cast<double>(p[axes[1]])};
 }
 
 std::array<std::int64_t, 2> ProgramWriter::written_centre(const ArcTo& to, const Place& end) const
@@ -418,8 +422,7 @@ void ProgramWriter::nurbs(const Curve& given, const std::string& feed)
 void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
 {
     if (move.kind == MoveKind::kRapid) {
-        line("G0", end_of(move), "");
-        planned_at_ = end_of(move);
+        rapid(end_of(move));
         return;
     }
     // a feed is spoken for only when a line is written, which a vanishing move is not
@@ -433,9 +436,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     } else {
         nurbs(std::get<NurbsTo>(move.shape).curve, feed);
     }
-    if (!wrote_) {
-        feed_ = before;
-    }
+    feed_ = wrote_ ? feed_ : before;
     planned_at_ = end_of(move);
 }
 
@@ -446,7 +447,7 @@ void ProgramWriter::cycles(const Toolpath& path)
     Place at = rounded({holes.front().bottom.x, holes.front().bottom.y, form_.clearance_z});
     const std::int64_t clearance = at[2];
     double r{};  // the R word that holds
-    line("G0", millimetres(at), "");
+    rapid(millimetres(at));
     const std::int64_t peck = rounded({0, 0, path.cycle->peck})[2];
     for (const DrilledHole& hole : holes) {
         const bool first = at[2] == clearance;

@@ -13,18 +13,21 @@
 
 namespace cusp::toolpath {
 
-enum class ArcForm : std::uint8_t { kCentre, kRadius };
+enum class ArcForm : std::uint8_t { kCentre, kRadius, kNone };
 enum class CommentForm : std::uint8_t { kParentheses, kSemicolon, kNone };
 
 // Lines are templates: {name} is replaced. A line that is {comment} alone may become several.
 struct Post {
     std::string name{"cusp"};
+    std::string about{"this project's firmware"};  // the controller, in a few words
     int mm_decimals{4};
     int inch_decimals{5};
     ArcForm arcs{ArcForm::kCentre};
     bool nurbs{true};
     bool drill_cycles{false};  // G81, G83 with G98, G80
     bool point{false};         // in whole numbers too: X10. instead of X10
+    double
+        rapid_feed{};  // mm/min: the F word of G0, for controllers that move by the last one; 0: none
     CommentForm comments{CommentForm::kParentheses};
     int line_numbers{0};             // from one N to the next; 0: none
     std::vector<std::string> begin;  // first of all

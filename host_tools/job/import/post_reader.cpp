@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <system_error>
 
 #include "host_tools/base/files/files.hpp"
@@ -87,6 +88,7 @@ Post post_of(const toml::table& document, const std::string& file, const std::st
     JobTable table{document, file, "", post_table().keys};
     Post post;
     post.name = name;
+    post.about = table.text("about").value_or("a controller of its own file");
     post.mm_decimals = table.whole_number("mm_decimals").value_or(0);
     post.inch_decimals = table.whole_number("inch_decimals").value_or(0);
     if (post.mm_decimals == 0 || post.inch_decimals == 0) {
@@ -96,15 +98,16 @@ Post post_of(const toml::table& document, const std::string& file, const std::st
     const auto comments = table.choice("comments");
     if (!arcs || !comments) {
         table.refuse(arcs ? "comments" : "arcs", arcs ? "is missing: \"()\", \";\" or \"none\""
-                                                      : "is missing: \"IJ\" or \"R\"");
+                                                      : "is missing: \"IJ\", \"R\" or \"none\"");
     }
-    post.arcs = *arcs == "R" ? ArcForm::kRadius : ArcForm::kCentre;
+    post.arcs = *arcs == "R" ? ArcForm::kRadius : *arcs == "IJ" ? ArcForm::kCentre : ArcForm::kNone;
     post.comments = *comments == "()"  ? CommentForm::kParentheses
                     : *comments == ";" ? CommentForm::kSemicolon
                                        : CommentForm::kNone;
     post.nurbs = table.required_flag("nurbs");
     post.drill_cycles = table.flag_or_default("drill_cycles");
     post.point = table.required_flag("point");
+    post.rapid_feed = table.number_or_default("rapid_feed");
     post.line_numbers = table.whole_number_or_default("line_numbers");
     for (const LineKey& key : line_keys()) {
         post.*key.lines = table.required_texts(key.key);
@@ -123,6 +126,55 @@ Post post_in(const fs::path& file, const std::string& name)
 }
 
 }  // namespace
+
+namespace {
+
+// "T M6, G43 H" of the words that the lines hold, in their order.
+std::string words_among(const std::vector<std::string>& words,
+                        const std::vector<std::vector<std::string>>& lines)
+{
+    std::vector<std::string> found;
+    for (const std::string& word : words) {
+        const auto has_word = [&](const std::string& line) {
+            const std::string text = " " + line + " ";
+            const std::size_t at = text.find(" " + word);
+            return at != std::string::npos &&
+                   std::isdigit(static_cast<unsigned char>(text[at + 1 + word.size()])) == 0;
+        };
+        for (const std::vector<std::string>& some : lines) {
+            if (std::any_of(some.begin(), some.end(), has_word)) {
+                found.push_back(word);
+                break;
+            }
+        }
+    }
+    return fmt::format("{}", fmt::join(found, " "));
+}
+
+}  // namespace
+
+std::string post_text(const Post& post)
+{
+    const std::string arcs = post.arcs == ArcForm::kCentre   ? "G2 G3 I J K"
+                             : post.arcs == ArcForm::kRadius ? "G2 G3 R"
+                                                             : "no arcs";
+    const std::string tool =
+        words_among({"T", "M6", "M06", "G43", "M0", "M600"}, {post.next_tool, post.after_tool});
+    const std::string path = words_among({"G61", "G64", "P"}, {post.exact_path, post.blend});
+    std::vector<std::string> parts{
+        fmt::format("{} and {} decimals (mm, inches)", post.mm_decimals, post.inch_decimals), arcs};
+    if (post.nurbs) {
+        parts.emplace_back("NURBS G6.2");
+    }
+    if (post.drill_cycles) {
+        parts.emplace_back("holes G81 G83");
+    }
+    parts.push_back("tool change " + tool);
+    parts.push_back(path.empty() ? "no path modes" : path);
+    const std::string coolant = words_among({"M7", "M8", "M08"}, {post.mist, post.flood});
+    parts.push_back(coolant.empty() ? "no coolant" : "coolant " + coolant);
+    return fmt::format("{}\n    {}", post.about, fmt::join(parts, "; "));
+}
 
 std::vector<std::string> post_names()
 {

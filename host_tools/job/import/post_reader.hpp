@@ -21,4 +21,7 @@ toolpath::Post read_post(const std::string& name, const std::filesystem::path& f
 // Names of the built-in posts, in alphabetical order.
 std::vector<std::string> post_names();
 
+// Two lines: the controller, and what programs for it hold.
+std::string post_text(const toolpath::Post& post);
+
 }  // namespace cusp::import
