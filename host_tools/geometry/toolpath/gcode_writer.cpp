@@ -28,12 +28,12 @@ namespace {
 
 // Arcs that leave their chord by less than this, in mm, are lines.
 constexpr double kLeastSagitta = 1e-4;
-// Arcs of posts with fewer decimals, or with a radius, leave the planned one by at most this, in
-// last decimals (post.hpp), and become lines below half a last decimal.
+// Arcs of posts with fewer decimals or a radius leave the planned one by at most this (post.hpp), in last
+// decimals, and become lines below half a last decimal.
 constexpr double kMostArcDeviation = 1.5;
 constexpr double kLeastRoundedSagitta = 0.5;
-// By radius: at a quarter turn the arc's middle moves by 0.42 of the radius' rounding.
-constexpr double kMostSweepByRadius = kPi / 2 + 1e-6;
+constexpr double kMostSweepByRadius =
+    kPi / 2 + 1e-6;  // its middle moves by 0.42 of the radius' rounding
 constexpr int kMostLineNumber = 99999;
 
 using Place = std::array<std::int64_t, 3>;  // in units of the last decimal
