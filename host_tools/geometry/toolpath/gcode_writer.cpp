@@ -32,8 +32,7 @@ constexpr double kLeastSagitta = 1e-4;
 // decimals, and become lines below half a last decimal.
 constexpr double kMostArcDeviation = 1.5;
 constexpr double kLeastRoundedSagitta = 0.5;
-constexpr double kMostSweepByRadius =
-    kPi / 2 + 1e-6;  // its middle moves by 0.42 of the radius' rounding
+constexpr double kMostSweepByRadius = kPi / 2 + 1e-6;  // there the middle moves by 0.42 of it
 constexpr int kMostLineNumber = 99999;
 
 using Place = std::array<std::int64_t, 3>;  // in units of the last decimal
