@@ -41,7 +41,7 @@ class AdaptiveLevels(CuspCase):
     def planned(self, **about):
         self.job(**about)
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
-        self.cusp(0, "verify", "job.toml", "p.ngc", "--stats", "v.json")
+        self.cusp(0, "verify", "job.toml", "p.ngc", "--grid", "0.3", "--stats", "v.json")
         plan, verified = (json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json"))
         return plan["operations"], verified
 
