@@ -14,10 +14,25 @@ using toolpath::Toolpath;
 namespace {
 
 constexpr Stage kStages[]{
-    fit_to_post,     read_earlier_programs, plan_operations,     keep_rest,         finish_paths,
-    put_in_order,    prove_rapids,          measure_paths,       prove_reach,       warn,
-    find_engagement, write_gcode,           put_times,           put_feeds_by_load, write_gcode,
-    put_times,       count_engagement,      warn_of_thin_floors,
+    fit_to_post,
+    read_earlier_programs,
+    plan_operations,
+    keep_rest,
+    finish_paths,
+    put_in_order,
+    prove_edges,
+    prove_rapids,
+    measure_paths,
+    prove_reach,
+    warn,
+    find_engagement,
+    write_gcode,
+    put_times,
+    put_feeds_by_load,
+    write_gcode,
+    put_times,
+    count_engagement,
+    warn_of_thin_floors,
 };
 
 }  // namespace

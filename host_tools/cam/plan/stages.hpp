@@ -21,6 +21,8 @@ void keep_rest(Planning& planning);
 void finish_paths(Planning& planning);
 // Groups by tool, shortens the ways between pockets.
 void put_in_order(Planning& planning);
+// Refuses chamfers and v-carvings that begin below stock which stands by then.
+void prove_edges(Planning& planning);
 // Ends rapid moves above the stock that they would meet: an operation that begins below such stock goes through it at
 // the plunge feed, a pecking drill in pecks; rapid moves across it run at the clearance height. A warning of each
 // operation says how deep. Refuses rapid moves that would cut stock all the same.

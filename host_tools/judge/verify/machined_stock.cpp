@@ -193,13 +193,15 @@ double MachinedStock::depth_at(const Tool& tool,
 double MachinedStock::level_around(double x, double y, std::size_t begin, std::size_t end) const
 {
     constexpr double kLevel = 0.01;  // mm
-    // Several points at all sides, so that a groove of a vee is never level.
-    const double reach = 2 * grid_.pitch;
-    const std::size_t first = grid_.first_column(x - reach);
-    const std::size_t last = grid_.end_column(x + reach);
-    if (first < begin || last > end) {
-        return -kUnbounded;  // other bands are cut at the same time
+    // Several points at all sides, so that a groove of a vee is never level. Other bands are cut at the same time:
+    // the one with both columns beside the place looks at its own.
+    const auto [left, right] = columns_beside(x);
+    if (left < begin || right >= end) {
+        return -kUnbounded;
     }
+    const double reach = 2 * grid_.pitch;
+    const std::size_t first = std::max(begin, grid_.first_column(x - reach));
+    const std::size_t last = std::min(end, grid_.end_column(x + reach));
     double least = kUnbounded;
     double most = -kUnbounded;
     for (std::size_t i = first; i < last; ++i) {
@@ -209,6 +211,39 @@ double MachinedStock::level_around(double x, double y, std::size_t begin, std::s
         }
     }
     return least <= most && most - least <= kLevel ? least : -kUnbounded;
+}
+
+std::pair<std::size_t, std::size_t> MachinedStock::columns_beside(double x) const
+{
+    const double column = std::floor((x - grid_.x0) / grid_.pitch);
+    const auto last = static_cast<double>(grid_.nx - 1);
+    return {static_cast<std::size_t>(std::clamp(column, 0.0, last)),
+            static_cast<std::size_t>(std::clamp(column + 1, 0.0, last))};
+}
+
+std::vector<std::size_t> MachinedStock::bands_of(const ToolPositions& positions) const
+{
+    std::vector<bool> parts(grid_.nx + 1,
+                            false);  // columns beside a place: those before from this one
+    const bool is_pointed = positions.tool.corner_radius > 0 || is_conical(positions.tool);
+    for (std::size_t k = 0; is_pointed && k < positions.tips.size(); ++k) {
+        if (positions.rapid[k] && positions.tips[k].z < top_) {
+            parts[columns_beside(positions.tips[k].x).second] = true;
+        }
+    }
+    std::vector<std::size_t> ends;
+    for (std::size_t band = 1; band < kBands; ++band) {
+        const std::size_t wanted = grid_.nx * band / kBands;
+        const std::size_t before = ends.empty() ? 0 : ends.back();
+        std::size_t end = before;  // an empty band, where every place parts two columns
+        for (std::size_t away = 0; away <= grid_.nx / (2 * kBands) && end == before; ++away) {
+            end = !parts[wanted + away] ? wanted + away : end;
+            end = !parts[wanted - away] && wanted - away >= before ? wanted - away : end;
+        }
+        ends.push_back(end);
+    }
+    ends.push_back(grid_.nx);
+    return ends;
 }
 
 bool MachinedStock::look_at_rapids_alone(const std::vector<ToolPositions>& runs, RapidCut rapids)
@@ -410,8 +445,10 @@ CutFigures MachinedStock::cut(const ToolPositions& positions,
     std::vector<CutFigures> bands(kBands);
     std::mutex guard;
     std::size_t done = 0;
-    for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
-        bands[band] = cut_band(positions, spacing, trace, contact, band, begin, end);
+    const std::vector<std::size_t> ends = bands_of(positions);
+    parallel::for_each(kBands, [&](std::size_t band) {
+        const std::size_t begin = band == 0 ? 0 : ends[band - 1];
+        bands[band] = cut_band(positions, spacing, trace, contact, band, begin, ends[band]);
         const std::lock_guard lock{guard};
         progress(static_cast<double>(++done) / static_cast<double>(kBands));
     });

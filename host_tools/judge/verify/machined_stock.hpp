@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
@@ -127,6 +128,10 @@ private:
     // z of the stock around a place where it is level: what a pointed tool meets at its axis, between the points.
     // -kUnbounded elsewhere.
     double level_around(double x, double y, std::size_t begin, std::size_t end) const;
+    // The columns left and right of a place, up to the grid's own.
+    std::pair<std::size_t, std::size_t> columns_beside(double x) const;
+    // The end of each band. None parts the columns beside a rapid position of a pointed tool.
+    std::vector<std::size_t> bands_of(const ToolPositions& positions) const;
     bool is_looked_at(const toolpath::Tool& tool, Vec3d tip) const;
     // Returns the depth, mm.
     //

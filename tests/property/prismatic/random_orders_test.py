@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Operations in random orders, at random tops and depths, in one set-up or two, beside fixtures: each job is planned with no
-rapid move in stock, by a judge of its own, or refused with the operation and a place.
+rapid move in stock, by a judge of its own, and `cusp verify` finds that its bounds hold; or it is refused with the operation
+and a place. Cuts of two sides that meet are warned of, and broken.
 
 usage: random_orders_test.py CUSP [CASES [FIRST_SEED]]
 
@@ -59,7 +60,8 @@ class RandomOrder:
         if kind == "engrave":
             return text + f'boundary = "part.dxf#e"\ndepth = {min(depth, 1)}\ntool = 4\n'
         if kind == "chamfer":
-            return text + f'boundary = "part.dxf#{r.choice("ap")}"\nwidth = {round(r.uniform(0.3, 1), 2)}\ntool = 4\n'
+            top = 0.0 if r.random() < 0.6 else top  # below standing stock it is refused
+            return f'strategy = "chamfer"\ntop = {top}\n' + f'boundary = "part.dxf#{r.choice("ap")}"\nwidth = {round(r.uniform(0.3, 1), 2)}\ntool = 4\n'
         layer = r.choice("ap") if kind == "pocket" else "o"
         text += f'boundary = "part.dxf#{layer}"\ndepth = {depth}\ntool = {r.choice((1, 2))}\n'
         text += r.choice(("", f"max_depth = {round(r.uniform(0.5, 2), 2)}\n"))
@@ -105,6 +107,12 @@ def fault(folder, two):
         found = rapid_in_stock(stock, program)
         if found:
             return f"{name}, {found}"
+        judged = subprocess.run([str(CUSP), "verify", "job.toml", name, *(["--after", "p-front.ngc"] if name == "p-back.ngc" else [])],
+                                cwd=folder, capture_output=True, text=True, timeout=600, check=False).stdout
+        broken = [line for line in judged.splitlines() if line.startswith("broken") and not (
+            "of both sides" in line and "of both sides" in done.stderr)]
+        if broken or ("broken" not in judged and "all bounds hold" not in judged):
+            return f"{name}: {'; '.join(broken) or judged[-200:]}"
         if name != "p-back.ngc" and not rapid_in_stock(StockWalk(X, Y, 0, BOTTOM), planted(program)):
             return f"{name}: the judge misses a planted rapid"
     return ""
