@@ -1,6 +1,7 @@
 // The row of stages.
 #include "host_tools/cam/plan/plan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "host_tools/cam/plan/stages.hpp"
@@ -64,6 +65,12 @@ std::vector<std::string> PlannedProgram::all_warnings() const
         all.insert(all.end(), operation.stats.warnings.begin(), operation.stats.warnings.end());
     }
     return all;
+}
+
+const job::Operation& operation_of(const Job& job, const PlannedOperation& planned)
+{
+    return *std::find_if(job.operations.begin(), job.operations.end(),
+                         [&](const job::Operation& o) { return o.number == planned.operation; });
 }
 
 std::vector<const Toolpath*> paths_of(const PlannedProgram& program)

@@ -1,5 +1,6 @@
 // A vee that begins below standing stock is wider in it than on the edge that it is to cut.
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "host_tools/base/input_error/input_error.hpp"
@@ -28,12 +29,6 @@ constexpr double kSliver = 0.02;  // mm: what an operation before may leave abov
 bool cuts_by_flanks(const Operation& operation)
 {
     return operation.cuts(job::Region::kEdges) || operation.cuts(job::Region::kValleys);
-}
-
-const Operation& operation_of(const Job& job, const PlannedOperation& planned)
-{
-    return *std::find_if(job.operations.begin(), job.operations.end(),
-                         [&](const Operation& o) { return o.number == planned.operation; });
 }
 
 // The path with the tip at the operation's top at least, in rapid moves: they meet what stands above it.

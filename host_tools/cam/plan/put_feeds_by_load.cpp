@@ -35,12 +35,6 @@ constexpr double kChange = 1.05;        // smaller changes of the feed are not w
 constexpr double kShortStretch = 0.25;  // radii: faster ones that are shorter are not worth a word
 constexpr double kSecondsPerMinute = 60.0;
 
-const Operation& operation_of(const Job& job, const PlannedOperation& planned)
-{
-    return *std::find_if(job.operations.begin(), job.operations.end(),
-                         [&](const Operation& o) { return o.number == planned.operation; });
-}
-
 // Positions [begin, end) with one feed.
 struct Stretch {
     std::size_t begin;
