@@ -20,13 +20,13 @@ struct Destroy {
 };
 
 template <class Type, void (*kDestroy)(Type*)>
-using Owned = std::unique_ptr<Type, Destroy<Type, kDestroy>>;
+using HarfBuzzObject = std::unique_ptr<Type, Destroy<Type, kDestroy>>;
 
-using Blob = Owned<hb_blob_t, hb_blob_destroy>;
-using Face = Owned<hb_face_t, hb_face_destroy>;
-using Font = Owned<hb_font_t, hb_font_destroy>;
-using Buffer = Owned<hb_buffer_t, hb_buffer_destroy>;
-using DrawFunctions = Owned<hb_draw_funcs_t, hb_draw_funcs_destroy>;
+using Blob = HarfBuzzObject<hb_blob_t, hb_blob_destroy>;
+using Face = HarfBuzzObject<hb_face_t, hb_face_destroy>;
+using Font = HarfBuzzObject<hb_font_t, hb_font_destroy>;
+using Buffer = HarfBuzzObject<hb_buffer_t, hb_buffer_destroy>;
+using DrawFunctions = HarfBuzzObject<hb_draw_funcs_t, hb_draw_funcs_destroy>;
 
 // The outline of a glyph as HarfBuzz tells it: pieces from the current point on.
 struct Pen {
