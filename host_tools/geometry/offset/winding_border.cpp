@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
@@ -211,13 +212,18 @@ private:
     }
 
     // The kept spoke that goes on at the end of one, by the sharpest left turn.
+    // Throws std::logic_error where there is none: the winding numbers contradict each other.
     std::uint32_t next_of(std::uint32_t k) const
     {
-        std::uint32_t at = twin_of(k);
-        const std::uint32_t vertex = spokes_[at].vertex;
+        const std::uint32_t back = twin_of(k);
+        const std::uint32_t vertex = spokes_[back].vertex;
+        std::uint32_t at = back;
         do {
             at = at == first_[vertex] ? first_[vertex + 1] - 1 : at - 1;
-        } while (!kept_[at]);
+        } while (!kept_[at] && at != back);
+        if (!kept_[at]) {
+            throw std::logic_error{"a border of winding numbers ends at a vertex"};
+        }
         return at;
     }
 
@@ -252,6 +258,9 @@ private:
                 path.erase(from, path.end());
             }
             k = next_of(k);
+            if (used_[k] && k != start) {
+                throw std::logic_error{"a border of winding numbers meets itself"};
+            }
         } while (k != start);
     }
 
