@@ -244,12 +244,24 @@ class BadOperations(unittest.TestCase):
     def test_levels_beside_the_stock(self):
         self.warned(r"operation 1 \(pocket\) ends at z = 1 mm, not below the stock's top, z = 0 mm: it cuts air",
                     operation("pocket", "pocket", depth=2, top=3))
-        self.warned("operation 1, profile: it begins below stock that stands by then, up to 10 mm of it at x 47.000 y "
-                    "66.000: tool 1 goes through it at the plunge feed, at 1 place", operation("profile", "outline", depth=2, top=-11))
+        self.warned("operation 1, profile: it begins below stock that stands by then, up to 5.5 mm of it at x 47.000 y "
+                    "66.000: tool 1 goes through it at the plunge feed, at 1 place", operation("profile", "outline", depth=2, top=-6.5))
         self.warned(r"operation 1 \(pocket\) goes 7 mm below the stock's bottom, z = -10 mm",
                     operation("pocket", "pocket", depth=17))
         self.assertNotIn("stock's", self.said(0, operation("drill", "in_pocket", tool=2, depth=12) +
                                               operation("profile", "outline", depth=10.5)))
+
+    def test_plunges_through_standing_stock(self):
+        def at(top, strategy="pocket", **keys):
+            return operation(strategy, "pocket" if strategy == "pocket" else "in_pocket", depth=2, top=top, **keys)
+        for text, depth, most in ((at(-8), 7, "6 mm at once (its diameter)"), (at(-8, "drill", tool=2), 7, "5 mm at once"),
+                                  (at(-5, max_depth=1.5), 4, "1.5 mm at once (max_depth)")):
+            self.refused(f"mm, below {depth} mm of stock that stands by then at x ", text)
+            self.refused(f" plunges at most {most}", text)
+        for text in (at(-5), at(-2, max_depth=1.5), at(-8, "drill", tool=2, peck=0.7)):
+            self.warned("operation 1, .*: it begins below stock that stands by then", text)
+        self.assertNotIn("stands by then", self.said(0, operation("pocket", "pocket", depth=5, max_depth=1.5) +
+                                                     at(-5, max_depth=1.5)))
 
     def test_stock_and_faces(self):
         self.refused("bottom: is -10 mm, not below the top at -20 mm", operation("profile", "outline", depth=1),

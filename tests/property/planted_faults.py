@@ -46,6 +46,8 @@ FAULTS = {
         "finishing_test"),
     "rapids are not proved": (
         "host_tools/cam/plan/prove_rapids.cpp", "by_path[rapid.path].push_back(rapid);", "", "random_orders"),
+    "any plunge through standing stock is taken": (
+        "host_tools/cam/plan/prove_rapids.cpp", "if (deepest->end_depth <= most) {", "if (true) {", "bad_operations"),
     "chamfers below standing stock are not proved": (
         "host_tools/cam/plan/prove_edges.cpp", "if (deepest != met.end() && deepest->path == k) {", "if (false) {", "random_orders"),
     "a drill meets nothing between the points": (

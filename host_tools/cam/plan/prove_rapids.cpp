@@ -15,13 +15,20 @@ namespace cusp::plan {
 
 using job::Job;
 using job::keep_off_fixtures;
+using job::Operation;
 using toolpath::PlannedOperation;
+using toolpath::Toolpath;
 using verify::RapidInStock;
 using verify::rapids_in_stock;
 
 namespace {
 
 bool is_less_deep(const RapidInStock& a, const RapidInStock& b) { return a.depth < b.depth; }
+
+bool ends_less_deep(const RapidInStock& a, const RapidInStock& b)
+{
+    return a.end_depth < b.end_depth;
+}
 
 // Errors: InputError if a rapid move would cut into stock that earlier operations and programs leave: operation, place,
 // depth and limit.
@@ -41,6 +48,39 @@ void refuse_rapids(const Job& job, const PlannedProgram& program)
         rapid->tip.x, rapid->tip.y, rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));
 }
 
+// mm: the depth of one cut of the operation.
+double most_in_one_plunge(const Operation& operation, const Toolpath& path)
+{
+    if (path.cycle && path.cycle->peck > 0) {
+        return kUnbounded;  // it pecks through that stock too
+    }
+    return operation.levels.max_depth.value_or(2 * path.tool.radius);
+}
+
+// Errors: InputError if an operation whose top is below standing stock would plunge through more of it than one cut:
+// operation, place, depth and limit.
+void refuse_deep_plunges(const Job& job,
+                         const PlannedOperation& planned,
+                         const std::vector<RapidInStock>& rapids)
+{
+    const Operation& operation = operation_of(job, planned);
+    if (!operation.prismatic || operation.prismatic->top >= job.stock_top) {
+        return;
+    }
+    const auto deepest = std::max_element(rapids.begin(), rapids.end(), ends_less_deep);
+    const double most = most_in_one_plunge(operation, planned.path);
+    if (deepest->end_depth <= most) {
+        return;
+    }
+    throw InputError(fmt::format(
+        "{}: operation {}, {}: begins at z {:.4g} mm, below {:.4g} mm of stock that stands by then "
+        "at x {:.3f} y {:.3f}: tool {} plunges at most {:.4g} mm at once ({}). Let an operation "
+        "before it cut that stock away, or raise top",
+        job.file, operation.number, operation.name(), operation.prismatic->top, deepest->end_depth,
+        deepest->tip.x, deepest->tip.y, planned.path.tool.number, most,
+        operation.levels.max_depth ? "max_depth" : "its diameter"));
+}
+
 }  // namespace
 
 void prove_rapids(Planning& planning)
@@ -54,6 +94,7 @@ void prove_rapids(Planning& planning)
     }
     for (const auto& [path, rapids] : by_path) {
         PlannedOperation& operation = program.operations[path];
+        refuse_deep_plunges(job, operation, rapids);
         const std::string name =
             fmt::format("operation {}, {}", operation.operation, operation.stats.strategy);
         operation.path = lifted(operation.path, rapids, job.stock_top + job.clearance);

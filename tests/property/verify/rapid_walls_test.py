@@ -62,10 +62,11 @@ def planned(wall, folder):
              box("a", wall, wall.thick / 2, wall.thick / 2 + 11) + box("b", wall, -wall.thick / 2 - 11, -wall.thick / 2) +
              entity("CIRCLE", "h", (10, hole[0]), (20, hole[1]), (40, drill / 2)))
     done = run(folder, "plan", "job.toml", "-o", "p.ngc")
-    if done.returncode:
+    refused = "of stock that stands by then" in done.stderr and drill < 3  # it would begin 3 mm below the wall's top
+    if done.returncode and not refused:
         return done.stderr[-300:]
     into = drill / 2 - max(0.0, across - wall.thick / 2)
-    warned = "begins below stock" in done.stdout + done.stderr
+    warned = refused or "begins below stock" in done.stdout + done.stderr
     if abs(into) > CLEAR and warned != (into > 0):
         return f"plan: a drill of {drill} mm, {into:.3f} mm into the wall: {'' if warned else 'not '}warned"
     return ""
