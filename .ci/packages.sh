@@ -15,6 +15,8 @@ test_packages="$host_packages $cad_packages $image_packages cpputest fonts-dejav
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
 # Builds the core in WebAssembly, for the pages and npm.
 wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
+# Builds the planners in WebAssembly (preset wasm-engine): ten minutes of emscripten, before a release and not in CI.
+engine_packages="emscripten libfast-float-dev libeigen3-dev"
 # Runs the demo and the packages in a bare root.
 fresh_packages="mmdebstrap"
 

@@ -2,23 +2,16 @@
 #include "host_tools/controller/simulate/fault_command.hpp"
 
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "firmware/base/panel.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 
 namespace cusp::simulate {
-namespace {
 
-std::optional<double> number_in(std::string_view text)
-{
-    double number = 0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc{} || end != text.data() + text.size() || text.empty()) {
-        return std::nullopt;
-    }
-    return number;
-}
+using number_text::number_of;
+
+namespace {
 
 // Returns the next word; the remainder stays in `text`.
 std::string_view next_word(std::string_view& text, const char* separators)
@@ -73,8 +66,8 @@ bool read_rest(FaultCommand& command, std::string_view rest)
             return word == "on" || word == "off";
         case FaultKind::kCutPowerAfter:
         case FaultKind::kProbePlate:
-            command.value = number_in(word).value_or(-1.0);
-            return number_in(word).has_value() &&
+            command.value = number_of(word).value_or(-1.0);
+            return number_of(word).has_value() &&
                    (command.value >= 0 || command.kind == FaultKind::kProbePlate);
         case FaultKind::kInputHigh:
         case FaultKind::kInputLow:
@@ -119,7 +112,7 @@ std::optional<hal::LineFaults> parse_line_faults(std::string_view text)
         const std::size_t equals = word.find('=');
         const std::string_view name = word.substr(0, equals);
         const auto value =
-            equals == std::string_view::npos ? std::nullopt : number_in(word.substr(equals + 1));
+            equals == std::string_view::npos ? std::nullopt : number_of(word.substr(equals + 1));
         if (!value || *value < 0.0 || *value > 1.0) {
             return std::nullopt;
         }
