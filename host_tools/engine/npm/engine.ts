@@ -20,7 +20,23 @@ export interface EngineModule {
   cuspProgress?: (share: number, text: string) => void;
   cuspCancelled?: () => boolean;
 }
-export type ModuleMaker = (options: { wasmBinary: ArrayBuffer | Uint8Array; printErr?: (line: string) => void }) => Promise<EngineModule>;
+/** The bytes of engine.wasm, or what they compile to. */
+export type EngineWasm = ArrayBuffer | Uint8Array | WebAssembly.Module;
+export interface MakerOptions {
+  wasmBinary?: ArrayBuffer | Uint8Array;
+  instantiateWasm?: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object;
+  locateFile?: (name: string) => string;
+  printErr?: (line: string) => void;
+}
+export type ModuleMaker = (options: MakerOptions) => Promise<EngineModule>;
+
+const sourceOf = (wasm: EngineWasm): MakerOptions => !(wasm instanceof WebAssembly.Module) ? { wasmBinary: wasm } : {
+  instantiateWasm: (imports, done) => {
+    void WebAssembly.instantiate(wasm, imports).then(done);
+    return {};
+  },
+  locateFile: (name) => name,  // nothing is fetched
+};
 
 /** Paths as jobs spell them, with bytes or text. */
 export type Files = ReadonlyMap<string, Uint8Array | string> | Readonly<Record<string, Uint8Array | string>>;
@@ -86,9 +102,9 @@ export class Engine {
 
   private constructor(private readonly module: EngineModule) {}
 
-  static async create(make: ModuleMaker, wasm: ArrayBuffer | Uint8Array): Promise<Engine> {
+  static async create(make: ModuleMaker, wasm: EngineWasm): Promise<Engine> {
     let engine: Engine | null = null;
-    const module = await make({ wasmBinary: wasm, printErr: (line) => { if (engine) engine.lastWords = line; } });
+    const module = await make({ ...sourceOf(wasm), printErr: (line) => { if (engine) engine.lastWords = line; } });
     engine = new Engine(module);
     return engine;
   }

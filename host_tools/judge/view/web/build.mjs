@@ -1,9 +1,10 @@
 // Bundles the pages: one HTML file each, script (deflated) and style inside, and a policy that forbids every request.
 //
-//   node build.mjs --out FOLDER [--core CORE.wasm] [--compare FOLDER]
+//   node build.mjs --out FOLDER [--core CORE.wasm] [--engine FOLDER --client CLIENT.ts] [--compare FOLDER]
 //
 // src/NAME_page.ts (or .tsx), NAME.html, page.css and NAME.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
-// `import wasm from "core-wasm"` gives as base64 ("" without). `import text from "worker:./x.ts"` gives the bundle of
+// `import wasm from "core-wasm"` gives as base64 ("" without). --engine: engine.mjs and engine.wasm of the preset wasm-engine, and the
+// planners' client, host_tools/engine/npm/page_client.ts: studio.html holds the planners then. `import text from "worker:./x.ts"` gives the bundle of
 // a worker as text. --compare: exit status 1 where a page of that folder, unpacked, is not the same byte for byte.
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -18,7 +19,7 @@ const option = (name) => {
   return at < 0 ? "" : process.argv[at + 1];
 };
 const out = resolve(option("out") || "out");
-const core = option("core");
+const core = option("core"), engine = option("engine"), client = option("client");
 
 const settings = {
   bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none",
@@ -39,6 +40,11 @@ const inlined = {
     build.onResolve({ filter: /^(core-wasm|licences)$/ }, (a) => ({ path: a.path, namespace: "inlined" }));
     build.onLoad({ filter: /^core-wasm$/, namespace: "inlined" }, () => ({
       contents: core ? readFileSync(core).toString("base64") : "", loader: "text",
+    }));
+    build.onResolve({ filter: /^engine-(wasm|client|module)$/ }, (a) => a.path === "engine-wasm" ? { path: a.path, namespace: "inlined" }
+      : { path: a.path === "engine-module" ? resolve(engine, "engine.mjs") : client ? resolve(client) : join(here, "src/engine/no_client.ts") });
+    build.onLoad({ filter: /^engine-wasm$/, namespace: "inlined" }, () => ({
+      contents: engine ? deflateRawSync(readFileSync(join(engine, "engine.wasm")), { level: 9 }).toString("base64") : "", loader: "text",
     }));
     build.onLoad({ filter: /^licences$/, namespace: "inlined" }, () => ({ contents: licences(), loader: "text" }));
   },

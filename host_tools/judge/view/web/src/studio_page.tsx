@@ -4,6 +4,7 @@ import { render } from "preact";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { loopbackEngine } from "./engine/loopback_engine";
+import { holdsEngine, WasmEngine } from "./engine/wasm_engine";
 import { frameButtons } from "./frame";
 import { shown } from "./project/toml_values";
 import { tablesOf } from "./project/project";
@@ -108,7 +109,7 @@ document.body.classList.add("studio");
 listen();
 render(<App />, document.getElementById("app")!);
 if (server) void server.stayOpen().catch(() => { engineText.value = "cusp studio has ended: start it again"; });
-const ready = start(server);
+const ready = start(server ?? (holdsEngine ? new WasmEngine() : null));
 Object.assign(window, {
   cusp: {
     ready,

@@ -1,0 +1,78 @@
+// The studio in one file, with the planners in the page: from a part to G-code to the virtual mill, from file:// and without a network.
+// node alone_test.mjs CUSP WEB TOP STUDIO.html
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+import { cusp, startBrowser, top, write } from "../view/browser.mjs";
+
+const file = process.argv[5], parts = path.join(top, "examples", "parts"), dome = path.join(parts, "trimmed-dome.json");
+let browser;
+before(async () => { browser = await startBrowser(); });
+after(async () => { await browser.close(); });
+
+async function open() {
+  const context = await browser.newContext({ reducedMotion: "reduce", acceptDownloads: true, offline: true });
+  context.setDefaultTimeout(300_000);
+  const page = await context.newPage(), faults = [], address = pathToFileURL(file).href;
+  page.on("request", (r) => { if (!r.url().startsWith("blob:") && r.url() !== address) faults.push("request " + r.url()); });
+  page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") faults.push("console " + m.text()); });
+  page.on("pageerror", (error) => faults.push("error " + String(error)));
+  await page.goto(address);
+  await page.waitForFunction(() => window.cusp?.state);
+  await page.evaluate(() => window.cusp.ready);
+  return { page, faults, close: () => context.close() };
+}
+
+const step = async (page, name) => { await page.getByRole("navigation").getByRole("link", { name }).click(); };
+
+async function suggested(page, part, tools, scallop) {
+  await page.locator("input[type=file]").setInputFiles([part]);
+  await step(page, "Operations");
+  await page.getByLabel("Tools", { exact: true }).fill(tools);
+  await page.locator("#suggest-scallop").fill(scallop);
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.waitForFunction(() => window.cusp.state().job.includes("[[operation]]"));
+  await step(page, "Check");
+}
+
+test("a part becomes the program of cusp plan, byte for byte, and its bounds hold", async () => {
+  const { page, faults, close } = await open();
+  await suggested(page, dome, "flat:10 ball:10", "1");
+  await page.getByRole("button", { name: "Plan", exact: true }).click();
+  await page.waitForFunction(() => window.cusp.state().checked);
+  assert.match(await page.locator(".headline").innerText(), /All bounds hold/);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download trimmed-dome.ngc" }).click()]);
+  const { job } = await page.evaluate(() => window.cusp.state()), own = write("alone/job.toml", job), folder = path.dirname(own);
+  fs.copyFileSync(dome, path.join(folder, path.basename(dome)));
+  assert.equal(spawnSync(cusp, ["plan", "job.toml", "-o", "trimmed-dome.ngc"], { cwd: folder }).status, 0);
+  assert.ok(fs.readFileSync(await download.path()).equals(fs.readFileSync(path.join(folder, "trimmed-dome.ngc"))), "the bytes are those of the program");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a plan is cancelled at once, and the next one works", async () => {
+  const { page, faults, close } = await open();
+  await suggested(page, path.join(parts, "sine-hills.json"), "ball:2", "0.005");
+  await page.getByRole("button", { name: "Plan", exact: true }).click();
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await page.getByText(/cancelled/).waitFor({ timeout: 2000 });
+  await step(page, "Operations");
+  await page.getByLabel("Tools", { exact: true }).fill("ball:10");
+  await page.locator("#suggest-scallop").fill("1");
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.waitForFunction(() => /diameter = 10/.test(window.cusp.state().job));
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a fault stands at the key that caused it", async () => {
+  const { page, close } = await open();
+  await suggested(page, dome, "flat:10 ball:10", "1");
+  const { job } = await page.evaluate(() => window.cusp.state());
+  await page.evaluate((text) => window.cusp.take([new File([text], "job.toml")]), job.replace(/^scallop = .*$/m, "scallop = -1"));
+  await page.waitForFunction(() => window.cusp.state().faults.some(({ key }) => key === "scallop"));
+  await close();
+});
