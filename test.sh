@@ -98,10 +98,10 @@ else
     quietly build/configure-thread.log cmake --preset thread
     quietly build/build-thread.log cmake --build --preset thread -j "$jobs"
     run_tests thread
-    echo "building without Eigen, Open CASCADE, lib3mf and oneTBB, with clang and make"
+    echo "building without Eigen, Open CASCADE and lib3mf, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
         -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF -DCUSP_FONTS=OFF \
-        -DCUSP_VIEW=OFF -DCUSP_THREADS=OFF \
+        -DCUSP_VIEW=OFF \
         -DCUSP_UNITY=ON
     quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
     echo "making the packages"
