@@ -23,9 +23,21 @@ std::string range_in_words(job::Range range)
     return fmt::format("{} {:g} and at most {:g}", low, range.low, range.high);
 }
 
-// As in the file.
+// As in the file, in one line. toml++ 3.2 can't write lists: it takes the logarithm of fractions for a count of columns.
 std::string text_of(const toml::node& node)
 {
+    std::vector<std::string> parts;
+    if (const toml::array* const list = node.as_array()) {
+        std::transform(list->begin(), list->end(), std::back_inserter(parts), text_of);
+        return fmt::format("[{}]", fmt::join(parts, ", "));
+    }
+    if (const toml::table* const members = node.as_table()) {
+        for (const auto& member : *members) {
+            parts.push_back(
+                fmt::format("{} = {}", std::string{member.first.str()}, text_of(member.second)));
+        }
+        return fmt::format("{{{}}}", fmt::join(parts, ", "));
+    }
     std::ostringstream text;
     node.visit([&](const auto& value) { text << value; });
     return text.str();
