@@ -13,9 +13,12 @@
 // with the ticks, give the same frames on every board and in the simulator.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
+#include "firmware/drives/drives.hpp"
 #include "firmware/machine/machine.hpp"
 #include "firmware/machine/settings_log.hpp"
 #include "hal/contract/board.hpp"
@@ -36,11 +39,7 @@ public:
     App(Board& board,
         planner::PathQueue& queue,
         const machine::Settings* factory = nullptr) noexcept
-        : board_{board},
-          log_{board.settings_store},
-          machine_{queue,
-                   factory,
-                   {Board::kMostStepsPerSecond, Board::kSecondMotor, Board::kAtSpeedInput}}
+        : board_{board}, log_{board.settings_store}, machine_{queue, factory, board_limits()}
     {
         machine_.start(machine::load_state(log_, machine_.stored()));
         wanted_ = machine_.outputs();
@@ -70,7 +69,26 @@ public:
     const machine::Machine& machine() const noexcept { return machine_; }
 
 private:
+    static constexpr machine::BoardLimits board_limits() noexcept
+    {
+        machine::BoardLimits limits{Board::kMostStepsPerSecond, Board::kSecondMotor,
+                                    Board::kAtSpeedInput};
+        if constexpr (hal::has_drive_wire<Board>) {
+            limits.drive_wires = Board::kDriveWires;
+            limits.sense_milliohms = Board::kSenseMilliohms;
+        }
+        return limits;
+    }
     bool read_bytes() noexcept;
+    void serve_drives() noexcept;
+    bool drives_busy() const noexcept
+    {
+        if constexpr (hal::has_drive_wire<Board>) {
+            return board_.drive_wire.busy();
+        } else {
+            return false;
+        }
+    }
     bool write_bytes() noexcept;
     void store_settings() noexcept;
     void want_outputs(const OutputLevels& outputs) noexcept;
@@ -102,6 +120,7 @@ bool App<Board>::poll() noexcept
     if (missed) {
         machine_.frame_missed();
     }
+    serve_drives();
     const bool worked = machine_.poll();
     const OutputLevels outputs = machine_.outputs();
     if (!(outputs == wanted_)) {
@@ -113,7 +132,8 @@ bool App<Board>::poll() noexcept
         board_.pulse_player.clear_underrun();
     }
     slices_.store(slices_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-    const bool stores = machine_.wants_store();
+    // An erase stalls the core: no answer of a drive is under way.
+    const bool stores = machine_.wants_store() && !drives_busy();
     if (stores) {
         store_settings();
     }
@@ -159,6 +179,32 @@ bool App<Board>::read_bytes() noexcept
         machine_.link_empty();
     }
     return count > 0;
+}
+
+// A datagram that has ended is taken, the next one begun.
+template <class Board>
+void App<Board>::serve_drives() noexcept
+{
+    if constexpr (hal::has_drive_wire<Board>) {
+        auto& wire = board_.drive_wire;
+        drives::Drives& drives = machine_.drives();
+        const std::uint32_t tick = machine_.motion().ticks();
+        if (drives.waits()) {
+            const bool busy = wire.busy();
+            if (busy && !drives.overdue(tick)) {
+                return;
+            }
+            std::array<std::uint8_t, drives::kReplySize> answer{};
+            const std::size_t size = busy ? 0 : wire.take(answer);
+            drives.take(Span<const std::uint8_t>{answer}.first(size), tick);
+        }
+        if (machine_.wants_store()) {
+            return;
+        }
+        if (const std::optional<drives::DriveRequest> request = drives.next(tick)) {
+            wire.begin(request->drive, request->bytes.span(), request->replies);
+        }
+    }
 }
 
 // For the tick to drive. It does not look while they are written.

@@ -74,7 +74,7 @@ struct SettingName {
     std::string_view unit;
     std::string_view choices;  // of bits and choices, in order
 };
-constexpr std::array<SettingName, 57> kNames{{
+constexpr std::array<SettingName, 62> kNames{{
     {0, Group::kStepper, Type::kInteger, "Step pulse time", "us", ""},
     {1, Group::kStepper, Type::kInteger, "Step idle delay", "ms", ""},
     {2, Group::kStepper, Type::kAxes, "Step pulse invert", "", ""},
@@ -113,7 +113,11 @@ constexpr std::array<SettingName, 57> kNames{{
     {34, Group::kSpindle, Type::kDecimal, "Spindle PWM off value", "percent", ""},
     {35, Group::kSpindle, Type::kDecimal, "Spindle PWM min value", "percent", ""},
     {36, Group::kSpindle, Type::kDecimal, "Spindle PWM max value", "percent", ""},
+    {140, Group::kAxis, Type::kInteger, "motor current", "mA", ""},
+    {150, Group::kAxis, Type::kInteger, "microsteps", "steps", ""},
     {170, Group::kAxis, Type::kDecimal, "dual axis offset", "mm", ""},
+    {210, Group::kAxis, Type::kInteger, "hold current", "percent", ""},
+    {338, Group::kStepper, Type::kAxes, "Trinamic driver", "", ""},
     {341, Group::kToolChange, Type::kChoice, "Tool change mode", "",
      "Normal,Manual touch off,Manual touch off @ G59.3,Automatic touch off @ G59.3,Ignore M6"},
     {342, Group::kToolChange, Type::kDecimal, "Tool change probing distance", "mm", ""},
@@ -137,6 +141,7 @@ constexpr std::array<SettingName, 57> kNames{{
     {810, Group::kAxis, Type::kChoice, "input shaper", "", "None,ZV,ZVD,EI"},
     {820, Group::kAxis, Type::kDecimal, "vibration frequency", "Hz", ""},
     {830, Group::kAxis, Type::kDecimal, "vibration damping ratio", "", ""},
+    {840, Group::kAxis, Type::kDecimal, "stealthChop up to", "mm/min", ""},
 }};
 
 const SettingName& name_of(std::uint16_t number) noexcept

@@ -26,6 +26,8 @@ void Machine::start(LogState loaded) noexcept
 {
     const bool mended = stored_.settings.mend(factory_ != nullptr ? *factory_ : Settings{}, board_);
     motion_.configure(stored_.settings);
+    configure_drives();
+    drives_.restart(motion_.ticks());
     interpreter_.set_parameters(stored_.parameters);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
     interpreter_.reset();
@@ -238,6 +240,10 @@ void Machine::enter_alarm(Alarm alarm) noexcept
         message("Reset to continue");
     } else if (alarm == Alarm::kEmergencyStop || alarm == Alarm::kMotorFault) {
         reset_needed_ = true;
+        if (const auto fault = drives_.fault(); fault && alarm == Alarm::kMotorFault) {
+            tell_drive_fault(*fault);
+            return;
+        }
         // The first that a bare board says: its inputs are open.
         message(
             alarm == Alarm::kMotorFault
@@ -259,6 +265,9 @@ void Machine::reset() noexcept
         state_ == State::kAlarm || state_ == State::kSleep || (state_ == State::kCheck && locked_);
     drop_all();
     critical_ = false;
+    if (reset_needed_) {
+        drives_.restart(motion_.ticks());  // they may have been without power
+    }
     reset_needed_ = false;
     locked_ = false;
     lines_.forget_cancel();
@@ -314,7 +323,8 @@ void Machine::resynchronise() noexcept
 
 OutputLevels Machine::outputs() const noexcept
 {
-    const bool stopped = state_ == State::kSleep || alarm_ == Alarm::kEmergencyStop;
+    const bool stopped =
+        state_ == State::kSleep || alarm_ == Alarm::kEmergencyStop || !drives_.may_have_current();
     return outputs_.levels(stopped);
 }
 

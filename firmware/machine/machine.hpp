@@ -13,6 +13,7 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware/drives/drives.hpp"
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/machine/dwell.hpp"
 #include "firmware/machine/homing.hpp"
@@ -94,6 +95,10 @@ public:
     // The end of a slice, with outputs() in force: the stops that it has handled are let go.
     void end_slice() noexcept;
 
+    // The motors' drives, as far as the board has wires to them: whoever has the wires carries their
+    // datagrams. Nothing moves before they are ready().
+    drives::Drives& drives() noexcept { return drives_; }
+
     State state() const noexcept { return state_; }
     Alarm alarm() const noexcept { return alarm_; }
     const Settings& settings() const noexcept { return stored_.settings; }
@@ -165,6 +170,12 @@ private:
     bool limit_on() const noexcept { return (motion_.inputs().steady() & kLimitInputs) != 0; }
     void message(std::string_view text) noexcept;
 
+    // machine_drives.cpp
+    void configure_drives() noexcept;
+    bool waits_for_drives() const noexcept;
+    bool protect_drives() noexcept;
+    void tell_drive_fault(const drives::DriveFault& fault) noexcept;
+
     // machine_lines.cpp
     bool read_lines() noexcept;
     void execute_text(std::string_view text) noexcept;
@@ -224,6 +235,7 @@ private:
     gcode::Interpreter interpreter_;
     Homing homing_;
     ToolChanger tool_changer_;
+    drives::Drives drives_;
 
     protocol::ReplyQueue replies_;
     LineDialogue lines_{replies_};

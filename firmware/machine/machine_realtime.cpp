@@ -71,7 +71,7 @@ bool Machine::handle_events() noexcept
         raise(Alarm::kHardLimit);
         return true;
     }
-    if (protect()) {
+    if (protect() || protect_drives()) {
         return true;
     }
     if (frame_missed_) {

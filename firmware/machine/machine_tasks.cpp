@@ -6,6 +6,9 @@ namespace cusp::machine {
 
 bool Machine::step_task() noexcept
 {
+    if (waits_for_drives()) {
+        return false;
+    }
     switch (task_) {
         case Task::kNone:
             return false;
@@ -303,6 +306,7 @@ bool Machine::step_configure() noexcept
         return false;
     }
     motion_.configure(stored_.settings);
+    configure_drives();
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
     reporter_.work_offset_changed();
     task_ = Task::kFinish;

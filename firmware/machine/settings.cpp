@@ -61,9 +61,19 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {34, 3, 0, 0, 100, 7},
     {35, 3, 0, 0, 100, 7},
     {36, 3, 100, 0, 100, 7},
+    {140, 0, 500, 50, 1700, 8},
+    {141, 0, 500, 50, 1700, 8},
+    {142, 0, 500, 50, 1700, 8},
+    {150, 0, 16, 1, 256, 8},
+    {151, 0, 16, 1, 256, 8},
+    {152, 0, 16, 1, 256, 8},
     {170, 3, 0, -10, 10, 3},
     {171, 3, 0, -10, 10, 3},
     {172, 3, 0, -10, 10, 3},
+    {210, 0, 50, 5, 100, 8},
+    {211, 0, 50, 5, 100, 8},
+    {212, 0, 50, 5, 100, 8},
+    {338, 0, 7, 0, 7, 8},
     {341, 0, 0, 0, 4, 2},
     {342, 3, 30, kLeastPositive, 1000, 2},
     {343, 3, 25, kLeastPositive, kMostAny, 2},
@@ -93,6 +103,9 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {830, 3, 0.05F, 0, kMostDamping, 4},
     {831, 3, 0.05F, 0, kMostDamping, 4},
     {832, 3, 0.05F, 0, kMostDamping, 4},
+    {840, 3, 0, 0, 120000, 8},
+    {841, 3, 0, 0, 120000, 8},
+    {842, 3, 0, 0, 120000, 8},
 }};
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept
@@ -103,6 +116,17 @@ std::optional<std::size_t> find_index(std::uint32_t number) noexcept
         }
     }
     return std::nullopt;
+}
+
+bool is_power_of_two(float value) noexcept
+{
+    const auto whole = static_cast<std::uint32_t>(value);
+    return whole != 0 && (whole & (whole - 1)) == 0;
+}
+bool is_microsteps(std::size_t index) noexcept
+{
+    return index >= index_of(Setting::kMicrosteps) &&
+           index < index_of(Setting::kMicrosteps) + kAxisCount;
 }
 
 }  // namespace
@@ -143,6 +167,9 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
     }
     if (cut > entry.most) {
         return Error::kGcodeMaxValueExceeded;
+    }
+    if (is_microsteps(*index) && !is_power_of_two(cut)) {
+        return Error::kInvalidStatement;
     }
     values_[*index] = cut;
     // As in Grbl: without homing there are no soft limits.
@@ -207,7 +234,9 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
 bool Settings::in_range_at(std::size_t index) const noexcept
 {
     // This form of the comparison refuses a NaN.
-    return values_[index] >= kTable[index].least && values_[index] <= kTable[index].most;
+    const bool inside =
+        values_[index] >= kTable[index].least && values_[index] <= kTable[index].most;
+    return inside && (!is_microsteps(index) || is_power_of_two(values_[index]));
 }
 
 bool Settings::in_range() const noexcept

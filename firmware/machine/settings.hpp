@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $170 to $172 and $341 to $349 and $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $140 to $152, $170 to $172, $210 to $212, $338 to $349, $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -46,39 +46,44 @@ enum class Setting : std::uint8_t {
     kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
     kAcceleration = kMaxRate + 3,        // $120 mm/s^2
     kTravel = kAcceleration + 3,         // $130 mm
-    kSecondInvert = kTravel + 3,  // $8 mask: the second motor turns the other way than $3 says
-    kControlInvert,               // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
-                                  // 64 emergency stop, 256 motor fault
-    kCoolantInvert,               // $15 mask: 1 flood, 2 mist
-    kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
-    kDirectionSetup,              // $29 us
-    kSpindleFrequency,            // $33 Hz, of the spindle's pulses
-    kSpindleOffDuty,              // $34 %: of the time that they are high while it is off
-    kSpindleLeastDuty,            // $35 %: and at $31
-    kSpindleMostDuty,             // $36 %: and at $30
-    kSquareOffset,                // $170 mm: offset of the second motor towards plus
-    kToolChangeMode = kSquareOffset + 3,  // $341; see ToolChangeMode
-    kToolSearch,                          // $342 mm: the longest way down to the tool setter
-    kToolFeed,                            // $343 mm/min: the slow touch
-    kToolSeek,                            // $344 mm/min: the fast touch
-    kSquarePercent,           // $347 %: of the travel that one switch may close later, but
-    kSquareLeast,             // $348 mm: no less
-    kSquareMost,              // $349 mm: no more
-    kSpindleDelay,            // $394 s: until the spindle is up; 0: see Accessories
-    kReportInterval,          // $481 ms, of status reports that nobody asks for; 0: none
-    kLimitFilter,             // $790 ms
-    kLinkWatchdog,            // $791 ms; 0: off
-    kStopOnError,             // $792
-    kSecondMotor,             // $793: axis with a second motor, 1 to 3; 0: none
-    kSquaring,                // $794: the second motor has a switch of its own
-    kOptionalStop,            // $795: M1 stops
-    kHoldWhenLeft,            // $796: a sender that leaves while something moves
-    kAtSpeedInput,            // $797: the spindle's drive says when it is at speed
-    kJerk,                    // $800 mm/s^3
-    kShaperType = kJerk + 3,  // $810 planner::ShaperType
+    kSecondInvert = kTravel + 3,       // $8 mask: the second motor turns the other way than $3 says
+    kControlInvert,                    // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                                       // 64 emergency stop, 256 motor fault
+    kCoolantInvert,                    // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,                    // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,                   // $29 us
+    kSpindleFrequency,                 // $33 Hz, of the spindle's pulses
+    kSpindleOffDuty,                   // $34 %: of the time that they are high while it is off
+    kSpindleLeastDuty,                 // $35 %: and at $31
+    kSpindleMostDuty,                  // $36 %: and at $30
+    kMotorCurrent,                     // $140 mA rms, of a drive that is set over its wire
+    kMicrosteps = kMotorCurrent + 3,   // $150: of a full step, a power of two
+    kSquareOffset = kMicrosteps + 3,   // $170 mm: offset of the second motor towards plus
+    kHoldCurrent = kSquareOffset + 3,  // $210 %: of $140, at rest
+    kSetDrives = kHoldCurrent + 3,     // $338 mask: axes whose drives are set over their wires
+    kToolChangeMode,                   // $341; see ToolChangeMode
+    kToolSearch,                       // $342 mm: the longest way down to the tool setter
+    kToolFeed,                         // $343 mm/min: the slow touch
+    kToolSeek,                         // $344 mm/min: the fast touch
+    kSquarePercent,                    // $347 %: of the travel that one switch may close later, but
+    kSquareLeast,                      // $348 mm: no less
+    kSquareMost,                       // $349 mm: no more
+    kSpindleDelay,                     // $394 s: until the spindle is up; 0: see Accessories
+    kReportInterval,                   // $481 ms, of status reports that nobody asks for; 0: none
+    kLimitFilter,                      // $790 ms
+    kLinkWatchdog,                     // $791 ms; 0: off
+    kStopOnError,                      // $792
+    kSecondMotor,                      // $793: axis with a second motor, 1 to 3; 0: none
+    kSquaring,                         // $794: the second motor has a switch of its own
+    kOptionalStop,                     // $795: M1 stops
+    kHoldWhenLeft,                     // $796: a sender that leaves while something moves
+    kAtSpeedInput,                     // $797: the spindle's drive says when it is at speed
+    kJerk,                             // $800 mm/s^3
+    kShaperType = kJerk + 3,           // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz
     kShaperDamping = kShaperFrequency + 3,  // $830 ratio
-    kCount = kShaperDamping + 3,
+    kStealthSpeed = kShaperDamping + 3,  // $840 mm/min: up to which a drive runs silent; 0: never
+    kCount = kStealthSpeed + 3,
 };
 
 inline constexpr std::size_t kSettingCount = static_cast<std::size_t>(Setting::kCount);
@@ -99,7 +104,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 7;
+inline constexpr std::uint8_t kSettingsLayout = 8;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -121,6 +126,9 @@ struct BoardLimits {
     std::uint32_t most_steps_per_second{1000000};
     bool second_motor{true};    // it has pins for one
     bool at_speed_input{true};  // it has a pin for the spindle's at-speed signal
+    // Motors whose drives it has a wire to: a bit each, as drives::kMostDrives counts them.
+    std::uint8_t drive_wires{0};
+    float sense_milliohms{110};  // of these drives
 };
 
 class Settings {
@@ -147,6 +155,7 @@ public:
     //   kNegativeValue        the value is negative, or zero where it must not be
     //   kSettingStepPulseMin  a step pulse shorter than 1 us
     //   kGcodeMaxValueExceeded the value is above its range
+    //   kInvalidStatement     microsteps that are no power of two
     std::optional<Error> put(std::uint32_t number, float value) noexcept;
 
     // The contradiction between settings, if any:

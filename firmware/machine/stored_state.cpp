@@ -70,13 +70,18 @@ void StoredState::widen(std::uint8_t layout, const Settings& standard) noexcept
 }
 // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
 
+RecordLayout earlier_layout(std::size_t place) noexcept
+{
+    const auto version = static_cast<std::uint8_t>(kSettingsLayout - 1 - place);
+    const std::size_t rest = rest_behind(settings_in_layout(version));
+    return {version, static_cast<std::uint32_t>(rest + sizeof(StoredState) - kRest)};
+}
+
 EarlierLayouts earlier_layouts() noexcept
 {
     EarlierLayouts layouts{};
     for (std::size_t i = 0; i < layouts.size(); ++i) {
-        const auto version = static_cast<std::uint8_t>(kSettingsLayout - 1 - i);
-        const std::size_t rest = rest_behind(settings_in_layout(version));
-        layouts[i] = {version, static_cast<std::uint32_t>(rest + sizeof(StoredState) - kRest)};
+        layouts[i] = earlier_layout(i);
     }
     return layouts;
 }

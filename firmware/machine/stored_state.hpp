@@ -48,6 +48,8 @@ static_assert(sizeof(StoredState) % 4 == 0, "the store is written in words");
 inline constexpr std::uint8_t kOldestLayout = 2;
 using EarlierLayouts = std::array<RecordLayout, kSettingsLayout - kOldestLayout>;
 EarlierLayouts earlier_layouts() noexcept;
+// One of them. Precondition: place < the size of EarlierLayouts.
+RecordLayout earlier_layout(std::size_t place) noexcept;
 
 // The settings that are the first bytes of a record of an earlier layout, as widen().
 void widen(Settings& settings, std::uint8_t layout, const Settings& standard) noexcept;
@@ -62,7 +64,6 @@ std::optional<Settings> glimpse_settings(Store& store) noexcept
     if (log.looks_empty()) {
         return standard;
     }
-    const EarlierLayouts earlier = earlier_layouts();
     RecordLayout layout{kSettingsLayout, sizeof(StoredState)};
     for (std::size_t next = 0;; ++next) {
         if (const auto place = log.find_newest(layout)) {
@@ -74,10 +75,10 @@ std::optional<Settings> glimpse_settings(Store& store) noexcept
             }
             return settings.in_range() ? std::optional<Settings>{settings} : std::nullopt;
         }
-        if (next == earlier.size()) {
+        if (next == EarlierLayouts{}.size()) {
             break;
         }
-        layout = earlier[next];
+        layout = earlier_layout(next);
     }
     return std::nullopt;
 }

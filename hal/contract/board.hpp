@@ -128,6 +128,31 @@ constexpr bool is_settings_store()
     return true;
 }
 
+// DriveWire carries datagrams to the motors' drives and back, one at a time. Context: main loop; no call
+// waits. Only a board with wires to drives has one.
+//
+//   begin(drive, bytes, replies)  sends at most 8 bytes to a drive; `replies`: it answers. What was on its
+//                                 way before is given up.
+//   busy()                        whether that is still under way.
+//   take(answer)                  the bytes of the answer, at most 8; how many came. Precondition: !busy().
+template <class T>
+constexpr bool is_drive_wire()
+{
+    static_assert(std::is_same_v<decltype(&T::begin),
+                                 void (T::*)(unsigned, Span<const std::uint8_t>, bool) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::busy), bool (T::*)() const noexcept>);
+    static_assert(
+        std::is_same_v<decltype(&T::take), std::size_t (T::*)(Span<std::uint8_t>) const noexcept>);
+    return true;
+}
+// Such a board has a drive_wire; kDriveWires, the motors that it reaches, a bit each for X, Y, Z and the
+// second motor; and kSenseMilliohms, the sense resistors of the drives.
+template <class Board, class = void>
+inline constexpr bool has_drive_wire = false;
+template <class Board>
+inline constexpr bool has_drive_wire<Board, std::void_t<decltype(Board::drive_wire)>> =
+    is_drive_wire<decltype(Board::drive_wire)>();
+
 // A Board bundles the four: an object of each, named pulse_player, byte_link, panel,
 // settings_store; kMostStepsPerSecond, the steps that it plays on each axis while all three move;
 // kSecondMotor, whether it has pins for the second motor of an axis; and kAtSpeedInput, whether it has

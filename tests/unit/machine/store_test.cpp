@@ -124,8 +124,9 @@ void check_carried_over(const PowerCycle& mill, double rate)
     LONGS_EQUAL(-114300000, parameters.tools.length_nm(3));
 }
 
-// The settings that layout 7, 6, 5, 4 and 3 brought, as `$` numbers.
+// The settings that layout 8, 7, 6, 5, 4 and 3 brought, as `$` numbers.
 const std::vector<std::vector<std::uint16_t>> kBrought{
+    {140, 141, 142, 150, 151, 152, 210, 211, 212, 338, 840, 841, 842},
     {33, 34, 35, 36, 481, 797},
     {796},
     {394, 795},
@@ -145,8 +146,8 @@ std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, uns
     for (std::size_t i = 0; i < cusp::machine::kSettingCount; ++i) {
         const std::uint16_t number = cusp::machine::setting_entry(i).number;
         bool lacks = false;
-        for (unsigned later = 7; later > layout; --later) {
-            const auto& brought = kBrought[7 - later];
+        for (unsigned later = cusp::machine::kSettingsLayout; later > layout; --later) {
+            const auto& brought = kBrought[cusp::machine::kSettingsLayout - later];
             lacks = lacks || std::find(brought.begin(), brought.end(), number) != brought.end();
         }
         const float value = state.settings.value_at(i);

@@ -1,0 +1,83 @@
+// The motors' drives: what the settings ask of them, and what a fault of one does.
+#include "firmware/machine/machine.hpp"
+
+namespace cusp::machine {
+namespace {
+
+using drives::FaultKind;
+
+std::string_view text_of(FaultKind kind) noexcept
+{
+    switch (kind) {
+        case FaultKind::kSilent:
+            return "does not answer. No such wire: take its axis out of $338";
+        case FaultKind::kGarbled:
+            return "answers with a wrong checksum";
+        case FaultKind::kOtherChip:
+            return "is no TMC2209: take its axis out of $338";
+        case FaultKind::kUnset:
+            return "does not keep its settings";
+        case FaultKind::kRestarted:
+            return "was without power and has lost its settings";
+        case FaultKind::kHot:
+            return "is too hot and has switched off";
+        case FaultKind::kShort:
+            return "has a short at its motor";
+    }
+    return "";
+}
+
+}  // namespace
+
+// A second motor has the settings of its axis.
+void Machine::configure_drives() noexcept
+{
+    const Settings& settings = stored_.settings;
+    std::array<drives::DriveRegisters, drives::kMostDrives> registers;
+    unsigned motors = 0;
+    for (unsigned drive = 0; drive < drives::kMostDrives; ++drive) {
+        const std::optional<unsigned> axis =
+            drive < kAxisCount ? std::optional<unsigned>{drive} : settings.second_motor_axis();
+        const bool is_set = axis && (settings.whole(Setting::kSetDrives) >> *axis & 1U) != 0 &&
+                            (unsigned{board_.drive_wires} >> drive & 1U) != 0;
+        if (!is_set) {
+            continue;
+        }
+        motors |= 1U << drive;
+        registers[drive] = drives::registers_for(
+            {settings.value(Setting::kMotorCurrent, *axis),
+             settings.value(Setting::kHoldCurrent, *axis),
+             static_cast<std::uint32_t>(settings.value(Setting::kMicrosteps, *axis)),
+             settings.value(Setting::kStealthSpeed, *axis),
+             settings.value(Setting::kStepsPerMillimetre, *axis), board_.sense_milliohms});
+    }
+    drives_.configure(registers, static_cast<std::uint8_t>(motors));
+}
+
+// What may move, or switch something on, waits until they are set.
+bool Machine::waits_for_drives() const noexcept
+{
+    const bool may_move =
+        task_ != Task::kListing && task_ != Task::kConfigure && task_ != Task::kFinish;
+    return may_move && !drives_.ready();
+}
+
+// After an alarm that needs a reset they may be without power: only what follows the reset counts.
+bool Machine::protect_drives() noexcept
+{
+    if (!drives_.fault() || reset_needed_) {
+        return false;
+    }
+    raise(Alarm::kMotorFault);
+    return true;
+}
+
+void Machine::tell_drive_fault(const drives::DriveFault& fault) noexcept
+{
+    constexpr std::array<std::string_view, drives::kMostDrives> kNames{"X", "Y", "Z",
+                                                                       "of the second motor"};
+    (void)replies_.text("[MSG:Drive ").text(kNames[fault.drive]).character(' ');
+    (void)replies_.text(text_of(fault.kind)).text("; then reset]").end_line();
+}
+
+}  // namespace cusp::machine
