@@ -9,6 +9,8 @@
 //   kBaud               of the line
 //   kUsb, kUsbSession   hal/stm32f4/usb_descriptors.hpp, usb_endpoints.hpp: of a plug on PA11 and PA12; a
 //                       board without has neither
+//   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
+//                       their sense resistors; a board without has neither
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
 // The traits type of a board defines its parts (Chip, PulsePlayer, ByteLink, Panel,
@@ -28,6 +30,7 @@
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/dma_link.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
+#include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/flash_settings.hpp"
 #include "hal/stm32f4/peripheral_clocks.hpp"
 #include "hal/stm32f4/pins.hpp"
@@ -56,6 +59,12 @@ struct ChipTraits {
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
     static_assert(!kUsb || Table::kClocks.has_usb(), "no 48 MHz from this core_hz");
 
+    // What the drives' part of MillBoard needs.
+    static constexpr const hal::stm32f4::DrivePins& kDrivePins = detail::drive_pins<Table>;
+    static constexpr std::uint8_t kDriveWires = hal::stm32f4::drive_wires(kDrivePins);
+    static constexpr float kSenseMilliohms = detail::sense_milliohms<Table>;
+    using DriveWire = hal::stm32f4::DriveWire<Chip, Table>;
+
     // Members that MillPanel needs.
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
@@ -75,6 +84,11 @@ struct ChipTraits {
     }
     static constexpr unsigned serial_interrupt() noexcept { return SerialPort::kInterrupt; }
     static constexpr unsigned send_interrupt() noexcept { return SerialPort::kSendInterrupt; }
+    // The serial port's where there are no wires.
+    static constexpr unsigned drive_interrupt() noexcept
+    {
+        return kDriveWires != 0 ? DriveWire::kInterrupt : serial_interrupt();
+    }
 
     // Outputs and lines at rest, as the settings invert them; left as they are where the store holds
     // something that can't be read. Context: before statics have their values.
@@ -109,6 +123,10 @@ struct ChipTraits {
         serial_link(board).start(
             SerialPort::kOnFastBus ? Table::kClocks.fast_bus_hz() : Table::kClocks.slow_bus_hz(),
             Table::kBaud);
+        if constexpr (kDriveWires != 0) {
+            board.drive_wire.start(kFastTimerHz);
+            enable_interrupt<Chip>(drive_interrupt(), kSerialPriority);
+        }
         if constexpr (kUsb) {
             // The chip's own oscillator is not accurate enough for it.
             if (clock_source_ == ClockSource::kCrystal) {
@@ -192,14 +210,21 @@ private:
         for (const Pin pin : Table::kLines) {
             ports |= clock_bit(pin);
         }
+        for (const Pin pin : kDrivePins) {
+            ports |= clock_bit(pin);
+        }
         return ports;
+    }
+    static constexpr hal::stm32f4::PeripheralClocks clocks_of_drives() noexcept
+    {
+        return kDriveWires != 0 ? DriveWire::kClocks : hal::stm32f4::PeripheralClocks{0, 0, 0};
     }
     // Beside those of the serial line: the ports, DMA2, timer 2, PWR, the pace's and the spindle's timer.
     static constexpr hal::stm32f4::PeripheralClocks peripheral_clocks() noexcept
     {
         return hal::stm32f4::PeripheralClocks{clocks_of_ports() | 1U << 22U, 1U << 0U | 1U << 28U,
                                               1U << Pace::kClockBit} |
-               clocks_of(kPulses) | SerialPort::kClocks;
+               clocks_of(kPulses) | SerialPort::kClocks | clocks_of_drives();
     }
 
     static inline hal::stm32f4::ClockSource clock_source_{hal::stm32f4::ClockSource::kNone};

@@ -1,14 +1,32 @@
 // MillBoard: the 3-axis mill controller, composed of the parts that its traits name.
 #pragma once
 
+#include <cstdint>
+#include <type_traits>
+
 #include "hal/contract/board.hpp"
 
 namespace cusp::boards {
+namespace detail {
+
+// Only a board with wires to its drives has their part.
+template <class Traits, class = void>
+struct DrivePart {
+};
+template <class Traits>
+struct DrivePart<Traits, std::enable_if_t<Traits::kDriveWires != 0>> {
+    static constexpr std::uint8_t kDriveWires = Traits::kDriveWires;
+    static constexpr float kSenseMilliohms = Traits::kSenseMilliohms;
+
+    typename Traits::DriveWire drive_wire;
+};
+
+}  // namespace detail
 
 // Boards of this kind differ only in `Traits`; boards/mill3/chip_traits.hpp lists its
 // members.
 template <class Traits>
-struct MillBoard {
+struct MillBoard : detail::DrivePart<Traits> {
     // Sets up clocks and pins before the application is constructed.
     MillBoard() noexcept { Traits::start(*this); }
     MillBoard(const MillBoard&) = delete;

@@ -36,6 +36,9 @@ public:
     void serial_interrupt() noexcept
     {
         board_.byte_link.on_interrupt();
+        if constexpr (hal::has_drive_wire<Board>) {
+            board_.drive_wire.on_interrupt();
+        }
         finish_stores();
     }
     void usb_interrupt() noexcept
@@ -49,10 +52,11 @@ public:
 
     static constexpr hal::stm32f4::VectorTable vectors() noexcept
     {
-        const std::array<hal::stm32f4::InterruptEntry, 4> interrupts{{
+        const std::array<hal::stm32f4::InterruptEntry, 5> interrupts{{
             {Traits::player_interrupt(), cusp_player_interrupt},
             {Traits::serial_interrupt(), cusp_serial_interrupt},
             {Traits::send_interrupt(), cusp_serial_interrupt},
+            {Traits::drive_interrupt(), cusp_serial_interrupt},
             {hal::stm32f4::kUsbInterrupt, Traits::kUsb ? cusp_usb_interrupt : cusp_exception},
         }};
         return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/step_ports.hpp"
 #include "hal/stm32f4/usb_endpoints.hpp"
@@ -18,6 +19,18 @@ inline constexpr bool has_usb = false;
 template <class Table>
 inline constexpr bool has_usb<Table, std::void_t<decltype(Table::kUsb)>> = true;
 
+template <class Table, class = void>
+inline constexpr hal::stm32f4::DrivePins drive_pins{};
+template <class Table>
+inline constexpr hal::stm32f4::DrivePins
+    drive_pins<Table, std::void_t<decltype(Table::kDriveWires)>> = Table::kDriveWires;
+
+template <class Table, class = void>
+inline constexpr float sense_milliohms = 0;
+template <class Table>
+inline constexpr float sense_milliohms<Table, std::void_t<decltype(Table::kSenseMilliohms)>> =
+    Table::kSenseMilliohms;
+
 constexpr bool same(Pin a, Pin b) noexcept { return a.port == b.port && a.number == b.number; }
 constexpr bool exists(Pin pin) noexcept
 {
@@ -25,7 +38,7 @@ constexpr bool exists(Pin pin) noexcept
 }
 
 // All that a table names, absent ones too.
-using AllPins = std::array<Pin, 8 + 12 + 10>;
+using AllPins = std::array<Pin, 8 + 12 + 10 + 4>;
 template <class Table>
 constexpr AllPins all_pins() noexcept
 {
@@ -38,6 +51,9 @@ constexpr AllPins all_pins() noexcept
         all[count++] = pin;
     }
     for (const Pin pin : output_pins(Table::kPanelPins)) {
+        all[count++] = pin;
+    }
+    for (const Pin pin : drive_pins<Table>) {
         all[count++] = pin;
     }
     return all;
@@ -113,6 +129,9 @@ struct PinRules {
                   "the pin of the spindle's pulses does not have that channel of that timer");
     static_assert(Table::kPanelPins.spindle_pulses.timer != Pace::kTimer,
                   "the timer of the spindle's pulses asks for the step pulses");
+    static_assert(hal::stm32f4::drive_wires(detail::drive_pins<Table>) == 0 ||
+                      (Pace::kTimer != 1 && Table::kPanelPins.spindle_pulses.timer != 1),
+                  "timer 1 is that of the drives' wires");
     static_assert(is_there(Table::kLines[6]) == is_there(Table::kLines[7]),
                   "the second motor has a step without a direction, or the other way round");
 

@@ -36,6 +36,7 @@ struct QemuTraits {
     static constexpr std::uint32_t kMostStepsPerSecond = MillTable::kMostStepsPerSecond;
     static constexpr bool kSecondMotor = false;
     static constexpr bool kAtSpeedInput = false;
+    static constexpr std::uint8_t kDriveWires = 0;
 
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>
@@ -102,6 +103,7 @@ struct QemuTraits {
     static bool live() noexcept { return live_; }
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
     static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }
+    static constexpr unsigned drive_interrupt() noexcept { return serial_interrupt(); }
     // QEMU's port sends without an interrupt: an entry of the table that is never raised.
     static constexpr unsigned send_interrupt() noexcept { return hal::stm32f4::dma2_interrupt(7); }
 

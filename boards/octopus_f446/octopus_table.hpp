@@ -6,6 +6,7 @@
 
 #include "boards/mill3/mill_panel.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
 #include "hal/stm32f4/step_ports.hpp"
@@ -37,6 +38,10 @@ struct OctopusTable {
         pins.spindle_pulses = {{'A', 6}, 1};
         return pins;
     }();
+
+    // Of TMC2209 modules of the maker.
+    static constexpr hal::stm32f4::DrivePins kDriveWires{{{'C', 4}, {'D', 11}, {'C', 6}, {'F', 2}}};
+    static constexpr float kSenseMilliohms = 110;
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

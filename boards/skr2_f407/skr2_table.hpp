@@ -6,6 +6,7 @@
 
 #include "boards/mill3/mill_panel.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
 #include "hal/stm32f4/step_ports.hpp"
@@ -38,6 +39,10 @@ struct Skr2Table {
         pins.power = {'C', 13};
         return pins;
     }();
+
+    // Of TMC2209 modules of the maker.
+    static constexpr hal::stm32f4::DrivePins kDriveWires{{{'E', 0}, {'D', 3}, {'D', 0}, {'C', 6}}};
+    static constexpr float kSenseMilliohms = 110;
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

@@ -32,6 +32,13 @@ WRONG = {
     "pins by their order": ("= [] {\n        PanelPins pins;", "= [] {\n        PanelPins pins{{'B', 12}, {'B', 13}};",
                             "no matching function"),
 }
+# The same in a table with wires to drives.
+WRONG_WIRES = {
+    "a drive's wire on a step": ("{{'E', 0}, {'D', 3}", "{{'E', 2}, {'D', 3}", "a pin is named twice"),
+    "one wire for two drives": ("{{'E', 0}, {'D', 3}", "{{'D', 3}, {'D', 3}", "a pin is named twice"),
+    "pulses on the wires' timer": ("{{'B', 0}, 3}", "{{'E', 9}, 1, 1}", "timer 1 is that of the drives' wires"),
+    "steps on the wires' timer": ("Timer8Pace", "Timer1Pace", "timer 1 is that of the drives' wires"),
+}
 
 
 def compile_table(name, text):
@@ -53,19 +60,20 @@ def main():
         said = compile_table(name, (ROOT / path).read_text())
         if said is not None:
             wrong.append(f"{path} does not compile: {said[:600]}")
-    good = (ROOT / TABLES["MillTable"]).read_text()
-    for what, (old, new, reason) in WRONG.items():
+    for table, what, (old, new, reason) in [*(("MillTable", *item) for item in WRONG.items()),
+                                            *(("Skr2Table", *item) for item in WRONG_WIRES.items())]:
+        good = (ROOT / TABLES[table]).read_text()
         if good.count(old) != 1:
             wrong.append(f"{what}: the table has {good.count(old)} of {old!r}")
             continue
-        said = compile_table("MillTable", good.replace(old, new))
+        said = compile_table(table, good.replace(old, new))
         if said is None:
             wrong.append(f"{what}: compiles")
         elif reason not in said:
             wrong.append(f"{what}: fails for another reason: {said[:600]}")
         elif len(set(re.findall(r"static assertion failed: (.*)", said))) > 1:
             wrong.append(f"{what}: fails for several reasons: {said[:600]}")
-    print("\n".join(wrong) or f"pin_tables: {len(TABLES)} tables compile, {len(WRONG)} wrong ones do not")
+    print("\n".join(wrong) or f"pin_tables: {len(TABLES)} tables compile, {len(WRONG) + len(WRONG_WIRES)} wrong ones do not")
     return 1 if wrong else 0
 
 
