@@ -73,6 +73,12 @@ PortModel& ChipUnderTest::port(char letter)
     return *found->second;
 }
 
+void ChipUnderTest::add_drive(const std::string& name, char letter, unsigned pin)
+{
+    drives_.push_back(std::make_unique<DriveModel>(circuit_, name, port(letter), pin));
+    active_.push_back(drives_.back().get());
+}
+
 auto ChipUnderTest::block_of(std::uint32_t address, unsigned size, const char* what) -> Block*
 {
     const auto found = blocks_.find(address & ~(kBlock - 1));
@@ -333,6 +339,9 @@ void ChipUnderTest::power_cycle()
     held_ = false;
     for (const auto& usart : usarts_) {
         usart->unplug();
+    }
+    for (const auto& drive : drives_) {
+        drive->reset();
     }
     reset(ClockModel::ResetCause::kPowerUp);
 }

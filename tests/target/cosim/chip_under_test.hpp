@@ -7,6 +7,7 @@
 #include "tests/target/cosim/clock_model.hpp"
 #include "tests/target/cosim/core_model.hpp"
 #include "tests/target/cosim/dma_model.hpp"
+#include "tests/target/cosim/drive_model.hpp"
 #include "tests/target/cosim/flash_model.hpp"
 #include "tests/target/cosim/port_model.hpp"
 #include "tests/target/cosim/timer_model.hpp"
@@ -54,6 +55,10 @@ public:
     LineModel& line() { return usb_is_line_ ? static_cast<LineModel&>(*host_) : serial(); }
     void make_usb_the_line(bool on) { usb_is_line_ = on; }
     PortModel& port(char letter);
+    // A drive whose single wire goes to this pin. They are told apart by their places.
+    void add_drive(const std::string& name, char port, unsigned pin);
+    DriveModel& drive(std::size_t place) { return *drives_.at(place); }
+    std::size_t drives() const { return drives_.size(); }
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
     // Duty cycle of a channel of timer 3, 1 to 4, in parts of a million; and its rate, Hz.
     std::uint32_t spindle_duty(unsigned channel) const
@@ -133,6 +138,7 @@ private:
     bool usb_is_line_{false};
     std::map<char, std::unique_ptr<PortModel>> ports_;
     std::map<std::string, std::unique_ptr<TimerModel>> timers_;
+    std::vector<std::unique_ptr<DriveModel>> drives_;
     std::unique_ptr<CoreModel> core_;
     std::map<std::uint32_t, Block> blocks_;
     std::vector<Model*> active_;  // those that do something by themselves

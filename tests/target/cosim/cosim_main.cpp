@@ -1,8 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]...
 //
-// `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
+// `drive`: a TMC2209 is at this pin; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -57,6 +57,8 @@ private:
     void serial(std::istream& words);
     void power(std::istream& words);
     void golden(std::istream& words);
+    void drive(std::istream& words);
+    void tell_drives();
     void tell_pins() const;
     void tell_changes() const;
     void tell_duties();
@@ -167,6 +169,48 @@ void Console::power(std::istream& words)
         chip_.power_cycle();
     } else {
         chip_.fail_power_after(writes);
+    }
+}
+
+// drive PLACE missing|there|garbled COUNT|version N|deaf 0|1|drift PER_THOUSAND|status BITS|restart
+void Console::drive(std::istream& words)
+{
+    std::size_t place = 0;
+    std::string what;
+    std::int64_t number = 0;
+    words >> place >> what >> number;
+    const auto value = static_cast<std::uint32_t>(number);
+    DriveModel& drive = chip_.drive(place);
+    if (what == "missing" || what == "there") {
+        drive.set_missing(what == "missing");
+    } else if (what == "garbled") {
+        drive.garble_answers(value);
+    } else if (what == "version") {
+        drive.set_version(value);
+    } else if (what == "deaf") {
+        drive.set_deaf(value != 0);
+    } else if (what == "drift") {
+        drive.set_drift(static_cast<std::int32_t>(number));
+    } else if (what == "status") {
+        drive.set_status(value);
+    } else if (what == "restart") {
+        drive.reset();
+    } else {
+        throw std::runtime_error{"no such drive command: " + what};
+    }
+}
+
+void Console::tell_drives()
+{
+    for (std::size_t place = 0; place < chip_.drives(); ++place) {
+        const DriveModel& drive = chip_.drive(place);
+        std::cout << "drive " << place << " written_ns " << drive.written_at() / 1000 << "\n"
+                  << "drive " << place << " answers " << drive.answers() << "\n"
+                  << "drive " << place << " damaged " << drive.damaged() << "\n"
+                  << "drive " << place << " baud " << static_cast<long>(drive.baud()) << "\n";
+        for (const auto& [number, value] : drive.registers()) {
+            std::cout << "drive " << place << " " << number << " " << value << "\n";
+        }
     }
 }
 
@@ -300,6 +344,10 @@ void Console::perform(const std::string& line)
     } else if (command == "flash") {
         const Picoseconds erase = milliseconds(words);
         chip_.flash().set_times(erase, milliseconds(words));
+    } else if (command == "drive") {
+        drive(words);
+    } else if (command == "drives") {
+        tell_drives();
     } else if (command == "pins") {
         tell_pins();
     } else if (command == "duties") {
@@ -322,17 +370,24 @@ int run_commands(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
+    std::vector<PinName> drives;
     for (int i = 4; i < count; ++i) {
         const std::string word = arguments[i];
         if (word == "external") {
             kind.clocks.external = true;
         } else if (word == "usart2") {
             kind.serial = 2;
+        } else if (word == "drive" && i + 1 < count) {
+            ++i;
+            drives.push_back(pin_name(arguments[i]));
         } else {
             throw std::runtime_error{"no such word: " + word};
         }
     }
     ChipUnderTest chip{kind, read_file(arguments[3])};
+    for (const PinName& pin : drives) {
+        chip.add_drive("drive " + std::to_string(chip.drives()), pin.port, pin.number);
+    }
     // 1.3 cycles an instruction.
     chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);
     Console console{chip};
@@ -349,7 +404,7 @@ int run_commands(int count, char** arguments)
 int main(int count, char** arguments)
 {
     if (count < 4) {
-        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2]\n";
+        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]...\n";
         return 2;
     }
     try {

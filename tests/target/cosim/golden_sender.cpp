@@ -158,16 +158,31 @@ void GoldenSender::take(const std::string& answer)
     }
 }
 
+// Since the last call. Other pins of the lines' ports change, too.
+bool GoldenSender::lines_changed()
+{
+    bool changed = false;
+    std::map<char, unsigned> lines;
+    for (const PinName& pin : job_.pins) {
+        lines[pin.port] |= 1U << pin.number;
+    }
+    for (const auto& [letter, mask] : lines) {
+        const std::vector<PinChange>& changes = chip_.port(letter).changes();
+        Seen& seen = seen_[letter];
+        for (; seen.count < changes.size(); ++seen.count) {
+            const unsigned high = changes[seen.count].high & mask;
+            changed = changed || high != seen.high;
+            seen.high = high;
+        }
+    }
+    return changed;
+}
+
 // The main loop has nothing left to do in this tick.
 bool GoldenSender::on_settled()
 {
     if (refused_) {
-        std::size_t changes = 0;
-        for (const PinName& pin : job_.pins) {
-            changes += chip_.port(pin.port).changes().size();
-        }
-        if (changes != changes_seen_) {
-            changes_seen_ = changes;
+        if (lines_changed()) {
             silent_since_ = tick_;
         }
         done_ = done_ || tick_ - silent_since_ > kSilence;

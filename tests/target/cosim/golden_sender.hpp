@@ -43,6 +43,7 @@ private:
     void hear(char byte);
     void take(const std::string& answer);
     void begin_line();
+    bool lines_changed();
     bool on_settled();
     bool finished() const { return (ended_ || next_line_ >= job_.lines.size()) && !waiting_; }
     void collect();
@@ -64,7 +65,11 @@ private:
     bool resumed_{false};  // in this tick
     bool done_{false};
     std::uint64_t silent_since_{0};
-    std::size_t changes_seen_{0};
+    struct Seen {
+        std::size_t count{0};  // of the port's changes
+        unsigned high{0};
+    };
+    std::map<char, Seen> seen_;
 };
 
 }  // namespace cusp::cosim

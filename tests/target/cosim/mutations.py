@@ -131,6 +131,22 @@ FAULTS_OF_USB = {
     "never holds": (TWO_LINKS, "return usb.sender_left() && usb_has_turn_;", "return false;"),
 }
 
+# Faults of the drives' wires; drives_on_chip.py judges. `--drive-faults` plants these, on a board with wires.
+WIRE = "hal/stm32f4/drive_wire.hpp"
+FAULTS_OF_DRIVES = {
+    "19 kbaud": (WIRE, "kBaud = 40000", "kBaud = 19000"),
+    "highest bit first": (WIRE, "(bits >> i & 1U)", "(bits >> (i == 0 || i == 9 ? i : 9 - i) & 1U)"),
+    "the wire never turned round": (WIRE, "PinMode::kInput, Pull::kUp);", "PinMode::kOutput);"),
+    "the wire left an input": (WIRE, "    set_pin(port(), pin_.number, PinMode::kOutput);\n    phase_", "    phase_"),
+    "no stop bit's end": (WIRE, "    words_[count] = high;", "    count -= 2;"),
+    "bits read at their edges": (WIRE, "sample + kSamples / 2;", "sample + kSamples - 1;"),
+    "an answer cut short": (WIRE, "+ kMostBytes * kBitsOfByte + 12", "+ kMostBytes * kBitsOfByte - 12"),
+    "wires of two drives swapped": (SKR2, "{'E', 0}, {'D', 3}", "{'D', 3}, {'E', 0}"),
+    "another sense resistor": (SKR2, "kSenseMilliohms = 110", "kSenseMilliohms = 75"),
+    "drives never asked": (APP, "    serve_drives();\n", ""),
+    "an erase amid an answer": (APP, "machine_.wants_store() && !drives_busy()", "machine_.wants_store()"),
+}
+
 
 class Builder:
     """Compiles and links the board's image with a changed header."""
@@ -214,7 +230,7 @@ def find_by(script, options, image):
     done = subprocess.run([sys.executable, str(pathlib.Path(__file__).with_name(script)), "--cosim", options.cosim,
                            "--board", options.board, "--cusp", options.cusp, "--image", str(image)],
                           capture_output=True, text=True)
-    failed = re.findall(r"^(?:FAIL|ERROR): (\w+)", done.stderr, re.M)
+    failed = re.findall(r"^(?:FAIL|ERROR): (\w+)", done.stderr, re.M) or re.findall(r"^(\w+): (?!holds)", done.stdout, re.M)
     return None if done.returncode == 0 else f"{len(failed)} failures: {', '.join(sorted(set(failed)))}"
 
 
@@ -224,6 +240,7 @@ def main():
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("--stops", action="store_true", help="the faults that delay a stop")
     parser.add_argument("--usb-faults", action="store_true", help="the faults of USB and of two links")
+    parser.add_argument("--drive-faults", action="store_true", help="the faults of the drives' wires")
     parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -235,7 +252,8 @@ def main():
         options.chip_seconds = options.seconds = 0.0
         options.most_ticks = 20000  # ten times what it takes
         missed = []
-        script = "stops_on_chip.py" if options.stops else "usb_on_chip.py" if options.usb_faults else None
+        script = "stops_on_chip.py" if options.stops else "usb_on_chip.py" if options.usb_faults else \
+            "drives_on_chip.py" if options.drive_faults else None
         look = functools.partial(find_by, script) if script else find
         try:
             builder = Builder(options.image, folder)
@@ -243,7 +261,8 @@ def main():
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
             faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
-            faults = FAULTS_OF_STOPS if options.stops else FAULTS_OF_USB if options.usb_faults else faults
+            faults = FAULTS_OF_STOPS if options.stops else FAULTS_OF_USB if options.usb_faults else \
+                FAULTS_OF_DRIVES if options.drive_faults else faults
             faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
                 said = look(options, builder.make(file, old, new))

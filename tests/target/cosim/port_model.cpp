@@ -135,6 +135,9 @@ void PortModel::note()
     const auto high = static_cast<std::uint16_t>(odr_ & outputs_);
     if (changes_.empty() || changes_.back().driven != outputs_ || changes_.back().high != high) {
         changes_.push_back({circuit_.now, outputs_, high});
+        for (const Listener& listener : listeners_) {
+            listener.call();
+        }
     }
 }
 

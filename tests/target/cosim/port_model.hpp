@@ -1,6 +1,8 @@
 // PortModel: a GPIO port: modes, pulls, what hangs on its pins, and a record of every level that it drives.
 #pragma once
 
+#include <functional>
+
 #include "tests/target/cosim/model.hpp"
 
 namespace cusp::cosim {
@@ -29,6 +31,13 @@ public:
     bool driven(unsigned pin) const { return mode(pin) == 1; }
     bool high(unsigned pin) const { return (odr_ >> pin & 1U) != 0; }
     char letter() const { return letter_; }
+    // Level of the wire at a pin, whoever drives it; a wire that nobody drives is high.
+    bool wire_high(unsigned pin) const { return driven(pin) ? high(pin) : outside_[pin] != 0; }
+    // Called when the port's outputs change.
+    void set_listener(unsigned pin, std::function<void()> listener)
+    {
+        listeners_.push_back({pin, std::move(listener)});
+    }
 
     const std::vector<PinChange>& changes() const { return changes_; }
     // All but the last, which is how the pins stand.
@@ -46,6 +55,11 @@ private:
     std::array<int, 16> outside_{};
     std::uint16_t outputs_{0};
     std::vector<PinChange> changes_;
+    struct Listener {
+        unsigned pin;
+        std::function<void()> call;
+    };
+    std::vector<Listener> listeners_;
 };
 
 }  // namespace cusp::cosim
