@@ -124,6 +124,14 @@ void LineDialogue::answer(std::optional<Error> error) noexcept
     (void)replies_.end_line();
 }
 
+void LineDialogue::end_report(std::uint32_t start) noexcept
+{
+    if (checked_.on()) {
+        append_checksum(start);
+    }
+    (void)replies_.end_line();
+}
+
 void LineDialogue::refuse() noexcept
 {
     const std::uint32_t start = replies_.place();

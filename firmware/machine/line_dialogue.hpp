@@ -40,6 +40,8 @@ public:
     Progress read(std::string_view& text) noexcept;
     // "ok", or "error:", with number and checksum where the lines are checked.
     void answer(std::optional<Error> error) noexcept;
+    // Ends a status report that begins at `start` of the replies: with a checksum where lines are checked.
+    void end_report(std::uint32_t start) noexcept;
     // The line that was read is over.
     void next() noexcept { line_.begin_line(); }
 

@@ -356,7 +356,9 @@ void Machine::report_status() noexcept
     }
     status.overrides = outputs_.overrides();
     status.accessories = outputs_.accessories();
+    const std::uint32_t start = replies_.place();
     reporter_.write(status, stored_.settings, replies_);
+    lines_.end_report(start);
 }
 
 }  // namespace cusp::machine

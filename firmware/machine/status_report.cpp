@@ -150,7 +150,7 @@ void StatusReporter::write(const StatusFields& status,
         write_overrides(status.overrides, out);
         write_accessories(status.accessories, out);
     }
-    (void)out.character('>').end_line();
+    (void)out.character('>');
 }
 
 }  // namespace cusp::machine

@@ -31,7 +31,7 @@ public:
     // Longest report, bytes.
     static constexpr std::uint32_t kLongest = 220;
 
-    // Writes one report. WCO comes with the first and Ov with the second after a change; then each
+    // Writes one report, without line end. WCO comes with the first and Ov with the second after a change; then each
     // tenth report at rest, each thirtieth (Ov: twentieth) in motion.
     void write(const StatusFields& status,
                const Settings& settings,

@@ -162,6 +162,7 @@ private:
     void send_line(std::uint64_t number, std::string text);
     void send_realtime(char byte);
     void pump(std::chrono::milliseconds wait);
+    static std::string without_checksum(const std::string& line);
     void take_line(const std::string& line);
     void take_listing(const std::string& line);
     void take_status(const dialect::ControllerStatus& status);

@@ -22,6 +22,10 @@ public:
         return std::string{};
     };
     std::string state{"Idle"};
+    // What comes in place of a status report.
+    std::function<std::string(const std::string&)> report = [](const std::string& whole) {
+        return whole;
+    };
     // A byte is answered at the earliest this many reads later.
     int delay{0};
     bool gone{false};
@@ -69,7 +73,7 @@ private:
     void take(char byte)
     {
         if (byte == '?') {
-            spoken_ += "<" + state + "|MPos:1.000,2.000,3.000|FS:0,0>\r\n";
+            spoken_ += report("<" + state + "|MPos:1.000,2.000,3.000|FS:0,0>") + "\r\n";
         } else if (byte == '!' || byte == '~' || byte == '\x18' || (byte & 0x80) != 0) {
             realtime_bytes.push_back(byte);
             if (byte == '\x18') {

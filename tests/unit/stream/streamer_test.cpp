@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <deque>
+#include <fmt/format.h>
 #include <functional>
 #include <thread>
 #include <vector>
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/protocol/crc32.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/stream/scripted_transport.hpp"
 
@@ -40,6 +42,15 @@ StreamOptions quick()
     options.status_interval = std::chrono::milliseconds{5};
     options.numbers = false;
     return options;
+}
+
+std::string checksum_of(const std::string& text)
+{
+    protocol::Crc32 crc;
+    for (const char character : text) {
+        crc.add(static_cast<std::uint8_t>(character));
+    }
+    return fmt::format("*{:08X}", crc.value());
 }
 
 }  // namespace
@@ -195,4 +206,17 @@ TEST(Streamer, ShowsWhereTheMachineIs)
     send(many_lines(10));
     DOUBLES_EQUAL(2.0, watcher.last.status.machine_position->y, 0.0);
     STRCMP_EQUAL("Idle", watcher.last.status.state.c_str());
+}
+
+// As a controller reports whose lines are still checked: the greeting believes no report that lost bytes.
+TEST(Streamer, AReportWithAWrongChecksumIsNone)
+{
+    controller.report = [](const std::string& whole) {
+        return whole + "*C0FFEE00";
+    };
+    CHECK(send("G1 X1\n").outcome == StreamOutcome::kNotReady);
+    controller.report = [](const std::string& whole) {
+        return whole + checksum_of(whole);
+    };
+    CHECK(send("G1 X1\n").outcome == StreamOutcome::kDone);
 }
