@@ -17,8 +17,7 @@
 #include "host_tools/controller/program_run/motion_profile.hpp"
 #include "host_tools/controller/program_run/program_run.hpp"
 #include "host_tools/controller/program_run/settings_lines.hpp"
-
-#define CUSP_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
+#include "host_tools/controller/wasm/wasm.hpp"
 
 void cusp::fault(const char* /*expression*/, const char* /*file*/, int /*line*/) noexcept
 {
@@ -56,7 +55,6 @@ struct Run {
     std::vector<double> profile_rows;
     std::array<double, kFigures> figures{};
     std::string errors;
-    std::string text;  // of the caller
 };
 
 Run& the_run()
@@ -70,14 +68,6 @@ std::string error_line(char origin, std::uint64_t line, int code, const std::str
 {
     return origin + std::string{"\t"} + std::to_string(line) + "\t" + std::to_string(code) + "\t" +
            text + "\n";
-}
-
-constexpr std::uint64_t kNever = ~std::uint64_t{0};
-
-bool is_held()
-{
-    const auto& script = the_run().options.script;
-    return !script.empty() && script.back().tick == kNever;
 }
 
 void take_figures(Run& run)
@@ -120,18 +110,24 @@ void take_figures(Run& run)
 
 }  // namespace
 
+std::string& cusp::wasm::text_of_caller()
+{
+    static std::string text;
+    return text;
+}
+
 // Allocates a text of this size, which the caller fills and the next call reads.
 CUSP_EXPORT(cusp_text) char* cusp_text(std::uint32_t size)
 {
-    Run& run = the_run();
-    run.text.resize(size);
-    return run.text.data();
+    std::string& text = wasm::text_of_caller();
+    text.resize(size);
+    return text.data();
 }
 
 // The text is the settings of the next run.
 CUSP_EXPORT(cusp_take_settings) void cusp_take_settings()
 {
-    the_run().settings.swap(the_run().text);
+    the_run().settings.swap(wasm::text_of_caller());
 }
 
 // The text is the program; the run begins. with_set_points: whether they are kept for cusp_set_points().
@@ -144,7 +140,7 @@ CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
     run.rows.clear();
     run.profile = {};
     run.figures = {};
-    run.program.swap(run.text);
+    run.program.swap(wasm::text_of_caller());
     run.options = {};
     run.options.measures_deviation = false;
     auto lines = dialect::LineSource::of_text("settings", run.settings);
@@ -176,32 +172,6 @@ CUSP_EXPORT(cusp_run_advance) int cusp_run_advance(std::uint32_t ticks)
         }
     }
     return run.run ? 1 : 0;
-}
-
-// Feed hold, as the operator's byte before the next tick. It lasts until one of the two below: the run ends a hold by itself
-// where the script has no byte left, so that a cycle start follows which is due at no time.
-CUSP_EXPORT(cusp_run_hold) void cusp_run_hold()
-{
-    if (!is_held()) {
-        the_run().options.script.push_back({0, static_cast<std::uint8_t>('!')});
-        the_run().options.script.push_back({kNever, static_cast<std::uint8_t>('~')});
-    }
-}
-// Cycle start after a hold.
-CUSP_EXPORT(cusp_run_resume) void cusp_run_resume()
-{
-    if (is_held()) {
-        the_run().options.script.back().tick = 0;
-    }
-}
-// The controller's reset: the program is lost, and the run ends.
-CUSP_EXPORT(cusp_run_reset) void cusp_run_reset()
-{
-    constexpr std::uint8_t kReset = 0x18;
-    if (is_held()) {
-        the_run().options.script.pop_back();
-    }
-    the_run().options.script.push_back({0, kReset});
 }
 
 CUSP_EXPORT(cusp_run_fraction) double cusp_run_fraction()
