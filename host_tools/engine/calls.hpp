@@ -53,5 +53,6 @@ Json plan_call(Call& call);
 Json verify_call(Call& call);
 Json run_call(Call& call);
 Json fit_call(Call& call);
+Json send_call(Call& call);
 
 }  // namespace cusp::engine

@@ -28,6 +28,7 @@ constexpr std::array kCalls = {
     NamedCall{"suggest", suggest_call}, NamedCall{"check", check_call},
     NamedCall{"plan", plan_call},       NamedCall{"verify", verify_call},
     NamedCall{"run", run_call},         NamedCall{"fit", fit_call},
+    NamedCall{"send", send_call},
 };
 
 Json result_of(const std::string& name,

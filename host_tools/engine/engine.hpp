@@ -11,7 +11,7 @@
 // Arguments, [those that may be absent], and results. `job` is the text of a job, `name` its file: paths in it are relative
 // to the folder of that name. A `block` names a block of the answer. Lengths are mm.
 //
-//     keys      {} -> version, threads, cad, schema (that of cusp plan --schema), strategies, posts
+//     keys      {} -> version, threads, cad, schema (that of cusp plan --schema), strategies, posts, errors and alarms of Grbl
 //     describe  files [units, tolerance, facets] -> files (as cusp info --stats), text, facets: file, triangles, block
 //     suggest   parts, tools [the options of a plan without a job, by their names] -> job, said
 //     check     job [name, facets] -> faults, warnings, setups: name, offset, unit, stock, tools, operations, facets
@@ -21,6 +21,9 @@
 //     run       program [settings, dialect, page, job, name, after] -> good, faults, stats; with page also facts, ticks,
 //               refused, verdict and the blocks of view::RunData
 //     fit       program, tolerance -> block, stats
+//     send      program [numbers, line, safe_z, start, start_place, now, place] -> lines, block ("LINE<tab>TEXT" each; LINE 0: of
+//               the way to `line`), and with line also way. start, now: what $I, $$, $G and $# listed when the program began
+//               and after the reset; places: of the machine
 #pragma once
 
 #include <string>
@@ -57,7 +60,7 @@ public:
     virtual bool cancelled();
 };
 
-// The names of all calls: "keys", "describe", "suggest", "check", "plan", "verify", "run", "fit".
+// The names of all calls: "keys", "describe", "suggest", "check", "plan", "verify", "run", "fit", "send".
 std::vector<std::string> names();
 
 // Throws nothing. A process does one call at a time: a second one waits for the first.

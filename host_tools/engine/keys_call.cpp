@@ -3,11 +3,30 @@
 #include <thread>
 
 #include "host_tools/cam/strategies/strategies.hpp"
+#include "host_tools/controller/dialect/answer.hpp"
 #include "host_tools/engine/calls.hpp"
 #include "host_tools/job/import/job_schema.hpp"
 #include "host_tools/job/import/post_reader.hpp"
 
 namespace cusp::engine {
+
+namespace {
+
+// The texts of Grbl's codes by their numbers.
+Json texts_of(std::string_view (*text_of)(int))
+{
+    constexpr int kMostCode = 99;
+    Json texts = Json::object();
+    for (int code = 1; code <= kMostCode; ++code) {
+        const std::string text{text_of(code)};
+        if (text != dialect::kUnknownCode) {
+            texts[std::to_string(code)] = text;
+        }
+    }
+    return texts;
+}
+
+}  // namespace
 
 Json keys_call(Call& call)
 {
@@ -30,7 +49,9 @@ Json keys_call(Call& call)
             {"cad", CUSP_READS_CAD != 0},
             {"schema", Json::parse(import::job_schema(strategies::all()))},
             {"strategies", strategies},
-            {"posts", import::post_names()}};
+            {"posts", import::post_names()},
+            {"errors", texts_of(dialect::error_text)},
+            {"alarms", texts_of(dialect::alarm_text)}};
 }
 
 }  // namespace cusp::engine

@@ -163,7 +163,7 @@ std::string_view text_of(const CodeText (&texts)[N], int code)
     const auto* const found =
         std::find_if(std::begin(texts), std::end(texts),
                      [code](const CodeText& entry) { return entry.code == code; });
-    return found == std::end(texts) ? "unknown" : found->text;
+    return found == std::end(texts) ? kUnknownCode : found->text;
 }
 
 }  // namespace

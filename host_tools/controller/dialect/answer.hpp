@@ -44,7 +44,9 @@ struct Answer {
 //   line  without its end
 Answer parse_answer(std::string_view line);
 
-// The text of an error or alarm code; "unknown" for other codes.
+constexpr std::string_view kUnknownCode = "unknown";
+
+// The text of an error or alarm code; kUnknownCode for other codes.
 std::string_view error_text(int code);
 std::string_view alarm_text(int code);
 

@@ -304,3 +304,50 @@ TEST(Engine, FitsAProgramInMemory)
     CHECK(given.result()["stats"]["moves_out"].get<int>() < 5);
     CHECK(given.block("gcode").size() < gcode.size());
 }
+
+TEST(Engine, GivesTheLinesThatAControllerIsSent)
+{
+    const files::FileSet set{
+        {"a.ngc", "%\n(first) G21 G90\n\nG0 X1 Z5 ; up\nG1 Z-1 F100\nG1 X9\nM30\nG0 X0\n"}};
+    const Given numbered = called("send", {{"program", "a.ngc"}}, set);
+    CHECK_EQUAL(5, numbered.result()["lines"].get<int>());
+    CHECK_EQUAL(std::string{"2\tN2G21G90\n4\tN4G0X1Z5\n5\tN5G1Z-1F100\n6\tN6G1X9\n7\tN7M30\n"},
+                numbered.block("lines"));
+    const Given bare = called("send", {{"program", "a.ngc"}, {"numbers", false}}, set);
+    CHECK_EQUAL(std::string{"2\tG21G90\n4\tG0X1Z5\n5\tG1Z-1F100\n6\tG1X9\n7\tM30\n"},
+                bare.block("lines"));
+    CHECK(called("send", {{"program", "b.ngc"}}, {{"b.ngc", "G1 X1\nG1 X2 ~\n"}})
+              .error()["text"]
+              .get<std::string>()
+              .find("b.ngc:2: error:1: ") == 0);
+}
+
+TEST(Engine, LeadsToTheLineAtWhichAProgramIsResumed)
+{
+    const files::FileSet set{
+        {"a.ngc", "G21 G90 F300\nG0 Z5\nG0 X1\nG1 Z-1 F100\nG1 X9\nG1 X1\nM30\n"}};
+    const Json listing = {"[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]", "[G54:-10.000,0.000,0.000]",
+                          "$11=0.010"};
+    const Given given = called("send",
+                               {{"program", "a.ngc"},
+                                {"numbers", false},
+                                {"line", 6},
+                                {"start", listing},
+                                {"start_place", {-10, 0, 0}},
+                                {"now", listing},
+                                {"place", {-4, 0, 2}}},
+                               set);
+    const Json& way = given.result()["way"];
+    CHECK_EQUAL(5, way["line"].get<int>());
+    CHECK(way["point"] == Json({1.0, 0.0, -1.0}));
+    CHECK_EQUAL(5.0, way["travel_z"].get<double>());
+    CHECK_EQUAL(100.0, way["plunge_feed"].get<double>());
+    const std::string& lines = given.block("lines");
+    CHECK(lines.find("0\tG0Z5.000000\n0\tG0X1.000000Y0.000000\n") != std::string::npos);
+    CHECK(lines.find("\n5\tG1X9\n6\tG1X1\n7\tM30\n") != std::string::npos);
+    CHECK(called("send", {{"program", "a.ngc"}, {"line", 99}}, set)
+              .error()["text"]
+              .get<std::string>()
+              .find("has no line 99") != std::string::npos);
+    CHECK_FALSE(called("send", {{"program", "a.ngc"}, {"line", 0}}, set).json["ok"].get<bool>());
+}
