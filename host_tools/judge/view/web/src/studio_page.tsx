@@ -10,7 +10,8 @@ import { shown } from "./project/toml_values";
 import { tablesOf } from "./project/project";
 import { checkedRun, CheckStep, openView, plan } from "./studio/check_step";
 import { newProject, saveProjectFile, takeFiles } from "./studio/files";
-import { now as millNow, MachineStep, stopMill } from "./studio/machine_step";
+import { isBusy, mill, now as machineNow, stop } from "./machine/machine";
+import { MachineStep } from "./machine/machine_step";
 import { OperationsStep } from "./studio/operations_step";
 import { PartStep } from "./studio/part_step";
 import { Stage } from "./studio/stage";
@@ -85,7 +86,7 @@ const isEdited = (target: EventTarget | null): boolean => target instanceof HTML
 function listen(): void {
   window.addEventListener("hashchange", () => { step.value = idNow(); });
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") stopMill();
+    if (event.key === "Escape") stop();
     if (!(event.ctrlKey || event.metaKey) || isEdited(event.target)) return;
     const key = event.key.toLowerCase();
     if (key === "z" && !event.shiftKey) history.undo();
@@ -101,7 +102,7 @@ function listen(): void {
     void takeFiles([...event.dataTransfer?.files ?? []]);
   });
   window.addEventListener("beforeunload", (event) => {
-    if (millNow.value.state === "run" || millNow.value.state === "hold") event.preventDefault();
+    if (isBusy.value) event.preventDefault();
   });
 }
 
@@ -117,7 +118,7 @@ Object.assign(window, {
     state: () => ({
       step: step.value, job: project.value.job, files: [...project.value.files.keys()], faults: checked.value.faults,
       programs: planned.value?.programs.map(({ name, gcode }) => ({ name, bytes: gcode.length })) ?? [],
-      checked: checkedRun.value?.facts.facts ?? null, mill: millNow.value, strategies: keys.value?.strategies.map(({ name }) => name) ?? [],
+      checked: checkedRun.value?.facts.facts ?? null, machine: machineNow.value, mill: mill.value, strategies: keys.value?.strategies.map(({ name }) => name) ?? [],
     }),
   },
 });

@@ -66,9 +66,6 @@ interface Exports {
   cusp_take_settings(): void;
   cusp_run_begin(withSetPoints: number): number;
   cusp_run_advance(ticks: number): number;
-  cusp_run_hold(): void;
-  cusp_run_resume(): void;
-  cusp_run_reset(): void;
   cusp_run_fraction(): number;
   cusp_run_line(): number;
   cusp_run_seconds(): number;
@@ -91,16 +88,21 @@ export function settingsText(settings: Settings): string {
   return Object.entries(settings).map(([name, value]) => `${name}=${value}\n`).join("");
 }
 
+/** A new instance of the module: its functions. File functions that the C library imports refuse every call. */
+export function instanceOf(module: WebAssembly.Module): WebAssembly.Exports {
+  const refuse = () => NOT_SUPPORTED;
+  const imports = Object.fromEntries(WebAssembly.Module.imports(module).map((i) => [i.name, refuse]));
+  const exports = new WebAssembly.Instance(module, { wasi_snapshot_preview1: imports }).exports;
+  (exports as unknown as { _initialize(): void })._initialize();
+  return exports;
+}
+
 /** One instance of the module: one run at a time. Unusable after a trap. */
 export class Core {
   private readonly exports: Exports;
 
   constructor(module: WebAssembly.Module) {
-    // File functions that the C library imports: every call is refused.
-    const refuse = () => NOT_SUPPORTED;
-    const imports = Object.fromEntries(WebAssembly.Module.imports(module).map((i) => [i.name, refuse]));
-    this.exports = new WebAssembly.Instance(module, { wasi_snapshot_preview1: imports }).exports as unknown as Exports;
-    this.exports._initialize();
+    this.exports = instanceOf(module) as unknown as Exports;
   }
 
   /** Starts a run. False: the settings are refused, see result(). */
@@ -115,11 +117,6 @@ export class Core {
   advance(ticks: number): boolean {
     return this.exports.cusp_run_advance(ticks) !== 0;
   }
-
-  /** Feed hold, cycle start and reset, as the controller's realtime bytes; before the next tick. A hold lasts until one of the others. */
-  hold() { this.exports.cusp_run_hold(); }
-  resume() { this.exports.cusp_run_resume(); }
-  reset() { this.exports.cusp_run_reset(); }
 
   progress(): Progress {
     const e = this.exports;

@@ -22,9 +22,15 @@ export interface Setup {
 
 export interface StrategyFacts { name: string; help: string; one_line: boolean; is_pocket: boolean; surfaces: boolean; keys: string[] }
 
+/** Texts of Grbl's codes, by their numbers. */
+export type CodeTexts = Record<string, string>;
+
+/** How a program is resumed: places in its coordinates, mm. */
+export interface Way { line: number; tool: number; point: [number, number, number]; travel_z: number; plunges: boolean; plunge_feed: number; spindle: number }
+
 /** Arguments and results of each call; host_tools/engine/engine.hpp describes them. Lengths are in mm. */
 export interface Calls {
-  keys: { args: Record<string, never>; result: { version: string; threads: number; cad: boolean; schema: unknown; strategies: StrategyFacts[]; posts: string[] } };
+  keys: { args: Record<string, never>; result: { version: string; threads: number; cad: boolean; schema: unknown; strategies: StrategyFacts[]; posts: string[]; errors: CodeTexts; alarms: CodeTexts } };
   describe: {
     args: { files: string[]; units?: string; facets?: boolean };
     result: { text: string; facets?: { file: string; triangles: number; block: string }[] };
@@ -35,6 +41,10 @@ export interface Calls {
   run: {
     args: { program: string; settings?: string; job?: string; name?: string; after?: string[]; page: boolean };
     result: { good: boolean; facts?: unknown; verdict?: string; faults: { line: number; text: string }[] };
+  };
+  send: {
+    args: { program: string; numbers: boolean; line?: number; safe_z?: number; start?: string[]; start_place?: number[]; now?: string[]; place?: number[] };
+    result: { lines: number; block: string; way?: Way };
   };
 }
 

@@ -1,6 +1,6 @@
 // What the steps of the studio share: project, engine, the work at hand, and what came of it.
 import { computed, effect, signal } from "@preact/signals";
-import type { Calls, CallOptions, Engine, Fault, FileSet, Setup } from "../engine/engine";
+import type { Calls, CallOptions, CodeTexts, Engine, Fault, FileSet, Setup } from "../engine/engine";
 import { EngineError, isAbort, textOf } from "../engine/engine";
 import { placeOfLine } from "../project/job_text";
 import type { KeyPlace } from "../project/job_text";
@@ -16,6 +16,8 @@ export const inch = computed(() => job.value.values.units === "inch");
 export const engine = signal<Engine | null>(null);
 export const engineText = signal("");
 export const keys = signal<KeyTables | null>(null);
+/** What the controller's codes mean. */
+export const codes = signal<{ errors: CodeTexts; alarms: CodeTexts }>({ errors: {}, alarms: {} });
 /** What the last action had to say; shown under the steps. */
 export const said = signal<{ text: string; bad: boolean } | null>(null);
 
@@ -142,7 +144,9 @@ export async function start(found: Engine | null): Promise<void> {
     const facts = await found.facts();
     engineText.value = `${facts.version}, ${facts.threads} ${facts.threads === 1 ? "core" : "cores"}`;
     engine.value = found;
-    keys.value = new KeyTables((await found.call("keys", {}, new Map())).result);
+    const { result } = await found.call("keys", {}, new Map());
+    keys.value = new KeyTables(result);
+    codes.value = result;
   } catch (reason) {
     engine.value = null;
     engineText.value = textOf(reason);

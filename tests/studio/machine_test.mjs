@@ -1,0 +1,211 @@
+// The step Machine in a real browser: a controller behind a fake navigator.serial, which is the virtual mill on a line with faults.
+// node machine_test.mjs CUSP WEB TOP CORE.wasm
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { folder, run, startBrowser, top, web, write } from "../view/browser.mjs";
+import { startStudio } from "./studio_program.mjs";
+
+const [cusp] = process.argv.slice(2), core = fs.readFileSync(process.argv[5]).toString("base64");
+const here = path.join(top, "tests", "studio"), require = createRequire(path.join(web, "package.json"));
+let browser, studio, fake;
+before(async () => {
+  // The mill's class is the page's own.
+  const source = fs.readFileSync(path.join(here, "fake_serial.mjs"), "utf8").replace("./faulty_port.mjs", path.join(here, "faulty_port.mjs"));
+  const { outputFiles } = await require("esbuild").build({ stdin: { contents: source, resolveDir: web }, bundle: true, format: "iife", write: false, logLevel: "error" });
+  fake = outputFiles[0].text;
+  studio = await startStudio(cusp, "--linger", "600");
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser.close();
+  studio.stop();
+});
+
+// A page at the step Machine with this program. `port` evaluates with the fake port, which is in the page or in the worker.
+async function open(program, options = {}, { inWorker = false, width = 1280 } = {}) {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, reducedMotion: "reduce" });
+  context.setDefaultTimeout(60_000);
+  const page = await context.newPage(), faults = [], workers = [];
+  page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") faults.push("console " + m.text()); });
+  page.on("pageerror", (error) => faults.push("error " + String(error)));
+  const dialogs = [];
+  page.on("dialog", (d) => { dialogs.push(d.type()); void d.accept(); });
+  await page.addInitScript(fake);
+  if (inWorker) {
+    await page.addInitScript(() => { globalThis.fakeName(); });
+    page.on("worker", (worker) => workers.push(worker.evaluate(fake).then(() => worker.evaluate(([c, o]) => globalThis.fakeSerial(c, o).then(() => self.name), [core, options]))
+      .then((name) => name === "sender" ? worker : null, () => null)));
+  }
+  await page.goto(studio.address);
+  await page.waitForFunction(() => window.cusp?.state);
+  await page.evaluate(() => window.cusp.ready);
+  if (!inWorker) await page.evaluate(([c, o]) => globalThis.fakeSerial(c, o), [core, options]);
+  await page.locator("input[type=file]").setInputFiles(write(`machine/${faults.length}-${Date.now()}/part.ngc`, program));
+  await page.getByRole("navigation").getByRole("link", { name: "Machine" }).click();
+  await page.getByRole("button", { name: "Serial port" }).waitFor();
+  await page.waitForTimeout(300);
+  const where = async () => {
+    for (;;) {
+      const found = inWorker ? (await Promise.all(workers)).find((worker) => worker) : page;
+      if (found) return found;
+      await page.waitForTimeout(100);
+    }
+  };
+  return { page, faults, dialogs, port: async (act, given) => (await where()).evaluate(act, given), close: () => context.close() };
+}
+
+const state = (page) => page.evaluate(() => window.cusp.state());
+const machine = async (page) => (await state(page)).machine;
+const until = (page, holds) => page.waitForFunction(holds).catch(async (reason) => {
+  const { modal, settings, places, ...now } = await machine(page);
+  throw new Error(`${JSON.stringify(now)} ${await page.locator(".studio-foot").innerText()}`, { cause: reason });
+});
+const click = (page, name) => page.getByRole("button", { name, exact: true }).click();
+
+async function connect(page) {
+  await page.getByRole("button", { name: "Serial port" }).click();
+  await until(page, () => window.cusp.state().machine.ready);
+}
+// A program that lies in the project is not known to hold its bounds: two clicks.
+async function runTwice(page) {
+  await click(page, "Run");
+  await click(page, "Run all the same");
+  await runs(page);
+}
+const runs = (page) => until(page, () => window.cusp.state().machine.run?.phase === "run");
+const ended = (page) => until(page, () => window.cusp.state().machine.run?.phase !== "run");
+
+// Moves by differences: a line that is lost or cut twice shifts the end.
+function zigzag(count) {
+  const out = ["G21 G91 G94", "G1 F3000"];
+  for (let k = 0; k < count; ++k) out.push(`G1 X${k % 7 * 0.25 + 0.125} Y${k % 2 ? 0.5 : -0.25} (${k})`);
+  return [...out, "M2", ""].join("\n");
+}
+function endOf(program) {
+  const stats = path.join(folder, "end.json");
+  run("sim", write("end.ngc", program), "--stats", stats);
+  return JSON.parse(fs.readFileSync(stats, "utf8")).end_mpos_mm;
+}
+async function atEnd({ page, port }, program, zero) {
+  const end = endOf(program), { machine: at } = await machine(page), iron = (await port(() => globalThis.fake.mill.figures().at)).map((v, k) => v - zero[k]);
+  end.forEach((v, k) => {
+    assert.ok(Math.abs(at[k] - v) < 0.0015, `the readout of axis ${k}: ${at[k]}, wanted ${v}`);
+    assert.ok(Math.abs(iron[k] - v) < 0.004, `axis ${k} itself: ${iron[k]}, wanted ${v}`);
+  });
+}
+const ironPlace = (port) => port(() => globalThis.fake.mill.figures().at);
+
+test("a noisy serial port: nothing goes out before a click, each line is executed once, and the readout is the tool's place", async () => {
+  const program = zigzag(150), open1 = await open(program, { seed: 3, faults: { loss: 0.003, doubling: 0.001 } }), { page, port, faults, close } = open1;
+  assert.equal(await port(() => globalThis.fake.opened + globalThis.fake.sent.length), 0, "nothing is opened before a click");
+  const zero = await ironPlace(port);
+  await connect(page);
+  await page.waitForTimeout(500);
+  assert.deepEqual(await ironPlace(port), zero, "connecting moves nothing");
+  assert.match(await page.locator(".dro").innerText(), /numbered and checked/);
+  await runTwice(page);
+  await ended(page);
+  const { run: at, resent } = await machine(page);
+  assert.deepEqual([at.phase, at.error, at.text], ["done", 0, ""]);
+  assert.ok(resent > 0, "bytes were lost, so lines were sent again");
+  await atEnd(open1, program, zero);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a port in the worker: unplugged amid a cut it holds, and goes on after the plug; Esc stops", async () => {
+  const program = zigzag(80), open1 = await open(program, { seed: 5, settings: "$791=400\n" }, { inWorker: true }), { page, port, faults, close } = open1;
+  const zero = await ironPlace(port);
+  await connect(page);
+  await runTwice(page);
+  await until(page, () => window.cusp.state().machine.run.line > 40);
+  await port(() => globalThis.fake.unplug());
+  await until(page, () => window.cusp.state().machine.link === "lost");
+  assert.match(await page.locator(".dro").innerText(), /The link is lost: /);
+  await page.waitForTimeout(1500);
+  const held = await ironPlace(port);
+  await page.waitForTimeout(400);
+  assert.deepEqual(await ironPlace(port), held, "the machine holds in the silence");
+  await port(() => globalThis.fake.plug());
+  await page.getByRole("button", { name: "Serial port" }).click();
+  await page.getByRole("button", { name: "Go on" }).waitFor();
+  await page.waitForTimeout(400);
+  assert.deepEqual(await ironPlace(port), held, "it waits for the click");
+  await click(page, "Go on");
+  await runs(page);
+  await ended(page);
+  assert.equal((await machine(page)).run.phase, "done");
+  await atEnd(open1, program, zero);
+  await runTwice(page);
+  await until(page, () => window.cusp.state().machine.run.line > 10);
+  await page.keyboard.press("Escape");
+  await until(page, () => window.cusp.state().machine.run.phase === "stopped" && window.cusp.state().machine.ready);
+  assert.deepEqual([(await machine(page)).state, (await machine(page)).alarm], ["Idle", 0]);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("plain Grbl that was reset by the plug: the way back is shown, and the program resumes", async () => {
+  const program = ["G21 G90 G94 F1500", "G0 Z5", ...Array.from({ length: 60 }, (_, k) => `G1 X${k % 2 ? 0 : 6} Y${k * 0.25} Z-1`), "G0 Z5", "M2", ""].join("\n");
+  const open1 = await open(program, { grbl: true }), { page, port, faults, close } = open1, zero = await ironPlace(port);
+  await connect(page);
+  assert.match(await page.locator(".dro").innerText(), /plain Grbl/);
+  await runTwice(page);
+  await until(page, () => window.cusp.state().machine.run.executed > 8);
+  // Its motion ends before the power of the plug is back.
+  await port(() => { globalThis.fake.unplug(); globalThis.fake.mill.send(new Uint8Array([0x21])); });
+  await page.waitForTimeout(1500);
+  await port(() => { globalThis.fake.mill.send(new Uint8Array([0x18])); globalThis.fake.plug(); });
+  await page.getByRole("button", { name: "Serial port" }).click();
+  const way = page.getByRole("button", { name: /Show the way to line/ });
+  await way.waitFor();
+  await until(page, () => window.cusp.state().machine.ready);
+  await way.click();
+  await page.getByRole("button", { name: /Go on at line/ }).waitFor();
+  assert.match(await page.locator(".machine .card").innerText(), /goes up to Z 5\.000 and over X/);
+  const stood = await ironPlace(port);
+  await page.waitForTimeout(400);
+  assert.deepEqual(await ironPlace(port), stood, "it waits for the click");
+  await page.getByRole("button", { name: /Go on at line/ }).click();
+  await runs(page);
+  await ended(page);
+  assert.equal((await machine(page)).run.phase, "done");
+  await atEnd(open1, program, zero);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("waits, alarms and errors are said in words, and texts of programs stay texts", async () => {
+  const program = "G21 G91\nG1 X1 F2000\nM0 (<img src=x onerror=alert`1`> turn the part)\nG1 X1\nT3 M6\nG1 X1 E7\nG1 X1\n";
+  const { page, faults, dialogs, close } = await open(program, {});
+  await connect(page);
+  await runTwice(page);
+  await until(page, () => document.querySelector(".wait"));
+  assert.match(await page.locator(".wait").innerText(), /waits for you at line 3: M0 \(<img src=x onerror=alert`1`> turn the part\)\. Do what it asks for, then Resume/);
+  assert.equal(await page.locator(".machine img").count(), 0);
+  await click(page, "Resume");
+  await until(page, () => window.cusp.state().machine.pause?.kind === "tool");
+  assert.match(await page.locator(".wait").innerText(), /Change to tool T3, at line 5/);
+  await click(page, "Resume");
+  await ended(page);
+  assert.match(await page.locator(".dro").innerText(), /Line 6: error 20: a G or M word is not supported/);
+  await until(page, () => window.cusp.state().machine.ready);
+  assert.deepEqual([faults, dialogs], [[], []]);
+  await close();
+});
+
+test("the virtual mill at 300 times the speed cuts the edges of cusp sim", async () => {
+  const file = path.join(top, "tests", "programs", "liss.ngc"), stats = path.join(folder, "liss.json"), { page, faults, close } = await open(fs.readFileSync(file, "utf8"));
+  run("sim", file, "--stats", stats);
+  await page.getByLabel("Time").selectOption("300");
+  await runTwice(page);
+  await ended(page);
+  await page.waitForTimeout(300);
+  const { machine: at, mill } = await state(page);
+  assert.deepEqual([at.run.phase, mill.edges], ["done", JSON.parse(fs.readFileSync(stats, "utf8")).edges_crc32]);
+  assert.deepEqual(faults, []);
+  await close();
+});
