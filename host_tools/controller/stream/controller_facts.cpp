@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "host_tools/controller/dialect/leading_number.hpp"
+
 namespace cusp::stream {
 namespace {
 
@@ -18,11 +20,18 @@ std::optional<Number> number_in(std::string_view text)
     return failed == std::errc{} ? std::optional{number} : std::nullopt;
 }
 
+// As std::from_chars, which not every library has for numbers with a point.
+std::optional<double> decimal_in(std::string_view text)
+{
+    const auto number = dialect::leading_number(text);
+    return number ? std::optional{number->value} : std::nullopt;
+}
+
 // mm; 0 where it is none that a machine has.
 double distance_in(std::string_view text)
 {
     constexpr double kFarthest = 1e7;
-    const double distance = number_in<double>(text).value_or(0.0);
+    const double distance = decimal_in(text).value_or(0.0);
     return std::abs(distance) <= kFarthest ? distance : 0.0;
 }
 
@@ -59,11 +68,11 @@ void ControllerFacts::take(std::string_view line)
         return;
     }
     const auto number = number_in<std::uint32_t>(line.substr(1));
-    const auto value = number_in<float>(line.substr(equals + 1));
-    if (number && value && std::isfinite(*value)) {
+    const auto value = decimal_in(line.substr(equals + 1));
+    if (number && value && std::isfinite(static_cast<float>(*value))) {
         has_settings_ = true;
         machine::Settings changed = settings_;
-        if (!changed.put(*number, *value)) {
+        if (!changed.put(*number, static_cast<float>(*value))) {
             settings_ = changed;
         }
     }
