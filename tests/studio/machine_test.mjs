@@ -5,7 +5,7 @@ import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { folder, run, startBrowser, top, web, write } from "../view/browser.mjs";
+import { axeSource, folder, run, startBrowser, top, web, write } from "../view/browser.mjs";
 import { startStudio } from "./studio_program.mjs";
 
 const [cusp] = process.argv.slice(2), core = fs.readFileSync(process.argv[5]).toString("base64");
@@ -25,8 +25,8 @@ after(async () => {
 });
 
 // A page at the step Machine with this program. `port` evaluates with the fake port, which is in the page or in the worker.
-async function open(program, options = {}, { inWorker = false, width = 1280 } = {}) {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, reducedMotion: "reduce" });
+async function open(program, options = {}, { inWorker = false, width = 1280, dark = false } = {}) {
+  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
   context.setDefaultTimeout(60_000);
   const page = await context.newPage(), faults = [], workers = [];
   page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") faults.push("console " + m.text()); });
@@ -208,4 +208,154 @@ test("the virtual mill at 300 times the speed cuts the edges of cusp sim", async
   assert.deepEqual([at.run.phase, mill.edges], ["done", JSON.parse(fs.readFileSync(stats, "utf8")).edges_crc32]);
   assert.deepEqual(faults, []);
   await close();
+});
+
+const panel = (page, name) => page.getByRole("group", { name: "Panel" }).getByRole("button", { name }).click();
+const rests = (page) => until(page, () => window.cusp.state().machine.ready && window.cusp.state().machine.state === "Idle");
+// Places of the tool before and some time after.
+async function moved(port, page, ms = 600) {
+  const before = await ironPlace(port);
+  await page.waitForTimeout(ms);
+  return Math.hypot(...(await ironPlace(port)).map((v, k) => v - before[k]));
+}
+
+test("jogs: by steps, while a button or key is held, by a gamepad; they end at release, blur and Esc", async () => {
+  const { page, port, faults, close } = await open("M2\n", {}), zero = await ironPlace(port);
+  await connect(page);
+  await panel(page, "Jog");
+  await page.getByRole("button", { name: "Jog X plus", exact: true }).click();
+  await page.waitForTimeout(900);
+  assert.ok(Math.abs((await ironPlace(port))[0] - zero[0] - 1) < 0.003, "a step of 1 mm");
+  await page.keyboard.press("ArrowUp");
+  assert.ok(await moved(port, page) < 1e-9, "keys do nothing before they are clicked on");
+  await page.getByRole("button", { name: "while held" }).click();
+  const box = await page.getByRole("button", { name: "Jog Y minus", exact: true }).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.waitForTimeout(400);
+  assert.ok(await moved(port, page, 500) > 3, "it moves while the button is held");
+  await page.mouse.up();
+  await page.waitForTimeout(500);
+  assert.ok(await moved(port, page) < 1e-9, "it stands after the release");
+  for (const end of ["up", "blur", "Escape"]) {
+    await page.getByLabel(/Arrow keys/).check();
+    await rests(page);
+    await page.keyboard.down("ArrowRight");
+    await page.waitForTimeout(400);
+    assert.ok(await moved(port, page, 400) > 2, `${end}: it moves while the key is held`);
+    if (end === "blur") await page.evaluate(() => { window.dispatchEvent(new Event("blur")); });
+    if (end === "Escape") await page.keyboard.press("Escape");
+    if (end === "up") await page.keyboard.up("ArrowRight");
+    await page.waitForTimeout(700);
+    assert.ok(await moved(port, page) < 1e-9, `it stands after ${end}`);
+    await page.keyboard.up("ArrowRight");
+    await rests(page);
+    if (end === "blur") assert.equal(await page.getByLabel(/Arrow keys/).isChecked(), false);
+  }
+  await page.evaluate(() => {
+    globalThis.pad = { connected: true, axes: [0, 0, 0, 0], buttons: [{ pressed: false }] };
+    Object.defineProperty(navigator, "getGamepads", { configurable: true, value: () => [globalThis.pad] });
+    globalThis.pad.axes[0] = -0.9;
+  });
+  assert.ok(await moved(port, page) < 1e-9, "a gamepad does nothing before it is clicked on");
+  await page.getByLabel(/A gamepad jogs/).check();
+  await page.waitForTimeout(500);
+  assert.ok(await moved(port, page, 500) > 2, "the stick moves it");
+  await page.evaluate(() => { globalThis.pad.axes[0] = 0.1; });
+  await page.waitForTimeout(600);
+  assert.ok(await moved(port, page) < 1e-9, "it stands with the stick in its middle");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("zero, probe and tool length, on a line that loses bytes; no contact is an alarm in words", async () => {
+  const { page, port, faults, close } = await open("M2\n", { seed: 9, faults: { loss: 0.002 } }), zero = await ironPlace(port);
+  await connect(page);
+  await panel(page, "Zero");
+  for (const [label, value] of [["Fast, mm/min", "1500"], ["Slow, mm/min", "200"], ["At most, mm", "30"], ["Plate, mm thick", "12.5"]]) {
+    await page.getByLabel(label).fill(value);
+    await page.getByLabel(label).press("Tab");
+  }
+  assert.ok(await moved(port, page, 300) < 1e-9, "nothing moves before the click");
+  await click(page, "Probe Z");
+  await until(page, () => Math.abs(window.cusp.state().machine.work[2] - 17.5) < 0.02 && window.cusp.state().machine.state === "Idle");
+  assert.ok(Math.abs((await ironPlace(port))[2] - zero[2] + 15) < 0.02, "5 mm over the plate, 20 mm under the start");
+  await click(page, "X Y zero here");
+  await until(page, () => window.cusp.state().machine.work.slice(0, 2).every((v) => v === 0));
+  await click(page, "Measure first tool");
+  await until(page, () => /first tool is measured/.test(document.querySelector(".said")?.textContent ?? ""));
+  await until(page, () => ![...document.querySelectorAll("button")].find((b) => b.textContent === "Probe Z").disabled);
+  // A tool 3 mm shorter touches the plate 3 mm deeper.
+  await port(() => { globalThis.fake.mill.plate(-23); });
+  await until(page, () => ![...document.querySelectorAll("button")].find((b) => b.textContent === "Measure this tool").disabled);
+  await click(page, "Measure this tool");
+  await until(page, () => /3\.0\d\d mm shorter than the first/.test(document.querySelector(".said")?.textContent ?? "") && Math.abs(window.cusp.state().machine.toolLength + 3) < 0.02);
+  await rests(page);
+  await page.getByLabel("At most, mm").fill("2");
+  await page.getByLabel("At most, mm").press("Tab");
+  await until(page, () => ![...document.querySelectorAll("button")].find((b) => /Probe side/.test(b.textContent)).disabled);
+  await page.getByRole("button", { name: "Probe side in X+" }).click();
+  await until(page, () => window.cusp.state().machine.state === "Alarm");
+  assert.match(await page.locator(".dro").innerText(), /Alarm 5: the probe did not touch\. Bring the tool nearer/);
+  await click(page, "Unlock");
+  await rests(page);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("overrides act; macros and lines are sent, kept, and shown as text", async () => {
+  const { page, faults, dialogs, close } = await open("M2\n", {});
+  await connect(page);
+  await panel(page, "Rates");
+  await page.getByRole("group", { name: "Feed" }).getByRole("button", { name: "+10" }).click();
+  await until(page, () => window.cusp.state().machine.overrides[0] === 110);
+  await page.getByRole("group", { name: "Rapids" }).getByRole("button", { name: "25 %" }).click();
+  await until(page, () => window.cusp.state().machine.overrides[1] === 25);
+  await panel(page, "Macros");
+  await click(page, "New macro");
+  await page.getByLabel("Name").fill("<img src=x onerror=alert(1)>");
+  await page.getByLabel("Lines", { exact: true }).fill("G10 L20 P0 X3 (here)\n; and there\nG10 L20 P0 Y4");
+  await click(page, "Done");
+  await page.getByRole("button", { name: "<img src=x onerror=alert(1)>", exact: true }).click();
+  await until(page, () => window.cusp.state().machine.work[0] === 3 && window.cusp.state().machine.work[1] === 4);
+  await page.getByLabel("A line").fill("$I");
+  await page.getByLabel("A line").press("Enter");
+  await until(page, () => /VER:1\.1h.*ok/s.test(document.querySelector(".log").textContent));
+  await page.getByLabel("A line").fill("G1 X1 E<b>");
+  await page.getByLabel("A line").press("Enter");
+  await until(page, () => /error \d+: /.test(document.querySelector(".log").textContent));
+  assert.equal(await page.locator(".machine img, .machine b").count(), 0);
+  await page.reload();
+  await page.waitForFunction(() => window.cusp?.state);
+  await panel(page, "Macros");
+  assert.equal(await page.getByRole("button", { name: "<img src=x onerror=alert(1)>", exact: true }).count(), 1, "macros are kept");
+  assert.deepEqual([faults, dialogs], [[], []]);
+  await close();
+});
+
+test("all panels: contrast, names, 44 px, nothing sticks out", async () => {
+  for (const [width, dark] of [[1280, false], [390, true]]) {
+    const { page, faults, close } = await open("M2\n", {}, { width, dark });
+    await connect(page);
+    await page.evaluate(axeSource);
+    for (const name of ["Run", "Jog", "Zero", "Rates", "Macros"]) {
+      await panel(page, name);
+      if (name === "Macros") await click(page, "New macro");
+      await page.waitForTimeout(50);
+      const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+      assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `${name}, ${width} px`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name}: nothing sticks out at ${width} px`);
+      const small = await page.locator(".machine button, .machine select, .machine input:not([type=checkbox]), .machine .check-line, .machine summary")
+        .evaluateAll((all) => all.filter((e) => e.getBoundingClientRect().height < 44).map((e) => e.outerHTML.slice(0, 100)));
+      assert.deepEqual(small, [], `targets of ${name}`);
+    }
+    assert.deepEqual(faults, []);
+    await close();
+  }
+});
+
+test("the script keeps its budget", async () => {
+  const page = fs.readFileSync(path.join(top, "host_tools", "judge", "view", "bundle", "studio.html"), "utf8");
+  const packed = Buffer.from(/id="packed-script">([^<]*)/.exec(page)[1], "base64").length;
+  assert.ok(packed > 100_000 && packed <= 250_000, `${packed} bytes`);
 });

@@ -222,16 +222,18 @@ test("M0 and tool changes say what they wait for; errors name their line", async
 test("a listing of settings and offsets is whole on a line that loses bytes", async () => {
   const clean = await connected(), noisy = await connected({ faults: { loss: 0.004 } });
   for (const { port, session } of [clean, noisy]) {
-    const set = session.command("G10L2P1X1.5Y2.25Z-3");
     await port.until(() => session.snapshot().ready, 5000);
-    await port.run(1000);
-    await set;
-    const done = session.refresh();
+    // A move is under way when the listing is asked for, in which the controller refuses it.
+    const done = (async () => {
+      for (const line of ["G10L2P1X1.5Y2.25Z-3", "G43.1Z-1.25", "G21G91G0X5"]) assert.equal((await session.command(line)).error, 0);
+      await session.refresh();
+    })();
     let over = false;
     void done.then(() => { over = true; });
     await port.until(() => over, 60_000);
   }
   assert.deepEqual(noisy.session.snapshot().settings, clean.session.snapshot().settings);
+  assert.equal(noisy.session.snapshot().toolLength, -1.25);
   assert.deepEqual(noisy.session.snapshot().places.G54, [1.5, 2.25, -3]);
   assert.deepEqual(noisy.session.snapshot().places, clean.session.snapshot().places);
 });

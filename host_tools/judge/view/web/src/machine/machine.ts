@@ -23,7 +23,9 @@ export const holdsOnSilence = signal(true);
 
 export const isOpen = computed(() => now.value.link === "open" && now.value.ready);
 export const isBusy = computed(() => now.value.run?.phase === "run");
-export const mayMove = computed(() => isOpen.value && !isBusy.value && ["Idle", "Jog"].includes(now.value.state));
+/** Things that were asked for and are not done: nothing else is begun meanwhile. Stop works always. */
+const acting = signal(0);
+export const mayMove = computed(() => isOpen.value && !isBusy.value && acting.value === 0 && ["Idle", "Jog"].includes(now.value.state));
 export const hasSerial = browserSerial() !== null;
 
 const kPlate = -20;          // mm under the virtual mill's tool: a plate to try probing on
@@ -64,12 +66,15 @@ export function until(holds: () => boolean, ms: number, what: string): Promise<v
 
 /** Says what went wrong. True if nothing did. */
 export async function tried(act: () => Promise<unknown>): Promise<boolean> {
+  acting.value += 1;
   try {
     await act();
     return true;
   } catch (reason) {
     say(textOf(reason), true);
     return false;
+  } finally {
+    acting.value -= 1;
   }
 }
 

@@ -63,12 +63,14 @@ async function openStreams({ readable, writable, name }: Extract<ToSender, { kin
 }
 
 async function answer(id: number, act: () => unknown): Promise<void> {
+  let outcome: unknown = null, refusal = "";
   try {
-    scope.postMessage({ kind: "done", id, outcome: (await act() ?? null) as never, refusal: "" });
+    outcome = await act() ?? null;
   } catch (reason) {
-    scope.postMessage({ kind: "done", id, outcome: null, refusal: reason instanceof Error ? reason.message : String(reason) });
+    refusal = reason instanceof Error ? reason.message : String(reason);
   }
-  tell();
+  tell();  // so that who has asked sees what came of it
+  scope.postMessage({ kind: "done", id, outcome: outcome as never, refusal });
 }
 
 async function take(message: ToSender): Promise<void> {

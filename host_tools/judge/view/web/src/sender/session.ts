@@ -13,6 +13,8 @@ const kHoldLimit = 10_000;   // ms in which any machine stops
 const kMostMessages = 30;
 const kInch = 25.4;
 
+const scaled = (at: Place, by: number): Place => [at[0] * by, at[1] * by, at[2] * by];
+
 /** Why a program can't begin. */
 export class Refusal extends Error {}
 
@@ -150,9 +152,10 @@ export class Session {
     return dialogue.command(text);
   }
 
-  /** $# and $G anew, as lost bytes have not changed them. */
+  /** $# and $G anew, as lost bytes have not changed them; after all motion, as they are refused in it. */
   async refresh(): Promise<void> {
     const dialogue = this.readyDialogue();
+    if (dialogue.state !== "Alarm") await dialogue.command("G4P0.01");
     const { facts } = dialogue, own = facts.listing.filter((line) => !/^\[(G|T|PRB)/.test(line));
     facts.listing = own;
     for (const command of ["$G", "$#"]) facts.take(await dialogue.listingOf(command));
@@ -189,8 +192,7 @@ export class Session {
       state: dialogue.state, substate: last?.substate ?? -1, alarm: dialogue.state === "Alarm" ? this.alarm : 0,
       machine, work: [machine[0] - this.offset[0], machine[1] - this.offset[1], machine[2] - this.offset[2]], offset: this.offset,
       feed: (last?.feed ?? 0) * this.unit, spindle: last?.spindle ?? 0, pins: last?.pins ?? "", overrides: this.overrides, accessories: this.accessories,
-      modal: dialogue.facts.modal, settings: Object.fromEntries(dialogue.facts.settings), places: Object.fromEntries(dialogue.facts.places), probe: dialogue.facts.probe,
-      toolLength: dialogue.facts.toolLength,
+      modal: dialogue.facts.modal, settings: Object.fromEntries(dialogue.facts.settings), places: this.places(), probe: this.probe(), toolLength: dialogue.facts.toolLength * this.unit,
       held: this.heldByUs, stopping: this.stopping !== null, messages: this.messages, refused: dialogue.refused, resent: dialogue.resent,
       run: this.runPicture(), pause: run?.phase === "run" && dialogue.state === "Hold" && !this.resumed && !this.heldByUs ? run.pause : null,
     };
@@ -207,6 +209,14 @@ export class Session {
       phase: run.phase, error: run.error, text: run.text, line: run.line, at: run.at, executed: run.executed.line, answered: run.answered, lines: run.lines.length,
       fraction: run.fraction, seconds: run.seconds, canContinue: this.canContinue,
     };
+  }
+
+  private places(): Record<string, Place> {
+    return Object.fromEntries([...this.dialogue?.facts.places ?? []].map(([name, at]) => [name, scaled(at, this.unit)]));
+  }
+  private probe(): Snapshot["probe"] {
+    const found = this.dialogue?.facts.probe;
+    return found ? { ...found, at: scaled(found.at, this.unit) } : null;
   }
 
   private get canContinue(): boolean { return this.run?.mayContinue === true && this.dialogue?.stillChecks === true; }

@@ -24,7 +24,7 @@ export interface Snapshot {
   overrides: Place;
   accessories: string;
   modal: string[];
-  settings: Record<number, number>;
+  settings: Partial<Record<number, number>>;
   places: Record<string, Place>;
   probe: { at: Place; touched: boolean } | null;
   toolLength: number;
