@@ -338,7 +338,7 @@ test("all panels: contrast, names, 44 px, nothing sticks out", async () => {
     const { page, faults, close } = await open("M2\n", {}, { width, dark });
     await connect(page);
     await page.evaluate(axeSource);
-    for (const name of ["Run", "Jog", "Zero", "Rates", "Macros"]) {
+    for (const name of ["Cut", "Jog", "Zero", "Rates", "Macros"]) {
       await panel(page, name);
       if (name === "Macros") await click(page, "New macro");
       await page.waitForTimeout(50);
@@ -352,6 +352,61 @@ test("all panels: contrast, names, 44 px, nothing sticks out", async () => {
     assert.deepEqual(faults, []);
     await close();
   }
+});
+
+test("a page that is busy, hidden or closed loses no cut: the worker sends on, the screen stays on, and the next page knows the line", async () => {
+  const program = zigzag(90), open1 = await open(program, { seed: 11 }, { inWorker: true }), { page, port, faults, dialogs, close } = open1, zero = await ironPlace(port);
+  await page.evaluate(() => {
+    globalThis.locks = [];
+    const request = () => {
+      const lock = { released: false, release: () => { lock.released = true; return Promise.resolve(); } };
+      globalThis.locks.push(lock);
+      return Promise.resolve(lock);
+    };
+    Object.defineProperty(navigator, "wakeLock", { configurable: true, value: { request } });
+  });
+  const locks = () => page.evaluate(() => globalThis.locks.map(({ released }) => released));
+  await connect(page);
+  assert.deepEqual(await locks(), []);
+  await runTwice(page);
+  await until(page, () => window.cusp.state().machine.run.executed > 5);
+  assert.ok((await port(() => globalThis.fake.sent)).includes("$791=3000*"), "the controller is told to hold in silence");
+  assert.deepEqual(await locks(), [false]);
+  // The browser takes the lock from a hidden page; it is asked for again when the page is seen.
+  await page.evaluate(() => {
+    globalThis.locks[0].released = true;
+    document.dispatchEvent(new Event("visibilitychange"));
+  });
+  await page.waitForFunction(() => globalThis.locks.length === 2);
+  const sent = () => port(() => globalThis.fake.sent.length), before = await ironPlace(port), already = await sent();
+  const blocked = page.evaluate(() => { for (const end = performance.now() + 2500; performance.now() < end;); });
+  await page.waitForTimeout(2000);
+  assert.notDeepEqual(await ironPlace(port), before, "it cuts while the page hangs");
+  assert.ok(await sent() >= already + 6, "the worker sends on, reports at the least");
+  await blocked;
+  await ended(page);
+  assert.deepEqual([(await machine(page)).run.phase, (await locks()).at(-1)], ["done", true]);
+  await atEnd(open1, program, zero);
+  assert.equal(await page.evaluate(() => localStorage.getItem("cusp-studio-cut")), null, "a program that has ended leaves nothing");
+  await page.waitForTimeout(500);
+  await runTwice(page);
+  await until(page, () => window.cusp.state().machine.run.executed > 8);
+  await page.waitForTimeout(1500);
+  assert.deepEqual(dialogs, []);
+  await page.reload();
+  assert.deepEqual(dialogs, ["beforeunload"], "closing asks");
+  await page.waitForFunction(() => window.cusp?.state);
+  await page.evaluate(() => window.cusp.ready);
+  await page.locator(".machine .card").waitFor();
+  const line = Number(/amid part\.ngc: the tool had reached line (\d+)/.exec(await page.locator(".machine .card").innerText())[1]);
+  assert.ok(line > 5 && line < 93, `line ${line}`);
+  await page.evaluate(() => { localStorage.setItem("cusp-studio-cut", JSON.stringify({ name: "<b>", crc: 1, line: "x", start: [3] })); });
+  await page.reload();
+  await page.waitForFunction(() => window.cusp?.state);
+  await page.evaluate(() => window.cusp.ready);
+  assert.equal(await page.locator(".machine .card").count(), 0);
+  assert.deepEqual([faults, dialogs], [[], ["beforeunload"]]);
+  await close();
 });
 
 test("the script keeps its budget", async () => {

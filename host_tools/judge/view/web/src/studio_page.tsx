@@ -10,7 +10,8 @@ import { shown } from "./project/toml_values";
 import { tablesOf } from "./project/project";
 import { checkedRun, CheckStep, openView, plan } from "./studio/check_step";
 import { newProject, saveProjectFile, takeFiles } from "./studio/files";
-import { isBusy, mill, now as machineNow, stop } from "./machine/machine";
+import { keepAwake } from "./machine/keep_awake";
+import { mill, now as machineNow, stop } from "./machine/machine";
 import { MachineStep } from "./machine/machine_step";
 import { OperationsStep } from "./studio/operations_step";
 import { PartStep } from "./studio/part_step";
@@ -101,9 +102,7 @@ function listen(): void {
     document.body.classList.remove("dropping");
     void takeFiles([...event.dataTransfer?.files ?? []]);
   });
-  window.addEventListener("beforeunload", (event) => {
-    if (isBusy.value) event.preventDefault();
-  });
+  keepAwake();
 }
 
 document.body.classList.add("studio");

@@ -10,6 +10,7 @@ import type { ProgramLine } from "../sender/program_run";
 import { Sender } from "../sender/sender";
 import { atRest, type Snapshot } from "../sender/snapshot";
 import { codes, engineCall, say } from "../studio/store";
+import { crcOf, dropRecord, keepRecord, keptRecord } from "./cut_record";
 import { errorText } from "./words";
 
 export const now = signal<Snapshot>(atRest);
@@ -31,6 +32,7 @@ export const hasSerial = browserSerial() !== null;
 const kPlate = -20;          // mm under the virtual mill's tool: a plate to try probing on
 const kSilence = 3000;       // ms of $791
 const kReadyLimit = 15_000;  // ms
+const kKeep = 1000;          // ms between records of a cut
 
 let sender: Sender | null = null;
 const watchers = new Set<() => void>();
@@ -122,6 +124,31 @@ async function begin(lines: ProgramLine[], program: { name: string; text: string
   if (holdsOnSilence.value && now.value.settings[791] === 0) await command(`$791=${kSilence}`);
   await theSender().begin(lines);
   running.value = program;
+  await recordCut(program);
+}
+
+/** The record of a cut that a closed page left; null: none. */
+export const left = signal(keptRecord());
+export function forgetLeft(): void {
+  left.value = null;
+  dropRecord();
+}
+
+// Keeps the line that the tool has reached, until the program has ended.
+async function recordCut({ name, text }: { name: string; text: string }): Promise<void> {
+  const { start, startPlace } = await theSender().facts(), crc = crcOf(text);
+  left.value = null;
+  let before = 0;
+  const watch = (): void => {
+    const { run } = now.value, at = performance.now();
+    if (run?.phase === "done") dropRecord();
+    else if (run && (at - before >= kKeep || run.phase !== "run")) {
+      before = at;
+      keepRecord({ name, crc, line: Math.max(run.executed, 1), start, startPlace });
+    }
+    if (run?.phase !== "run") watchers.delete(watch);
+  };
+  watchers.add(watch);
 }
 
 /** The program from its beginning. Where nothing is connected, it runs on the virtual mill. */
@@ -141,8 +168,9 @@ export const lookAtLine = (name: string, text: string, line: number): Promise<bo
   await until(() => !isOpen.value, 2000, "the controller was not reset").catch(() => undefined);
   await until(() => isOpen.value, kReadyLimit, "the machine is not ready");
   if (now.value.state === "Alarm") throw new Error(now.value.settings[22] ? "Home the machine first." : "Unlock the machine first, once you know where it is.");
-  const { now: listing, place } = await own.facts(), knows = isSame && before.start.length > 0;
-  const from = { line, start: knows ? before.start : listing, start_place: knows ? before.startPlace : place, now: listing, place };
+  const { now: listing, place } = await own.facts(), record = left.value?.name === name && left.value.crc === crcOf(text) ? left.value : null;
+  const begun = isSame && before.start.length > 0 ? before : record ?? { start: listing, startPlace: place };
+  const from = { line, start: begun.start, start_place: begun.startPlace, now: listing, place };
   const { lines, way } = await linesOf(name, text, from);
   wayBack.value = way ? { way, lines, name, text } : null;
 });

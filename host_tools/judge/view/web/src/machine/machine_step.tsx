@@ -13,7 +13,7 @@ import { RunPanel, StopButton } from "./run_panel";
 import { Wizards } from "./wizards";
 
 const kPanels = [
-  { id: "run", name: "Run", panel: RunPanel }, { id: "jog", name: "Jog", panel: JogPanel }, { id: "zero", name: "Zero", panel: Wizards },
+  { id: "run", name: "Cut", panel: RunPanel }, { id: "jog", name: "Jog", panel: JogPanel }, { id: "zero", name: "Zero", panel: Wizards },
   { id: "rates", name: "Rates", panel: OverridePanel }, { id: "macros", name: "Macros", panel: MacroPanel },
 ];
 const shown = signal("run");

@@ -4,7 +4,8 @@ import type { JSX } from "preact";
 import { figure, fixed } from "../elements";
 import { checkedRun } from "../studio/check_step";
 import { isStale, kinds, planned, project } from "../studio/store";
-import { goOn, goTheWay, hold, holdsOnSilence, isBusy, isOpen, lookAtLine, now, resume, runProgram, running, stop, wayBack } from "./machine";
+import { crcOf } from "./cut_record";
+import { forgetLeft, goOn, goTheWay, hold, holdsOnSilence, isBusy, isOpen, left, lookAtLine, now, resume, runProgram, running, stop, wayBack } from "./machine";
 
 interface Choice { name: string; text: () => string; holds: boolean }
 
@@ -73,6 +74,22 @@ function Lost(): JSX.Element | null {
     }}>{`Show the way to line ${at.executed}`}</button></div>;
 }
 
+// After a page that was closed amid a cut.
+function Left(): JSX.Element | null {
+  const record = left.value, program = choices().find(({ name, text }) => name === record?.name && crcOf(text()) === record.crc);
+  if (!record || now.value.run || wayBack.value || !program) return null;
+  return <div class="card" role="alert">
+    <p>{`The page was closed amid ${program.name}: the tool had reached line ${record.line}.${isOpen.value ? "" : " Connect the machine to go on there."}`}</p>
+    <div class="machine-buttons">
+      <button type="button" disabled={!isOpen.value} onClick={() => {
+        chosen.value = program.name;
+        void lookAtLine(program.name, program.text(), record.line);
+      }}>{`Show the way to line ${record.line}`}</button>
+      <button type="button" onClick={forgetLeft}>Forget it</button>
+    </div>
+  </div>;
+}
+
 function FromLine(): JSX.Element {
   return <details><summary>From a line</summary>
     <div class="row"><label class="line">Line <input type="number" min={1} step={1} value={fromLine.value} onInput={(event) => { fromLine.value = event.currentTarget.value; }} /></label>
@@ -93,6 +110,7 @@ export function RunPanel(): JSX.Element {
     </div>
     {isWarned ? <p class="fault" role="alert">It is not checked that the bounds of this program hold. Run again to run it all the same.</p> : null}
     <Lost />
+    <Left />
     <Way />
     <FromLine />
     <label class="line check-line"><input type="checkbox" checked={holdsOnSilence.value} onChange={(event) => { holdsOnSilence.value = event.currentTarget.checked; }} />
