@@ -11,6 +11,7 @@
 //                       board without has neither
 //   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
 //                       their sense resistors; a board without has neither
+//   Settings            hal/stm32f4/flash_settings.hpp: where they are kept; without it, behind the vectors
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
 // The traits type of a board defines its parts (Chip, PulsePlayer, ByteLink, Panel,
@@ -39,6 +40,18 @@
 #include "hal/stm32f4/watchdog.hpp"
 
 namespace cusp::boards {
+namespace detail {
+
+template <class Table, class = void>
+struct SettingsOf {
+    using Place = hal::stm32f4::SettingsBehindVectors;
+};
+template <class Table>
+struct SettingsOf<Table, std::void_t<typename Table::Settings>> {
+    using Place = typename Table::Settings;
+};
+
+}  // namespace detail
 
 template <class Table>
 struct ChipTraits {
@@ -51,7 +64,9 @@ struct ChipTraits {
     using ByteLink = std::
         conditional_t<kUsb, TwoLinks<SerialLink, hal::stm32f4::UsbLink<Chip, Table>>, SerialLink>;
     using Panel = MillPanel<Chip, ChipTraits>;
-    using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
+    using SettingsPlace = typename detail::SettingsOf<Table>::Place;
+    static constexpr hal::stm32f4::SettingsPlace kSettings = SettingsPlace::kPlace;
+    using SettingsStore = hal::stm32f4::FlashSettings<Chip, SettingsPlace>;
 
     static_assert(PinRules<Table, SerialPort, Pace>::kHold);
     // start_clocks() sets no others.
@@ -94,6 +109,12 @@ struct ChipTraits {
     // something that can't be read. Context: before statics have their values.
     static void rest() noexcept
     {
+        // For tests/checks/image.py.
+        __asm volatile(
+            ".global cusp_settings, cusp_settings_sector\n"
+            ".set cusp_settings, %c0\n"
+            ".set cusp_settings_sector, %c1" ::"i"(kSettings.address),
+            "i"(kSettings.sector_bytes));
         SettingsStore store;
         if (const auto settings = machine::glimpse_settings(store)) {
             const OutputLevels off = machine::output_levels({}, 100, false, *settings);
@@ -164,7 +185,7 @@ struct ChipTraits {
         enable_interrupt<Chip>(player_interrupt(), kPlayerPriority);
         board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
                                  reset_amid_motion());
-        start_watchdog<Chip>();
+        start_watchdog<Chip>(kSettings.longest_erase_ms);
         // Only while servo ticks come: without them no stop acts.
         std::uint32_t fed_at = application.machine().motion().ticks() - 1;
         for (;;) {

@@ -46,6 +46,10 @@ struct Chip {
     {
         return block_at<InterruptController<Word>>(0xE000E100);
     }
+    static SystemTimer<Word>& system_timer() noexcept
+    {
+        return block_at<SystemTimer<Word>>(0xE000E010);
+    }
     static SystemControl<Word>& system() noexcept
     {
         return block_at<SystemControl<Word>>(0xE000ED00);

@@ -1,7 +1,7 @@
-// FlashSettings: flash sectors 1 and 2 as the settings store. Sector 0 holds the vectors and the
-// code starts in sector 3, so that neither is touched.
+// FlashSettings: two sectors of the flash as the settings store, which the image leaves free:
+// tests/checks/image.py proves it.
 //
-// The core stops while the flash is busy, up to 0.8 s for a sector: never with frames in flight.
+// The core stops while the flash is busy, up to 2 s for a sector: never with frames in flight.
 // Never tried on silicon. tests/unit/hal_stm32f4 runs it against a model that loses power anywhere.
 #pragma once
 
@@ -12,11 +12,34 @@
 
 namespace cusp::hal::stm32f4 {
 
-template <class Chip>
+// Two sectors, one behind the other, and how much of each is used: what is read after a reset grows with it.
+struct SettingsPlace {
+    unsigned first_sector;
+    std::uint32_t address;
+    std::uint32_t sector_bytes;
+    std::uint32_t used_bytes;
+    std::uint32_t longest_erase_ms;  // data sheets, words of 32 bits
+};
+// The vectors lie in sector 0 and the code begins in sector 3.
+struct SettingsBehindVectors {
+    static constexpr SettingsPlace kPlace{1, 0x08004000, 0x4000, 0x4000, 800};
+};
+// The last two sectors of 512 KB, and of 1 MB: a boot loader that replaces the image leaves them alone.
+struct SettingsAtEndOf512K {
+    static constexpr SettingsPlace kPlace{6, 0x08040000, 0x20000, 0x8000, 2000};
+};
+struct SettingsAtEndOf1M {
+    static constexpr SettingsPlace kPlace{10, 0x080C0000, 0x20000, 0x8000, 2000};
+};
+
+// `Place` is one of the above.
+template <class Chip, class Place = SettingsBehindVectors>
 class FlashSettings {
+    static constexpr SettingsPlace kPlace = Place::kPlace;
+
 public:
-    // See hal/contract/board.hpp. `sector` is 0 or 1: the chip's 1 or 2.
-    std::uint32_t sector_size() const noexcept { return kSectorSize; }
+    // See hal/contract/board.hpp. `sector` is 0 or 1: the first of the place, or the second.
+    std::uint32_t sector_size() const noexcept { return kPlace.used_bytes; }
 
     void read(unsigned sector, std::uint32_t offset, Span<std::uint8_t> bytes) const noexcept
     {
@@ -48,7 +71,8 @@ public:
         unlock();
         bool erased = wait_ready();
         if (erased) {
-            const std::uint32_t command = kSectorErase | kWordWide | (kFirstSector + sector) << 3U;
+            const std::uint32_t command =
+                kSectorErase | kWordWide | (kPlace.first_sector + sector) << 3U;
             Chip::flash().cr.write(command);
             Chip::flash().cr.write(command | kStart);
             erased = wait_ready();
@@ -59,9 +83,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kSectorSize = 16 * 1024;
-    static constexpr unsigned kFirstSector = 1;
-    static constexpr std::uint32_t kFirstAddress = 0x08004000;
     // RM0090 section 3.9.
     static constexpr std::uint32_t kFirstKey = 0x45670123;
     static constexpr std::uint32_t kSecondKey = 0xCDEF89AB;
@@ -72,12 +93,12 @@ private:
     static constexpr std::uint32_t kLock = 1U << 31U;
     static constexpr std::uint32_t kBusy = 1U << 16U;
     static constexpr std::uint32_t kErrors = 0xF2;
-    // The slowest sector of 16 KB takes 0.8 s (data sheet, table 42); a round some ten cycles.
+    // The slowest sector takes 2 s (data sheet, table 42); a round some ten cycles.
     static constexpr std::uint32_t kBusyRounds = 40000000;
 
     static constexpr std::uint32_t address_of(unsigned sector, std::uint32_t offset) noexcept
     {
-        return kFirstAddress + sector * kSectorSize + offset;
+        return kPlace.address + sector * kPlace.sector_bytes + offset;
     }
     static bool wait_ready() noexcept
     {

@@ -136,6 +136,12 @@ struct InterruptController {
 static_assert(offsetof(InterruptController<DeviceWord>, icer) == 0x80);
 static_assert(offsetof(InterruptController<DeviceWord>, ipr) == 0x300);
 
+// Section 4.5.
+template <class Word>
+struct SystemTimer {
+    Word ctrl, load, val, calib;
+};
+
 template <class Word>
 struct SystemControl {
     Word cpuid, icsr, vtor, aircr, scr, ccr, shpr1, shpr2, shpr3, shcsr, cfsr, hfsr, dfsr, mmfar;

@@ -11,6 +11,23 @@ namespace {
 using Chip = cusp::hal::stm32f4::Chip;
 using Constructor = void (*)();
 
+// As after a reset: a boot loader that has started the firmware may have left the core's timer, interrupts
+// and its own table in force, or all interrupts off.
+void quieten_core(std::uint32_t vectors) noexcept
+{
+    constexpr std::uint32_t kPendingOff = 1U << 27U | 1U << 25U;  // PendSV, SysTick
+    constexpr unsigned kWords = (cusp::hal::stm32f4::kInterruptCount + 31) / 32;
+    __asm volatile("cpsid i" ::: "memory");
+    Chip::system_timer().ctrl.write(0);
+    for (unsigned i = 0; i < kWords; ++i) {
+        Chip::interrupts().icer[i].write(0xFFFFFFFFU);
+        Chip::interrupts().icpr[i].write(0xFFFFFFFFU);
+    }
+    Chip::system().icsr.write(kPendingOff);
+    Chip::system().vtor.write(vectors);
+    __asm volatile("dsb\n isb\n cpsie i" ::: "memory");
+}
+
 }  // namespace
 
 extern "C" {
@@ -25,9 +42,7 @@ void cusp_reset()
     // The compiler may use float registers anywhere, so the unit is enabled first.
     constexpr std::uint32_t kFullAccess = 0xFU << 20U;
     cusp::hal::stm32f4::set_bits(Chip::system().cpacr, kFullAccess);
-    // A boot loader that has started the firmware may have left its own table in force.
-    Chip::system().vtor.write(Chip::bus_address(&cusp_vectors));
-    __asm volatile("dsb\n isb" ::: "memory");
+    quieten_core(Chip::bus_address(&cusp_vectors));
 
     // The memory takes 10 ms at the clock of the reset; outputs do not wait for it.
     cusp_rest();

@@ -92,6 +92,16 @@ TEST(FlashSettings, StaysInSectorsOneAndTwo)
     LONGS_EQUAL(0x0800BFFC, chip.flash_words.rbegin()->first);
 }
 
+TEST(FlashSettings, StaysInTheLastTwoSectorsBehindABootLoader)
+{
+    using namespace cusp::hal::stm32f4;
+    FlashSettings<ModelChip, SettingsAtEndOf1M> last;
+    CHECK_TRUE(last.write(0, 0, some_bytes(1)));
+    CHECK_TRUE(last.write(1, last.sector_size() - 64, some_bytes(2)));
+    LONGS_EQUAL(0x080C0000, chip.flash_words.begin()->first);
+    LONGS_EQUAL(0x080E7FFC, chip.flash_words.rbegin()->first);
+}
+
 TEST(FlashSettings, LeavesTheFlashLocked)
 {
     CHECK_TRUE(store.erase(0));
