@@ -1,10 +1,11 @@
 # Images: programs for a chip, without a C library, laid out by a linker script.
 
-# cusp_image(NAME <name> SCRIPT <linker script> SOURCES <file>... DEPENDS <target>...)
+# cusp_image(NAME <name> SCRIPT <linker script> SOURCES <file>... DEPENDS <target>... [FIRMWARE_BIN])
 #
-# Builds <name>.elf, <name>.bin, <name>.hex and <name>.map into the build's bin folder.
+# Builds <name>.elf, <name>.bin, <name>.hex and <name>.map into the build's bin folder; with FIRMWARE_BIN also
+# <name>/firmware.bin there, which the makers' boot loaders take from an SD card.
 function(cusp_image)
-  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME;SCRIPT" "SOURCES;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "FIRMWARE_BIN" "NAME;SCRIPT" "SOURCES;DEPENDS")
   set(out ${PROJECT_BINARY_DIR}/bin)
   set(script ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT})
   add_executable(${ARG_NAME} ${ARG_SOURCES})
@@ -21,4 +22,9 @@ function(cusp_image)
   add_custom_command(TARGET ${ARG_NAME} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary --gap-fill 0xff $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.hex)
+  if(ARG_FIRMWARE_BIN)
+    add_custom_command(TARGET ${ARG_NAME} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${out}/${ARG_NAME}
+      COMMAND ${CMAKE_COMMAND} -E copy ${out}/${ARG_NAME}.bin ${out}/${ARG_NAME}/firmware.bin)
+  endif()
 endfunction()
