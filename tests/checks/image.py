@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves what must hold of a firmware image. usage: image.py IMAGE.elf CALL_GRAPH_FOLDER [RAM_LIMIT]
+"""Proves what must hold of a firmware image. usage: image.py IMAGE.elf CALL_GRAPH_FOLDER [RAM_LIMIT] [FIRMWARE.bin]
 
   symbols   no heap, no exceptions, no type information, no C library's files
   double    no arithmetic of doubles below the servo tick and the interrupts
@@ -8,6 +8,8 @@
   stack     the deepest chain of each priority, one upon the other, leaves 1 KB of the stack; a call through a
             pointer counts as the deepest function whose address is kept anywhere
   memory    flash and RAM within the chip's and the project's
+  settings  nothing of the image lies in their two sectors, and neither lies before its vectors
+  loader    with FIRMWARE.bin: the vectors are at 0x08008000, behind the maker's boot loader, and begin that file
 
 Exit status: 0 all hold, 1 some do not, 2 the image can't be read.
 """
@@ -31,6 +33,7 @@ DOUBLE = re.compile(
     r"|float\w+df|extendsfdf2|truncdfsf2)$|^(sqrt|floor|fabs|sin|cos|atan2)$")
 STACK_LEFT = 1024
 RAM_LIMIT = 96 * 1024  # unless the call says otherwise
+LOADED_AT = 0x08008000  # where the makers' boot loaders start what they have loaded
 
 
 def contexts(functions):
@@ -157,7 +160,51 @@ def check_memory(image, limit):
         yield f"memory: {flash} bytes of flash"
 
 
+def loaded_sections(image):
+    """(name, first, end) of what is written into the flash."""
+    for line in run("arm-none-eabi-objdump", "-h", image).splitlines():
+        section = re.match(r"\s*\d+ (\S+)\s+([0-9a-f]{8})\s+([0-9a-f]{8})\s+([0-9a-f]{8})", line)
+        if section:
+            size, place, load = (int(section.group(k), 16) for k in (2, 3, 4))
+            if load >> 24 == 8 and size and (place == load or section.group(1) == ".data"):
+                yield section.group(1), load, load + size
+
+
+def check_settings(image, table):
+    if any("3hal4qemu" in name for name in table):
+        return  # kept in memory there
+    if "cusp_settings" not in table or "cusp_vectors" not in table:
+        yield "settings: the image does not say where they are"
+        return
+    first, end = table["cusp_settings"], table["cusp_settings"] + 2 * table["cusp_settings_sector"]
+    vectors = table["cusp_vectors"]
+    print(f"settings: {first:#x} to {end:#x}, vectors at {vectors:#x}")
+    if first < vectors:
+        yield f"settings: they lie before the vectors, at {first:#x}"
+    for name, begin, after in loaded_sections(image):
+        if begin < end and after > first:
+            yield f"settings: {name} lies in their sectors, {begin:#x} to {after:#x}"
+        if begin < vectors:
+            yield f"settings: {name} lies before the vectors, at {begin:#x}"
+
+
+def check_firmware(firmware, image, table):
+    if firmware is None:
+        return
+    with open(firmware, "rb") as file:
+        content = file.read()
+    words = [int.from_bytes(content[at:at + 4], "little") for at in (0, 4)]
+    if table["cusp_vectors"] != LOADED_AT:
+        yield f"loader: the vectors are at {table['cusp_vectors']:#x}"
+    if words != [table["cusp_stack_top"], table["cusp_reset"] | 1]:
+        yield f"loader: {firmware} begins with {words[0]:#x} {words[1]:#x}"
+    end = max(after for _, _, after in loaded_sections(image))
+    if len(content) != end - LOADED_AT:
+        yield f"loader: {firmware} has {len(content)} bytes, the image {end - LOADED_AT}"
+
+
 def main(arguments):
+    firmware = arguments.pop() if arguments[-1].endswith(".bin") else None
     if len(arguments) not in (3, 4):
         print(__doc__, file=sys.stderr)
         return 2
@@ -170,7 +217,8 @@ def main(arguments):
         if missing or "cusp_stack_size" not in table:
             raise Unreadable(f"{image}: no {', '.join(missing) or 'cusp_stack_size'}")
         found = [*check_symbols(table), *check_real_time(functions), *check_calls(functions),
-                 *check_memory(image, limit)]
+                 *check_memory(image, limit), *check_settings(image, table),
+                 *check_firmware(firmware, image, table)]
         add_calls_by_pointer(image, functions)
         found += check_stack(functions, table)
     except Unreadable as error:

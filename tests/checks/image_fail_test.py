@@ -32,6 +32,7 @@ void cusp_rest() {{}}
 int cusp_main() {{ return 0; }}
 void cusp_board_stop() {{}}
 __attribute__((section(".vectors"), used)) const unsigned vectors[2] = {{0x20020000u, 0x0800C001u}};
+__asm(".global cusp_settings, cusp_settings_sector\\n.set cusp_settings, {settings}\\n.set cusp_settings_sector, 0x4000");
 }}
 """
 
@@ -42,9 +43,10 @@ class ProofsOfTheImage(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.place = pathlib.Path(self.folder.name)
 
-    def build(self, extra="", reset="", tick="", serial="", player=""):
+    def build(self, extra="", reset="", tick="", serial="", player="", settings="0x08004000"):
         (self.place / "bad.cpp").write_text(
-            SOURCE.format(extra=extra, reset=reset, tick=tick, serial=serial, player=player))
+            SOURCE.format(extra=extra, reset=reset, tick=tick, serial=serial, player=player,
+                          settings=settings))
         (self.place / "bad.ld").write_text(LAYOUT)
         return subprocess.run(
             ["arm-none-eabi-g++", *FLAGS, "-c", "bad.cpp", "-o", "bad.o"], cwd=self.place,
@@ -67,6 +69,21 @@ class ProofsOfTheImage(unittest.TestCase):
     def test_a_good_image_passes(self):
         status, text = self.prove()
         self.assertEqual(status, 0, text)
+
+    def test_settings_amid_the_code_are_refused(self):
+        self.refuse("settings: .text lies in their sectors", settings="0x08008000")
+
+    def test_settings_where_a_boot_loader_is_are_refused(self):
+        self.refuse("settings: they lie before the vectors", settings="0x07FF8000")
+
+    def test_a_file_for_a_boot_loader_that_is_not_behind_it_is_refused(self):
+        self.build()
+        (self.place / "firmware.bin").write_bytes(bytes(100))
+        run = subprocess.run([sys.executable, str(HERE / "image.py"), "bad.elf", ".", "firmware.bin"], cwd=self.place,
+                             capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        for words in ("the vectors are at 0x8000000", "begins with 0x0 0x0", "has 100 bytes"):
+            self.assertIn(words, run.stdout)
 
     def test_the_heap_does_not_even_link(self):
         self.assertNotEqual(self.build(reset="sink = *new int;").returncode, 0)
