@@ -10,7 +10,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 # Chip and crystal, as the boards' READMEs say in their first lines; "external": a clock in its place.
 CHIPS = {"mill3_f405": ("stm32f405", 8000000), "black_pill_f411": ("stm32f411", 25000000),
          "nucleo_f446_cnc_shield": ("stm32f446", 8000000, "external"),
-         "skr2_f407": ("stm32f407", 8000000), "octopus_f446": ("stm32f446", 12000000)}
+         "skr2_f407": ("stm32f407", 8000000), "octopus_f446": ("stm32f446", 12000000),
+         "skr2_f429": ("stm32f429", 8000000), "octopus_f429": ("stm32f429", 8000000)}
+# An image behind the maker's boot loader, NAME_sd, is for the same board; its settings begin in this sector.
+BEHIND_LOADER = "_sd"
+SETTINGS_SECTOR = {"stm32f407": 10, "stm32f429": 10, "stm32f446": 6}
+# Boards that are wired as another.
+WIRED_AS = {"skr2_f429": "skr2_f407", "octopus_f429": "octopus_f446"}
 # A core that stands still does not turn the wire round on which a drive answers: for 2 ms both drive it.
 WITHOUT_CORE = ("driven from outside and from inside", "the wire is driven from both ends")
 # Which USART has the pin as its transmitter.
@@ -30,7 +36,8 @@ class CosimFailed(Exception):
 def wiring(board):
     """signal -> pin, from the wiring table of the board's README."""
     pins = {}
-    text = (ROOT / "boards" / board / "README.md").read_text()
+    board = board.removesuffix(BEHIND_LOADER)
+    text = (ROOT / "boards" / WIRED_AS.get(board, board) / "README.md").read_text()
     for signals, names in re.findall(r"^\| ([^|]+) \| ((?:P[A-I]\d+)(?:, P[A-I]\d+)*) \|", text, re.M):
         words = [re.sub(r"\(.*?\)", "", word).strip() for word in signals.split(",")]
         names = names.split(", ")
@@ -48,7 +55,10 @@ class Chip:
     """The image of a board from power-up on. A context manager: the end checks for violations."""
 
     def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True):
-        chip, nominal, *more = CHIPS[board]
+        chip, nominal, *more = CHIPS[board.removesuffix(BEHIND_LOADER)]
+        if board.endswith(BEHIND_LOADER):
+            loader = pathlib.Path(image).resolve().parents[1] / "test_loader.bin"
+            more += ["loader", str(loader), str(SETTINGS_SECTOR[chip])]
         self.may_violate = may_violate
         self.pins = wiring(board)
         self.lines = [self.pins[line] for line in LINES]

@@ -27,7 +27,7 @@ struct ChipKind {
     unsigned serial{1};  // which USART is the board's line
     bool overrides_usb_session{false};
 };
-// stm32f405, stm32f407, stm32f411, stm32f446. Throws std::runtime_error for another.
+// stm32f405, stm32f407, stm32f411, stm32f429, stm32f446. Throws std::runtime_error for another.
 ChipKind chip_kind(const std::string& name);
 
 class ChipUnderTest {

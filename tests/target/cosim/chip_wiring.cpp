@@ -44,12 +44,20 @@ const Requests kRequestsOfTimer1{
 
 ChipKind chip_kind(const std::string& name)
 {
-    // Data sheets DS8626, DS8626, DS10314, DS10693: rates, wait states at 3.3 V, memories. The F446
-    // without its over-drive.
+    // Data sheets DS8626, DS8626, DS9405, DS10314, DS10693: rates, wait states at 3.3 V, memories. The F429
+    // and the F446 without their over-drive.
     if (name == "stm32f405" || name == "stm32f407") {
         return {{8000000, 168000000, 42000000, 84000000, 30000000, 1},
                 1024 * 1024,
                 128 * 1024,
+                64 * 1024,
+                true,
+                "ABCDEFGHI"};
+    }
+    if (name == "stm32f429") {
+        return {{8000000, 168000000, 45000000, 90000000, 30000000, 3},
+                1024 * 1024,
+                192 * 1024,
                 64 * 1024,
                 true,
                 "ABCDEFGHI"};

@@ -15,6 +15,7 @@ constexpr std::uint32_t kNowhere = 0xFFFFFF00;
 constexpr std::uint32_t kPage = 1024;  // of the engine
 constexpr unsigned kNmi = 2;
 constexpr unsigned kPendSv = 14;
+constexpr unsigned kTimer = 15;
 constexpr unsigned kFirstInterrupt = 16;
 constexpr unsigned kNone = 0;
 constexpr unsigned kThreadPriority = 256;
@@ -96,6 +97,7 @@ void CoreModel::reset()
     circuit_.interrupt_edges = {};
     priorities_ = {};
     pend_sv_ = false;
+    timer_on_ = timer_pends_ = masked_ = false;
     vtor_ = 0;
     shpr1_ = shpr2_ = shpr3_ = 0;
     cpacr_ = 0;
@@ -153,6 +155,10 @@ void CoreModel::begin_block(std::uint32_t address, std::uint32_t size)
 {
     if (circuit_.now >= circuit_.next_event) {
         outside_.events();
+    }
+    if (masked_ && (register_of(UC_ARM_REG_PRIMASK) & 1U) == 0) {
+        masked_ = false;
+        circuit_.interrupts_changed = true;
     }
     if (circuit_.interrupts_changed || reset_wanted_ || outside_.must_stop()) {
         stopped_ = true;
@@ -245,6 +251,9 @@ bool CoreModel::pending(unsigned exception) const
     if (exception == kPendSv) {
         return pend_sv_;
     }
+    if (exception == kTimer) {
+        return timer_pends_;
+    }
     const unsigned number = exception - kFirstInterrupt;
     return exception >= kFirstInterrupt && enabled_[number] &&
            (circuit_.interrupt_lines[number] || circuit_.interrupt_edges[number]);
@@ -275,7 +284,7 @@ void CoreModel::take_exception()
         return;
     }
     if (exception != kNmi && (register_of(UC_ARM_REG_PRIMASK) & 1U) != 0) {
-        circuit_.interrupts_changed = true;  // until they are allowed again
+        masked_ = true;  // until they are allowed again: seen at a block's begin
         return;
     }
     enter(exception);
@@ -319,6 +328,7 @@ void CoreModel::enter(unsigned exception)
     active_.push_back({exception, instructions_, 0});
     circuit_.nmi = circuit_.nmi && exception != kNmi;
     pend_sv_ = pend_sv_ && exception != kPendSv;
+    timer_pends_ = timer_pends_ && exception != kTimer;
     if (exception >= kFirstInterrupt) {
         circuit_.interrupt_edges[exception - kFirstInterrupt] = false;
     }
@@ -441,8 +451,15 @@ void CoreModel::write(std::uint32_t offset, std::uint32_t value)
         each(0x280, circuit_.interrupt_edges, false);
     } else if (offset >= 0x400 && offset < 0x460) {
         std::memcpy(&priorities_[offset - 0x400], &value, 4);
+    } else if (offset == 0x010) {
+        // Its time is not modelled: it pends as soon as it is on.
+        timer_on_ = (value & 3U) == 3;
+        timer_pends_ = timer_pends_ || timer_on_;
+    } else if (offset == 0x014 || offset == 0x018) {
+        // What it counts.
     } else if (offset == 0xD04) {
         pend_sv_ = (pend_sv_ || (value >> 28U & 1U) != 0) && (value >> 27U & 1U) == 0;
+        timer_pends_ = timer_pends_ && (timer_on_ || (value >> 25U & 1U) == 0);
     } else if (offset == 0xD08) {
         vtor_ = value;
     } else if (offset == 0xD0C) {

@@ -88,6 +88,9 @@ private:
     std::array<bool, 96> enabled_{};
     std::array<std::uint8_t, 96> priorities_{};
     bool pend_sv_{false};
+    bool timer_on_{false};  // the core's own, with its exception
+    bool timer_pends_{false};
+    bool masked_{false};  // an exception waits for PRIMASK
     std::uint32_t vtor_{0}, shpr3_{0}, shpr1_{0}, shpr2_{0}, cpacr_{0}, shcsr_{0}, ccr_{0x200};
 };
 

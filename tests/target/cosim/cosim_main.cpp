@@ -1,8 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]...
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [loader FILE.bin SECTOR]
 //
-// `drive`: a TMC2209 is at this pin; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
+// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -366,11 +366,15 @@ void Console::perform(const std::string& line)
     }
 }
 
+constexpr std::size_t kLoaderBytes = 0x8000;
+
 int run_commands(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
     std::vector<PinName> drives;
+    std::vector<std::uint8_t> image = read_file(arguments[3]);
+    unsigned settings = 1;  // their first sector
     for (int i = 4; i < count; ++i) {
         const std::string word = arguments[i];
         if (word == "external") {
@@ -380,11 +384,21 @@ int run_commands(int count, char** arguments)
         } else if (word == "drive" && i + 1 < count) {
             ++i;
             drives.push_back(pin_name(arguments[i]));
+        } else if (word == "loader" && i + 2 < count) {
+            std::vector<std::uint8_t> loader = read_file(arguments[i + 1]);
+            settings = static_cast<unsigned>(std::stoul(arguments[i + 2]));
+            i += 2;
+            loader.resize(kLoaderBytes, 0xFF);
+            image.insert(image.begin(), loader.begin(), loader.end());
         } else {
             throw std::runtime_error{"no such word: " + word};
         }
     }
-    ChipUnderTest chip{kind, read_file(arguments[3])};
+    ChipUnderTest chip{kind, image};
+    chip.flash().set_free_sectors(settings);
+    if (settings > 4) {
+        chip.flash().set_times(2 * kSecond, 16 * kMicrosecond);  // 128 KB
+    }
     for (const PinName& pin : drives) {
         chip.add_drive("drive " + std::to_string(chip.drives()), pin.port, pin.number);
     }
@@ -404,7 +418,8 @@ int run_commands(int count, char** arguments)
 int main(int count, char** arguments)
 {
     if (count < 4) {
-        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]...\n";
+        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... "
+                     "[loader FILE.bin SECTOR]\n";
         return 2;
     }
     try {

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+from chip import WIRED_AS
 from mutations import Builder
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -30,7 +31,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         try:
             builder = Builder(options.image, pathlib.Path(folder))
-            image = builder.make(f"boards/{options.board}/{TABLES[options.board]}.hpp",
+            board = WIRED_AS.get(options.board, options.board)
+            image = builder.make(f"boards/{board}/{TABLES[board]}.hpp",
                                  "kBaud = 115200;", f"kBaud = {BAUD};")
         except (OSError, subprocess.CalledProcessError, StopIteration) as error:
             print(f"fast_serial: {error}", file=sys.stderr)

@@ -8,7 +8,7 @@ import re
 import sys
 import unittest
 
-from chip import CHIPS, ROOT, Chip, CosimFailed
+from chip import CHIPS, ROOT, WIRED_AS, Chip, CosimFailed
 
 options = None
 MOST_HZ = {"black_pill_f411": 96e6}  # the others: 168 MHz
@@ -25,7 +25,7 @@ def chip(**more):
 
 
 def most_steps_per_second():
-    table, = (ROOT / "boards" / options.board).glob("*_table.hpp")
+    table, = (ROOT / "boards" / WIRED_AS.get(options.board, options.board)).glob("*_table.hpp")
     return int(re.search(r"kMostStepsPerSecond = (\d+);", table.read_text()).group(1))
 
 

@@ -96,7 +96,7 @@ void FlashModel::command(std::uint32_t value)
         return;
     }
     const unsigned sector = value >> 3U & 15U;
-    if (sector != 1 && sector != 2) {
+    if (sector != first_free_ && sector != first_free_ + 1) {
         circuit_.violate("FLASH: sector " + std::to_string(sector) + " is erased");
     }
     const auto begin = bytes_.begin() + sector_start(sector);
@@ -113,7 +113,7 @@ void FlashModel::store(std::uint32_t address, std::uint32_t size, std::uint32_t 
         return;
     }
     const std::uint32_t place = address - kStart;
-    if (place < sector_start(1) || place >= sector_start(3)) {
+    if (place < sector_start(first_free_) || place >= sector_start(first_free_ + 2)) {
         circuit_.violate("FLASH: " + hexadecimal(address) + " is programmed");
     }
     for (unsigned i = 0; i < 4; ++i) {

@@ -26,6 +26,8 @@ public:
         erase_time_ = erase;
         program_time_ = program;
     }
+    // The two sectors that may be erased and programmed: by default those behind the first.
+    void set_free_sectors(unsigned first) { first_free_ = first; }
     std::uint64_t erases() const { return erases_; }
     std::uint64_t words() const { return words_; }
 
@@ -39,6 +41,7 @@ private:
     Picoseconds busy_until_{0};
     Picoseconds erase_time_{800 * kMillisecond};
     Picoseconds program_time_{16 * kMicrosecond};
+    unsigned first_free_{1};
     std::uint64_t erases_{0};
     std::uint64_t words_{0};
 };

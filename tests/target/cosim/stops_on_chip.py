@@ -153,7 +153,7 @@ def measure(what, obstacle, speed, part=0.0):
 def stated_times():
     """The board's row of the table in docs/porting.md, ms."""
     text = (ROOT / "docs/porting.md").read_text()
-    row = re.search(rf"^\| `{options.board}` \|(.*)\|$", text, re.M).group(1)
+    row = re.search(rf"^\| (?:`\w+`, )*`{options.board}`(?:, `\w+`)* \|(.*)\|$", text, re.M).group(1)
     return dict(zip(COLUMNS, map(float, row.split("|"))))
 
 
