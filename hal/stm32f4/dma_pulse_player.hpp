@@ -350,11 +350,14 @@ bool DmaPulsePlayer<Chip, Table, Pace>::try_play(const PulseFrame& frame) noexce
 template <class Chip, class Table, class Pace>
 bool DmaPulsePlayer<Chip, Table, Pace>::on_interrupt() noexcept
 {
-    const bool paused = gate_ended();
-    begin_gate();
+    // What the gate has ended is not played on: the next word may be of a frame that is over.
+    const bool late = gate_ended() && moving();
+    if (!late) {
+        begin_gate();
+    }
     const std::uint32_t raised = flags().read();
     flag_clear().write(raised & kAllFlags);
-    if ((raised & kErrors) != 0 || !in_step() || (paused && moving())) {
+    if ((raised & kErrors) != 0 || !in_step() || late) {
         fail();
         return true;
     }
