@@ -42,7 +42,7 @@ void* load_module()
 
 }  // namespace
 
-CadModel cad_model(const std::string& file, const Similarity& placed, bool all_faces)
+CadModel cad_model(const std::string& file, const Similarity& placed, CadWanted wanted)
 {
     void* const module = load_module();
     void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_model");
@@ -55,7 +55,7 @@ CadModel cad_model(const std::string& file, const Similarity& placed, bool all_f
     }
     CadModel model;
     files::with_file_on_disk(file, [&](const std::string& path) {
-        reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(path, placed, all_faces, model);
+        reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(path, placed, wanted, model);
     });
     for (Surface& surface : model.faces) {
         surface = with_turning_knots(surface);

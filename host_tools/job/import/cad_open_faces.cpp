@@ -45,21 +45,17 @@ bool has_open_edge(const std::vector<SolidFace>& faces)
 
 }  // namespace
 
-std::vector<std::array<Vec3d, 3>> triangles_of_open_faces(const std::vector<SolidFace>& faces)
+std::vector<std::array<Vec3d, 3>> triangles_of_faces(const std::vector<SolidFace>& faces, double off)
 {
-    constexpr double kOff = 0.05;   // mm
     constexpr double kTurn = 0.35;  // radians
     std::vector<std::array<Vec3d, 3>> triangles;
-    if (!has_open_edge(faces)) {
-        return triangles;
-    }
     const BRep_Builder builder;
     TopoDS_Compound all;
     builder.MakeCompound(all);
     for (const SolidFace& found : faces) {
         builder.Add(all, found.face);
     }
-    const BRepMesh_IncrementalMesh mesh{all, kOff, false, kTurn};
+    const BRepMesh_IncrementalMesh mesh{all, off, false, kTurn};
     for (const SolidFace& found : faces) {
         TopLoc_Location place;
         const Handle(Poly_Triangulation) facets = BRep_Tool::Triangulation(found.face, place);
@@ -78,6 +74,13 @@ std::vector<std::array<Vec3d, 3>> triangles_of_open_faces(const std::vector<Soli
         }
     }
     return triangles;
+}
+
+std::vector<std::array<Vec3d, 3>> triangles_of_open_faces(const std::vector<SolidFace>& faces)
+{
+    constexpr double kOff = 0.05;  // mm
+    return has_open_edge(faces) ? triangles_of_faces(faces, kOff)
+                                : std::vector<std::array<Vec3d, 3>>{};
 }
 
 }  // namespace cusp::import

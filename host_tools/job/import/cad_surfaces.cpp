@@ -25,7 +25,7 @@ std::vector<Surface> hole_covers(const std::string& file,
 {
     constexpr double kOff = 1e-3;  // mm
     Facets covers;
-    for (std::array<Vec3d, 3> t : covers_of_holes(file, "faces", model.open_faces, notes)) {
+    for (std::array<Vec3d, 3> t : covers_of_holes(file, "faces", model.triangles, notes)) {
         if (cross(t[1] - t[0], t[2] - t[0]).z < 0) {
             std::swap(t[1], t[2]);
         }
@@ -48,7 +48,7 @@ std::vector<Surface> read_cad_surfaces(const std::string& file,
                                        const Similarity& placed,
                                        std::vector<std::string>* notes)
 {
-    CadModel model = cad_model(file, placed, false);
+    CadModel model = cad_model(file, placed, CadWanted::kUpward);
     std::vector<std::string> said = notes_of(model, file);
     for (Surface& cover : hole_covers(file, model, said)) {
         model.faces.push_back(std::move(cover));
@@ -79,6 +79,11 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
     return notes;
 }
 
-CadModel read_cad_model(const std::string& file) { return cad_model(file, {}, true); }
+std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file, const Similarity& placed)
+{
+    return cad_model(file, placed, CadWanted::kFacets).triangles;
+}
+
+CadModel read_cad_model(const std::string& file) { return cad_model(file, {}, CadWanted::kAllFaces); }
 
 }  // namespace cusp::import

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,9 @@ struct CadModel {
     FaceFault lobes;       // cut off where edges cross each other
     FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    // Triangles of all faces where these do not close, for the search for holes (mesh_holes.hpp); not for
-    // read_cad_model().
-    std::vector<std::array<Vec3d, 3>> open_faces;
+    // Of CadWanted::kUpward the triangles of all faces where these do not close, for the search for holes
+    // (mesh_holes.hpp); of kFacets all triangles.
+    std::vector<std::array<Vec3d, 3>> triangles;
     std::vector<double> outwards;  // of each face: +1 if du x dv points out of its solid, -1
                                    // if into it; 0: the face belongs to no solid
 };
@@ -74,15 +75,23 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
 // As read_cad_surfaces(), but faces of solids without an upward normal are kept.
 CadModel read_cad_model(const std::string& file);
 
-// Both, by Open CASCADE. all_faces  also those of solids without an upward normal
-CadModel cad_model(const std::string& file, const Similarity& placed, bool all_faces);
+// Triangles of all faces, no farther than kFacetsOff from them, which meet at shared edges.
+//
+// Errors: as read_cad_surfaces().
+inline constexpr double kFacetsOff = 1e-3;  // mm
+std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file,
+                                                  const Similarity& placed);
+
+// What of a model is wanted: faces with an upward normal, all faces, or triangles alone.
+enum class CadWanted : std::uint8_t { kUpward, kAllFaces, kFacets };
+
+// All three, by Open CASCADE.
+CadModel cad_model(const std::string& file, const Similarity& placed, CadWanted wanted);
 
 }  // namespace cusp::import
 
 // The entry point of libcusp_cad.so. Its undefined symbols are resolved by the program.
-//
-// all_faces  also those of solids without an upward normal
 extern "C" void cusp_read_cad_model(const std::string& file,
                                     const cusp::import::Similarity& placed,
-                                    bool all_faces,
+                                    cusp::import::CadWanted wanted,
                                     cusp::import::CadModel& model);

@@ -79,7 +79,7 @@ TopoDS_Shape placed_shape(const TopoDS_Shape& shape, const Similarity& placed)
 CadModel model_of(const std::string& file,
                   Repairs repairs,
                   const Similarity& placed,
-                  bool all_faces)
+                  CadWanted wanted)
 {
     ReadShape read = read_shape(file, repairs);
     read.shape = placed_shape(read.shape, placed);
@@ -94,8 +94,13 @@ CadModel model_of(const std::string& file,
     if (faces.empty()) {
         throw InputError(file + ": the file holds no face");
     }
+    if (wanted == CadWanted::kFacets) {
+        model.triangles = triangles_of_faces(faces, kFacetsOff);
+        return model;
+    }
+    const bool all_faces = wanted == CadWanted::kAllFaces;
     if (!all_faces) {
-        model.open_faces = triangles_of_open_faces(faces);
+        model.triangles = triangles_of_open_faces(faces);
     }
     for (std::size_t i = 0; i < faces.size(); ++i) {
         add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
@@ -109,11 +114,11 @@ CadModel model_of(const std::string& file,
 // A file whose wires have to be reversed is read again with all repairs, unless these lose area.
 CadModel model_with_fewest_repairs(const std::string& file,
                                    const Similarity& placed,
-                                   bool all_faces)
+                                   CadWanted wanted)
 {
     constexpr double kSamePart = 1e-3;
     try {
-        return model_of(file, Repairs::kGentle, placed, all_faces);
+        return model_of(file, Repairs::kGentle, placed, wanted);
     } catch (const InputError&) {
         const double gentle = area_of(read_shape(file, Repairs::kGentle).shape);
         const double repaired = area_of(read_shape(file, Repairs::kAll).shape);
@@ -121,7 +126,7 @@ CadModel model_with_fewest_repairs(const std::string& file,
             throw;
         }
         try {
-            return model_of(file, Repairs::kAll, placed, all_faces);
+            return model_of(file, Repairs::kAll, placed, wanted);
         } catch (const InputError&) {
         }
         throw;  // the file as it is
@@ -133,11 +138,11 @@ CadModel model_with_fewest_repairs(const std::string& file,
 
 extern "C" void cusp_read_cad_model(const std::string& file,
                                     const cusp::import::Similarity& placed,
-                                    bool all_faces,
+                                    cusp::import::CadWanted wanted,
                                     cusp::import::CadModel& model)
 {
     try {
-        model = cusp::import::model_with_fewest_repairs(file, placed, all_faces);
+        model = cusp::import::model_with_fewest_repairs(file, placed, wanted);
     } catch (const Standard_Failure& failure) {
         throw cusp::InputError(
             fmt::format("{}: Open CASCADE failed: {}", file, failure.GetMessageString()));

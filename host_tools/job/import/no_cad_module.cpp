@@ -4,7 +4,7 @@
 
 namespace cusp::import {
 
-CadModel cad_model(const std::string& file, const Similarity&, bool)
+CadModel cad_model(const std::string& file, const Similarity&, CadWanted)
 {
     throw InputError(
         file +

@@ -10,6 +10,7 @@
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/mesh_holes.hpp"
 #include "host_tools/job/import/nurbs_validity.hpp"
+#include "host_tools/job/import/part_regions.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
@@ -103,9 +104,9 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
 {
     const auto [found, is_new] = loops_.try_emplace({file, gaps.least, gaps.given.value_or(-1)});
     if (is_new) {
-        const auto drawn = drawn_.find(file);
-        found->second = drawn == drawn_.end() ? read_loops(file, millimetres, gaps, notes_)
-                                              : loops_of(file, drawn->second, gaps, notes_);
+        const DrawnPaths* const drawn = this->drawn(file, millimetres);
+        found->second = drawn == nullptr ? read_loops(file, millimetres, gaps, notes_)
+                                         : loops_of(file, *drawn, gaps, notes_);
         move_loops(placed_drawing(file), found->second);
         for (const FileLoop& loop : found->second) {
             check_place(loop.loop, file);
@@ -120,9 +121,9 @@ FileShapes PartFiles::shapes(const std::string& file,
                              EndDistance gaps)
 {
     const Similarity move = placed_drawing(file);
-    const auto drawn = drawn_.find(file);
-    FileShapes shapes = drawn == drawn_.end() ? read_shapes(file, layers, millimetres, gaps, notes_)
-                                              : shapes_of(file, drawn->second, gaps, notes_);
+    const DrawnPaths* const drawn = this->drawn(file, millimetres);
+    FileShapes shapes = drawn == nullptr ? read_shapes(file, layers, millimetres, gaps, notes_)
+                                         : shapes_of(file, *drawn, gaps, notes_);
     move_loops(move, shapes.loops);
     for (const FileLoop& loop : shapes.loops) {
         check_place(loop.loop, file);
@@ -141,8 +142,39 @@ std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres
     return curves;
 }
 
+const Triangles& PartFiles::facets(const std::string& file, double millimetres)
+{
+    if (is_mesh_file(file)) {
+        return mesh(file, millimetres);
+    }
+    const auto [found, is_new] = facets_.try_emplace(file);
+    if (is_new) {
+        found->second = read_cad_facets(file, placed(file));
+    }
+    return found->second;
+}
+
+const DrawnPaths* PartFiles::drawn(const std::string& name, double millimetres)
+{
+    if (const auto found = drawn_.find(name); found != drawn_.end()) {
+        return &found->second;
+    }
+    if (!names_part_region(name)) {
+        return nullptr;
+    }
+    const auto [found, is_new] = regions_.try_emplace(name);
+    if (is_new) {
+        found->second = part_region(name, millimetres, facets(without_layer(name), millimetres));
+    }
+    return &found->second;
+}
+
+// A region is that of the part as it is placed.
 Similarity PartFiles::placed_drawing(const std::string& name) const
 {
+    if (names_part_region(name)) {
+        return {};
+    }
     const std::string file = without_layer(name);
     return placed(placed_.count(file) > 0 ? file : name);
 }
@@ -200,10 +232,10 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
 std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres)
 {
     const Similarity move = placed_drawing(file);
-    const auto drawn = drawn_.find(file);
-    std::vector<job::Chain> chains = drawn == drawn_.end()
+    const DrawnPaths* const drawn = this->drawn(file, millimetres);
+    std::vector<job::Chain> chains = drawn == nullptr
                                          ? read_chains(file, millimetres, notes_)
-                                         : chains_of(file, curves_of(drawn->second.paths), notes_);
+                                         : chains_of(file, curves_of(drawn->paths), notes_);
     for (job::Chain& chain : chains) {
         move_curves(move, chain);
         check_place(chain, file);
@@ -220,6 +252,8 @@ void PartFiles::turn_all(const Similarity& turn)
     meshes_.clear();
     loops_.clear();
     cad_holes_.clear();
+    facets_.clear();
+    regions_.clear();
     notes_.clear();
 }
 
@@ -241,6 +275,7 @@ void PartFiles::shift(const std::string& file, Vec3d by)
         }
     }
     cad_holes_.erase(file);
+    facets_.erase(file);
     for (auto& [key, loops] : loops_) {
         if (std::get<0>(key) == file || without_layer(std::get<0>(key)) == file) {
             Similarity move;

@@ -55,6 +55,10 @@ public:
     // A drawing that is no file, such as a text: loops(), shapes() and chains() find it by its name.
     void draw(const std::string& name, DrawnPaths drawn) { drawn_[name] = std::move(drawn); }
 
+    // The facets of a model or a mesh, whole, for its regions (part_regions.hpp), which loops() and shapes() find
+    // by their names.
+    const Triangles& facets(const std::string& file, double millimetres);
+
     void note(const std::string& sentence) { notes_.push_back(sentence); }
 
     // Places a file that was not read yet; its name has no "#layer".
@@ -71,6 +75,8 @@ public:
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    // A drawing that is no file, where the name is that of one; null: it is a file.
+    const DrawnPaths* drawn(const std::string& name, double millimetres);
     std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
     Similarity placed(const std::string& file) const;
     // The placing of a drawing, the same for all layers.
@@ -82,6 +88,8 @@ private:
     // keys: file, limits of gaps; below 0: not given
     std::map<std::tuple<std::string, double, double>, std::vector<FileLoop>> loops_;
     std::map<std::string, DrawnPaths> drawn_;
+    std::map<std::string, Triangles> facets_;     // of models
+    std::map<std::string, DrawnPaths> regions_;  // of parts, placed
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     Similarity turn_;                           // of all files, last

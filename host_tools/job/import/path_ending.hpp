@@ -12,7 +12,7 @@ std::string path_ending(const std::string& file);
 // True if it holds curves by layers: .dxf, .svg.
 bool is_drawing_file(const std::string& file);
 
-// Place of "#layer" in the name of a drawing: at the first # after its ending, since names of layers
+// Place of "#layer" in the name of a drawing, or of "#region" in that of a part (part_regions.hpp): at the first # after its ending, since names of layers
 // may hold more of them, and folders too. npos: none.
 std::size_t layer_mark(const std::string& name);
 

@@ -3,6 +3,8 @@
 #include "host_tools/job/import/placing_reader.hpp"
 
 #include "host_tools/job/import/job_key_tables.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/path_ending.hpp"
 
 #include "fmt/format.h"
 
@@ -102,7 +104,13 @@ PlacedFiles files_of_operations(const std::vector<const toml::table*>& operation
             add_texts(*operation, key, folder, files.parts);
         }
         for (const char* const key : {"boundary", "islands"}) {
-            add_texts(*operation, key, folder, files.drawings);
+            std::vector<std::string> names;
+            add_texts(*operation, key, folder, names);
+            for (const std::string& name : names) {
+                const std::string file = name.substr(0, layer_mark(name));
+                const bool is_part = is_cad_file(file) || is_mesh_file(file);
+                (is_part ? files.parts : files.drawings).push_back(is_part ? file : name);
+            }
         }
     }
     return files;

@@ -35,14 +35,23 @@ std::string path_ending(const std::string& file)
     return ending;
 }
 
+namespace {
+
+bool is_layered(const std::string& file)
+{
+    return is_drawing_file(file) || is_cad_file(file) || is_mesh_file(file);
+}
+
+}  // namespace
+
 std::size_t layer_mark(const std::string& name)
 {
     for (std::size_t at = name.find('#'); at != std::string::npos; at = name.find('#', at + 1)) {
-        if (is_drawing_file(name.substr(0, at))) {
+        if (is_layered(name.substr(0, at))) {
             return at;
         }
     }
-    return is_drawing_file(name) ? std::string::npos : name.rfind('#');
+    return is_layered(name) ? std::string::npos : name.rfind('#');
 }
 
 namespace {

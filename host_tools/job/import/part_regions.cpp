@@ -1,0 +1,142 @@
+// The name says which shadow of the facets is wanted.
+#include "host_tools/job/import/part_regions.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/geometry/offset/region_overlay.hpp"
+#include "host_tools/geometry/offset/shadow.hpp"
+#include "host_tools/geometry/waterline_slices/fitted_edges.hpp"
+#include "host_tools/job/import/drawn_shapes.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using offset::Edge;
+using offset::Region2d;
+
+namespace {
+
+constexpr const char* kRegions = "#outline, #above:Z, #below:Z, #level:Z";
+
+struct RegionName {
+    std::string file;
+    std::string kind;
+    double z;  // of `kind` "outline" 0
+};
+
+RegionName read_name(const std::string& name, double millimetres)
+{
+    const std::size_t mark = layer_mark(name);
+    const std::string text = name.substr(mark + 1);
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    RegionName read{name.substr(0, mark), text.substr(0, colon), 0};
+    const bool has_height = read.kind == "above" || read.kind == "below" || read.kind == "level";
+    if (!has_height && text != "outline") {
+        throw InputError(
+            fmt::format("{}: a part has no \"{}\"; its regions are {}", name, text, kRegions));
+    }
+    if (has_height) {
+        const std::string height = text.substr(std::min(colon + 1, text.size()));
+        const char* const end = height.data() + height.size();
+        const auto [stop, error] = std::from_chars(height.data(), end, read.z);
+        if (error != std::errc{} || stop != end || !std::isfinite(read.z)) {
+            throw InputError(fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4",
+                                         name, height, read.kind));
+        }
+        read.z *= millimetres;
+    }
+    return read;
+}
+
+Region2d rectangle(const PartExtent& box)
+{
+    const Vec2d a{box.low.x, box.low.y};
+    const Vec2d b{box.high.x, box.low.y};
+    const Vec2d c{box.high.x, box.high.y};
+    const Vec2d d{box.low.x, box.high.y};
+    return {{{offset::line_edge(a, b), offset::line_edge(b, c), offset::line_edge(c, d),
+              offset::line_edge(d, a)}}};
+}
+
+[[noreturn]] void refuse_empty(const std::string& name,
+                               const RegionName& wanted,
+                               const PartExtent& box,
+                               const std::vector<std::array<Vec3d, 3>>& facets)
+{
+    if (wanted.kind == "level") {
+        std::vector<double> heights;
+        for (const offset::LevelHeight& level : offset::level_heights(facets)) {
+            heights.push_back(std::round(level.z * 1e4) / 1e4);
+        }
+        throw InputError(fmt::format("{}: no level ground at z {:g} mm; {}", name, wanted.z,
+                                     heights.empty() ? "the part has none"
+                                                     : fmt::format("it is at z {:g} mm",
+                                                                   fmt::join(heights, ", "))));
+    }
+    throw InputError(fmt::format("{}: nothing {} z {:g} mm; the part reaches from z {:.6g} to {:.6g} mm",
+                                 name, wanted.kind == "below" ? "is to be cut down to" : "stands above",
+                                 wanted.z, box.low.z, box.high.z));
+}
+
+nurbs::Curve curve_of(const Edge& edge)
+{
+    if (edge.turn == 0) {
+        return line_curve(edge.start, edge.end);
+    }
+    const Vec2d spoke = edge.start - edge.centre;
+    return arc_curve(edge.centre, edge.radius, elementary::atan2(spoke.y, spoke.x),
+                     edge.turn * sweep(edge));
+}
+
+}  // namespace
+
+bool names_part_region(const std::string& name)
+{
+    const std::size_t mark = layer_mark(name);
+    if (mark == std::string::npos) {
+        return false;
+    }
+    const std::string file = name.substr(0, mark);
+    return is_cad_file(file) || is_mesh_file(file);
+}
+
+DrawnPaths drawn_region(const Region2d& region)
+{
+    DrawnPaths drawn;
+    for (const offset::Contour& contour : region.contours) {
+        DrawingPath path{{}, true};
+        std::transform(contour.begin(), contour.end(), std::back_inserter(path.curves), curve_of);
+        drawn.paths.push_back(std::move(path));
+    }
+    return drawn;
+}
+
+DrawnPaths part_region(const std::string& name,
+                       double millimetres,
+                       const std::vector<std::array<Vec3d, 3>>& facets)
+{
+    const RegionName wanted = read_name(name, millimetres);
+    const PartExtent box = extent_of_triangles(facets);
+    const double z = wanted.kind == "outline" ? box.low.z - 1 : wanted.z;
+    const Region2d region = wanted.kind == "level" ? offset::level_ground(facets, z)
+                            : wanted.kind == "below"
+                                ? offset::without(rectangle(box), offset::shadow_above(facets, z))
+                                : offset::shadow_above(facets, z);
+    const Region2d fitted = waterline_slices::fitted_region(region, kRegionFit);
+    if (fitted.contours.empty()) {
+        refuse_empty(name, wanted, box, facets);
+    }
+    return drawn_region(fitted);
+}
+
+}  // namespace cusp::import

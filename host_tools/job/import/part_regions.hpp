@@ -1,0 +1,42 @@
+// Regions of a part as drawings, for 2.5-D operations: `boundary = "bracket.step#above:-4"`.
+//
+// FILE is a STEP, IGES or BREP model, or a mesh; Z a height in the units of the job, as the part is placed.
+//
+//   FILE#outline    the whole part, seen from above
+//   FILE#above:Z    what stands above Z: a profile around it finishes the walls down to there
+//   FILE#below:Z    what the part's box has beside that: a pocket of it clears the part down to Z
+//   FILE#level:Z    the level ground at Z
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/job/import/drawing.hpp"
+
+namespace cusp::import {
+
+// mm: loops are no farther from the part's facets, of which those of a model are kFacetsOff from it.
+inline constexpr double kRegionFit = 1e-3;
+
+// True if a "#" follows the name of a model or of a mesh.
+bool names_part_region(const std::string& name);
+
+// The region's loops, of lines and arcs, not nested.
+//
+// name         FILE#REGION, for messages too
+// millimetres  of one unit of Z
+// facets       of the whole part, placed
+//
+// Errors: InputError: no such region, Z is no number, nothing is there, with the heights that there are.
+DrawnPaths part_region(const std::string& name,
+                       double millimetres,
+                       const std::vector<std::array<Vec3d, 3>>& facets);
+
+// Lines and arcs as closed curves.
+DrawnPaths drawn_region(const offset::Region2d& region);
+
+}  // namespace cusp::import
