@@ -10,8 +10,6 @@ namespace cusp::adaptive_clearing {
 
 using offset::arc_edge;
 using offset::Edge;
-using offset::point_on;
-using offset::tangent_on;
 
 namespace {
 
@@ -23,6 +21,9 @@ constexpr int kWidthBisections = 10;
 // Share of the engagement that is planned: where the gap beside the tool is thinner than rounding
 // of the program or runout of the spindle, what is met is more than what is planned.
 constexpr double kShare = 0.8;
+
+// Of the tolerance: a half turn that grew by no more is as wide as the last one.
+constexpr double kSameTurn = 0.1;
 
 constexpr double kThickGap = 0.3;  // radii from the centre: the gap is thick there
 constexpr double kWideShare = 0.995;
@@ -42,21 +43,6 @@ Edge half_turn(Vec2d centre, double from, double to, double side)
     const Vec2d start{centre.x + side * from, centre.y};
     const Vec2d end{centre.x - side * to, centre.y};
     return arc_edge(start, end, (start + end) * 0.5, 1);
-}
-
-// True if the tool meets no more along the edge than what stays beside a path.
-bool is_clear(const Edge& edge, const SweptArea& swept)
-{
-    constexpr int kLooks = 32;
-    constexpr double kCusp = 0.005;  // radii
-    for (int i = 0; i <= kLooks; ++i) {
-        const double share = static_cast<double>(i) / kLooks;
-        if (swept.engagement(point_on(edge, share), tangent_on(edge, share),
-                             -kCusp * swept.radius()) > 0.0) {
-            return false;
-        }
-    }
-    return true;
 }
 
 class SpiralPath {
@@ -103,14 +89,14 @@ public:
         }
     }
 
-    // Half a turn at the last radius, and one more where the spiral grew so fast that the first half
-    // of its last turn is inside of that.
+    // Half a turn at the last radius, and one more where the first half of the last turn is inside of that: beside
+    // walls that the spiral reaches nothing cuts after it.
     EntrySpiral close()
     {
         for (int i = 0; i < 2 && whole_ < at_ && bound_to(at_) <= limits_.max_engagement; ++i) {
             found_.engagement_bound = std::max(found_.engagement_bound, bound_to(at_));
             add(at_);
-            whole_ = i > 0 || is_clear(half_turn(centre_, at_, at_, side_), swept_) ? at_ : whole_;
+            whole_ = i > 0 || at_ - whole_ <= kSameTurn * limits_.tolerance ? at_ : whole_;
         }
         swept_.add_disc(centre_, swept_.radius() + std::max(whole_ - limits_.tolerance, 0.0));
         found_.radius = whole_;

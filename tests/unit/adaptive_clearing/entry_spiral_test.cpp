@@ -63,6 +63,24 @@ TEST(EntrySpirals, KeepTheEngagementAfterTheFirstTurn)
     }
 }
 
+TEST(EntrySpirals, AreWholeAtTheRadiusThatTheyReach)
+{
+    for (const double radius : {0.1, 0.15, 0.2, 0.28, 0.29, 0.3, 0.35, 0.5}) {
+        const EntrySpiral found = Spiral{radius, 60.0}.found;
+        if (found.radius < radius) {
+            continue;
+        }
+        for (int i = 0; i < 720; ++i) {
+            const Vec2d way{std::cos(i * 0.5 * kDegrees), std::sin(i * 0.5 * kDegrees)};
+            double nearest = 1.0;
+            for (const Edge& edge : found.path) {
+                nearest = std::min(nearest, distance_to(edge, Vec2d{1, 2} + way * radius));
+            }
+            CHECK(nearest <= 0.0002);
+        }
+    }
+}
+
 TEST(EntrySpirals, SweepTheWholeHole)
 {
     const Spiral spiral{0.9, 60.0};
