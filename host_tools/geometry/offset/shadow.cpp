@@ -36,8 +36,6 @@ Vec2d place_of(Corner c)
     return {static_cast<double>(c[0]) * kWeld, static_cast<double>(c[1]) * kWeld};
 }
 
-constexpr double kLeastLevel = 0.01;  // mm^2
-
 double doubled_area(Vec2d a, Vec2d b, Vec2d c) { return cross(b - a, c - a); }
 
 // The border of polygons: sides that come once more in one direction than in the other.
@@ -50,8 +48,8 @@ public:
         double longest = 0;
         for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
             twice += doubled_area(polygon[0], polygon[k], polygon[k + 1]);
-            longest = std::max({longest, norm(polygon[k] - polygon[0]),
-                                norm(polygon[k + 1] - polygon[k])});
+            longest = std::max(
+                {longest, norm(polygon[k] - polygon[0]), norm(polygon[k + 1] - polygon[k])});
         }
         if (std::abs(twice) <= kUpright * longest * longest) {
             return;
@@ -113,9 +111,9 @@ private:
             if (side.to == sides_[first].from) {
                 return contour;
             }
-            const auto next =
-                std::lower_bound(sides_.begin(), sides_.end(), side.to,
-                                 [](const Side& a, const Corner& corner) { return a.from < corner; });
+            const auto next = std::lower_bound(
+                sides_.begin(), sides_.end(), side.to,
+                [](const Side& a, const Corner& corner) { return a.from < corner; });
             k = static_cast<std::size_t>(next - sides_.begin());
             while (taken[k]) {
                 ++k;
@@ -200,11 +198,21 @@ std::vector<LevelHeight> level_heights(const std::vector<Triangle>& triangles)
             level.area += std::abs(doubled_area(in_plan(t[0]), in_plan(t[1]), in_plan(t[2]))) / 2;
         }
     }
-    std::vector<LevelHeight> out;
+    std::vector<LevelHeight> largest;
     for (const auto& [step, level] : heights) {
+        if (level.area >= kLeastLevel) {
+            largest.push_back(level);
+        }
+    }
+    std::stable_sort(largest.begin(), largest.end(),
+                     [](const LevelHeight& a, const LevelHeight& b) { return a.area > b.area; });
+    largest.resize(std::min(largest.size(), kMostLevels));
+    std::sort(largest.begin(), largest.end(),
+              [](const LevelHeight& a, const LevelHeight& b) { return a.z < b.z; });
+    std::vector<LevelHeight> out;
+    for (const LevelHeight& level : largest) {
         const bool is_same = !out.empty() && level.z - out.back().z <= kStandsAbove;
-        const double seen =
-            is_same || level.area < kLeastLevel ? 0.0 : area(level_ground(triangles, level.z));
+        const double seen = is_same ? 0.0 : area(level_ground(triangles, level.z));
         if (seen >= kLeastLevel) {
             out.push_back({level.z, seen});
         }

@@ -26,8 +26,11 @@ Region2d shadow_above(const std::vector<std::array<Vec3d, 3>>& triangles, double
 // The level triangles that are within kStandsAbove of z and not below another one that is higher.
 Region2d level_ground(const std::vector<std::array<Vec3d, 3>>& triangles, double z);
 
-// Heights of the level triangles that are seen from above, the lowest first, with their areas (mm^2); none of
-// less than 0.01 mm^2.
+// mm^2: less level ground is none. Of more than kMostLevels heights those with most of it count.
+inline constexpr double kLeastLevel = 1.0;
+inline constexpr std::size_t kMostLevels = 32;
+
+// Heights of the level triangles that are seen from above, the lowest first, with their areas (mm^2).
 struct LevelHeight {
     double z;
     double area;

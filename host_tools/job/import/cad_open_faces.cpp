@@ -45,7 +45,8 @@ bool has_open_edge(const std::vector<SolidFace>& faces)
 
 }  // namespace
 
-std::vector<std::array<Vec3d, 3>> triangles_of_faces(const std::vector<SolidFace>& faces, double off)
+std::vector<std::array<Vec3d, 3>> triangles_of_faces(const std::vector<SolidFace>& faces,
+                                                     double off)
 {
     constexpr double kTurn = 0.35;  // radians
     std::vector<std::array<Vec3d, 3>> triangles;

@@ -13,7 +13,8 @@ namespace cusp::import {
 // off  mm, > 0: how far they may lie beside curved faces
 //
 // Method: Open CASCADE's BRepMesh.
-std::vector<std::array<Vec3d, 3>> triangles_of_faces(const std::vector<SolidFace>& faces, double off);
+std::vector<std::array<Vec3d, 3>> triangles_of_faces(const std::vector<SolidFace>& faces,
+                                                     double off);
 
 // All faces as triangles where some edge has a face on one side alone, in the faces' sense; empty where they
 // close. They lie up to 0.05 mm beside curved faces.

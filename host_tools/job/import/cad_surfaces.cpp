@@ -81,9 +81,16 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
 
 std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file, const Similarity& placed)
 {
-    return cad_model(file, placed, CadWanted::kFacets).triangles;
+    Facets facets;
+    for (const auto& triangle : cad_model(file, placed, CadWanted::kFacets).triangles) {
+        add_facet(triangle, facets);  // none without area
+    }
+    return std::move(facets.triangles);
 }
 
-CadModel read_cad_model(const std::string& file) { return cad_model(file, {}, CadWanted::kAllFaces); }
+CadModel read_cad_model(const std::string& file)
+{
+    return cad_model(file, {}, CadWanted::kAllFaces);
+}
 
 }  // namespace cusp::import

@@ -23,12 +23,12 @@ void add_pieces(const job::Chain& joined, std::vector<job::Chain>& chains)
     }
 }
 
-bool is_excepted(const DrawingChoice& choice, const FileLoop& loop)
+bool is_excepted(const std::vector<double>& diameters, const FileLoop& loop)
 {
-    const auto circle = choice.except_diameters.empty() ? std::nullopt : circle_of_loop(loop.loop);
-    return circle &&
-           std::any_of(choice.except_diameters.begin(), choice.except_diameters.end(),
-                       [&](double d) { return std::abs(d - circle->diameter) <= kSameDiameter; });
+    const auto circle = diameters.empty() ? std::nullopt : circle_of_loop(loop.loop);
+    return circle && std::any_of(diameters.begin(), diameters.end(), [&](double d) {
+               return std::abs(d - circle->diameter) <= kSameDiameter;
+           });
 }
 
 }  // namespace
@@ -50,6 +50,26 @@ DrawingChoice read_drawing_choice(JobTable& table,
     return choice;
 }
 
+std::vector<FileLoop> without_circles(const std::vector<FileLoop>& loops,
+                                      const std::vector<double>& diameters)
+{
+    std::vector<FileLoop> left;
+    std::vector<int>
+        places;  // of each loop in `left`; of one that is left out that of the loop around it
+    for (FileLoop loop : loops) {
+        const int around = loop.parent < 0 ? -1 : places[static_cast<std::size_t>(loop.parent)];
+        if (is_excepted(diameters, loop)) {
+            places.push_back(around);
+            continue;
+        }
+        loop.parent = around;
+        loop.depth = around < 0 ? 0 : left[static_cast<std::size_t>(around)].depth + 1;
+        places.push_back(static_cast<int>(left.size()));
+        left.push_back(std::move(loop));
+    }
+    return left;
+}
+
 std::vector<FileLoop> chosen_loops(const DrawingChoice& choice, const FileShapes& shapes)
 {
     std::vector<FileLoop> chosen;
@@ -57,7 +77,7 @@ std::vector<FileLoop> chosen_loops(const DrawingChoice& choice, const FileShapes
         const bool fits = choice.loops == "outer"   ? loop.depth == 0
                           : choice.loops == "inner" ? loop.depth > 0
                                                     : choice.loops != "open";
-        return fits && !is_excepted(choice, loop);
+        return fits && !is_excepted(choice.except_diameters, loop);
     };
     std::vector<int> depths;  // of each loop: how many are taken of it and those around it
     for (const FileLoop& loop : shapes.loops) {

@@ -31,6 +31,10 @@ DrawingChoice read_drawing_choice(JobTable& table,
                                   double millimetres,
                                   const job::Operation& operation);
 
+// The loops without circles of these diameters (mm), nested anew.
+std::vector<FileLoop> without_circles(const std::vector<FileLoop>& loops,
+                                      const std::vector<double>& diameters);
+
 // The loops of the drawing that the choice takes. `shapes` has those of its layers.
 // A loop is outer if it is in no other one, else inner. Depths are counted among the loops taken, so the
 // outermost of inner ones, the holes of parts, have depth 0; parents are those of the drawing.

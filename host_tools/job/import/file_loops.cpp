@@ -214,6 +214,9 @@ std::vector<Operation> pockets_of(const Operation& operation,
             bounds.push_back(k);
         }
     }
+    if (pockets.empty()) {
+        throw InputError(operation.outline.boundary_file + ": except_diameters leaves no loop");
+    }
     const auto add = [](Operation& pocket, const FileLoop& island) {
         pocket.outline.islands.push_back(island.loop);
         pocket.outline.island_files.push_back(island.name);

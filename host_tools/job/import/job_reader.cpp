@@ -83,7 +83,9 @@ private:
     void read_cutting(JobTable& top);
     void read_operation(const toml::table& table, std::size_t index);
     std::optional<std::string> read_boundary(JobTable& table, const Operation& operation);
-    std::vector<Operation> read_pockets(JobTable& table, Operation operation);
+    std::vector<Operation> read_pockets(JobTable& table,
+                                        const DrawingChoice& choice,
+                                        Operation operation);
     void read_common(JobTable& table, Operation& operation);
     void read_rest(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
@@ -310,7 +312,9 @@ std::optional<std::string> JobReader::read_boundary(JobTable& table, const Opera
 }
 
 // One operation for each pocket; the operation itself where it has no boundary.
-std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
+std::vector<Operation> JobReader::read_pockets(JobTable& table,
+                                               const DrawingChoice& choice,
+                                               Operation operation)
 {
     const auto loops_of = [&](const std::string& file) {
         return parts_.loops(file, unit_, {operation.tolerance.plan, operation.tolerance.join_gaps});
@@ -325,7 +329,8 @@ std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operat
     }
     if (const auto name = read_boundary(table, operation)) {
         operation.outline.boundary_file = *name;
-        return pockets_of(operation, loops_of(*name), islands);
+        const auto loops = without_circles(loops_of(*name), choice.except_diameters);
+        return pockets_of(operation, loops, islands);
     }
     for (const FileLoop& island : islands) {
         operation.outline.islands.push_back(island.loop);
@@ -396,7 +401,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
         read_drawing(table, choice, unit_, parts_, operation);
         job_.operations.push_back(std::move(operation));
     } else {
-        for (Operation& pocket : read_pockets(table, std::move(operation))) {
+        for (Operation& pocket : read_pockets(table, choice, std::move(operation))) {
             read_reliefs(table, parts_, pocket);
             check_operation(strategy, pocket, refuse_in(table));
             job_.operations.push_back(std::move(pocket));

@@ -67,7 +67,7 @@ void check_numbers(const OneLineRequest& request)
     check_range("--spindle", request.spindle, 0, false);
     check_range("--stock-top", request.stock_top, -job::kLargest, false);
     check_range("--clearance", request.clearance, 0, true);
-    if (request.tolerance && *request.tolerance >= *request.scallop) {
+    if (request.tolerance && request.scallop && *request.tolerance >= *request.scallop) {
         throw InputError(
             fmt::format("--tolerance: is {:g}, it must be below the --scallop of "
                         "{:g}, which includes it",
@@ -145,7 +145,7 @@ const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strat
     return *strategy;
 }
 
-void check_request(const OneLineRequest& request, const job::Strategies& strategies)
+void check_solid_request(const OneLineRequest& request)
 {
     check_parts(request);
     refuse_given({{"--depth", request.depth.has_value()},
@@ -159,13 +159,18 @@ void check_request(const OneLineRequest& request, const job::Strategies& strateg
             "--tool: is missing: the tools in the order of their use, such as --tool ball:6 or "
             "--tool flat:8 ball:6");
     }
+    check_numbers(request);
+    check_placing(request);
+}
+
+void check_request(const OneLineRequest& request, const job::Strategies& strategies)
+{
+    check_solid_request(request);
     if (!request.scallop) {
         throw InputError(
             "--scallop: is missing: the height of the scallops that may remain, such as --scallop "
             "0.02 (mm)");
     }
-    check_numbers(request);
-    check_placing(request);
     check_strategy(request, strategies);
 }
 
@@ -200,13 +205,33 @@ void check_sheet_request(const OneLineRequest& request)
     check_placing(request);
 }
 
+void check_shapes(const OneLineRequest& request,
+                  const std::vector<NamedTool>& tools,
+                  const Vec2d& part)
+{
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (tools[i].tip_angle > 0 && tools[i].shape != "drill") {
+            throw InputError(fmt::format(
+                "--tool {}: is for drawings; parts are cut by ball, flat and bull, their holes by "
+                "drill",
+                request.tools[i]));
+        }
+        if (tools[i].diameter > std::max(part.x, part.y)) {
+            throw InputError(fmt::format(
+                "--tool {}: its diameter is {:.6g} {}, the part is only {:.6g} x {:.6g}: give a "
+                "smaller tool, or the part's unit by --units",
+                request.tools[i], tools[i].diameter, request.inch ? "inch" : "mm", part.x, part.y));
+        }
+    }
+}
+
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)
 {
     for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (tools[i].tip_angle > 0) {
-            throw InputError(
-                fmt::format("--tool {}: is for drawings; parts are cut by ball, flat and bull",
-                            request.tools[i]));
+        if (tools[i].shape == "drill") {
+            throw InputError(fmt::format(
+                "--tool {}: drills holes of one STEP, IGES or BREP part without --boundary",
+                request.tools[i]));
         }
     }
     if (!request.roughing && tools.size() > 1) {

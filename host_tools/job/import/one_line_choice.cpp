@@ -57,7 +57,8 @@ public:
             request_.tolerance.value_or(std::min(defaults_.tolerance, *request_.scallop / 2));
         place_request(request_, parts_);
         measure();
-        check_sizes();
+        check_shapes(request_, choice_.tools,
+                     {rounded(choice_.part.size().x), rounded(choice_.part.size().y)});
         choose_roughing();
     }
 
@@ -65,10 +66,13 @@ public:
 
 private:
     void measure();
-    void check_sizes() const;
     void choose_roughing();
 
     bool is_pocket() const { return request_.boundary.has_value(); }
+    double rounded(double length) const
+    {
+        return std::round(length * defaults_.steps) / defaults_.steps;
+    }
     double up(double z) const
     {
         return std::ceil(z * defaults_.steps - kOverRounding) / defaults_.steps;
@@ -106,20 +110,6 @@ void OneLineChooser::measure()
                                      choice_.words(choice_.part.high.z)));
     }
     choice_.top = request_.stock_top.value_or(choice_.top);
-}
-
-void OneLineChooser::check_sizes() const
-{
-    const Vec3d size = choice_.part.size();
-    for (std::size_t i = 0; i < choice_.tools.size(); ++i) {
-        if (choice_.tools[i].diameter > std::max(size.x, size.y)) {
-            throw InputError(fmt::format(
-                "--tool {}: its diameter is {:.6g} {}, the part is only {} x {}: give a smaller "
-                "tool, or the part's unit by --units",
-                request_.tools[i], choice_.tools[i].diameter, defaults_.unit, choice_.words(size.x),
-                choice_.words(size.y)));
-        }
-    }
 }
 
 void OneLineChooser::choose_roughing()
@@ -171,6 +161,9 @@ OneLineChoice choose_rates(const OneLineRequest& request)
 void place_request(const OneLineRequest& request, PartFiles& parts)
 {
     const double unit = request.inch ? kMillimetresPerInch : 1.0;
+    if (parts.is_placed()) {
+        return;
+    }
     if (!request.scale && request.up.empty() && request.rotate.empty() && request.origin.empty() &&
         request.move.empty()) {
         return;

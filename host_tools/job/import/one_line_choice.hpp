@@ -40,7 +40,7 @@ double three_digits(double value);
 // Tools, feeds, spindle and clearance alone. Errors: InputError that names the tool.
 OneLineChoice choose_rates(const OneLineRequest& request);
 
-// Places parts and loops as the options say; does nothing where none does. Errors: PlacingError.
+// Places parts and loops as the options say, once; does nothing where none does. Errors: PlacingError.
 void place_request(const OneLineRequest& request, PartFiles& parts);
 
 // Errors: InputError that names the option or the file.

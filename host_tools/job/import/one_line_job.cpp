@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/one_line_check.hpp"
 #include "host_tools/job/import/one_line_choice.hpp"
 #include "host_tools/job/import/one_line_text.hpp"
 #include "host_tools/job/import/sheet_job.hpp"
+#include "host_tools/job/import/solid_job.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -16,8 +18,13 @@ namespace {
 
 class OneLineWriter {
 public:
-    OneLineWriter(const OneLineRequest& request, const OneLineChoice& choice)
-        : request_{request}, choice_{choice}
+    // all    the tools of the call: those of `choice`, then drills
+    // solid  what is cut beside the part's surfaces
+    OneLineWriter(const OneLineRequest& request,
+                  const OneLineChoice& choice,
+                  const OneLineChoice& all,
+                  const SolidCuts& solid)
+        : request_{request}, choice_{choice}, all_{all}, solid_{solid}
     {
     }
 
@@ -32,6 +39,8 @@ private:
 
     const OneLineRequest& request_;
     const OneLineChoice& choice_;
+    const OneLineChoice& all_;
+    const SolidCuts& solid_;
 };
 
 std::string OneLineWriter::operation_toml() const
@@ -63,13 +72,13 @@ std::string OneLineWriter::operation_toml() const
 
 std::string OneLineWriter::toml() const
 {
-    std::string out = head_toml(request_, choice_);
+    std::string out = head_toml(request_, all_);
     out += fmt::format("\n[stock]\ntop = {}\n", choice_.top);
     if (!is_pocket() && choice_.bottom < choice_.top) {
         out += fmt::format("bottom = {}\n", choice_.bottom);
     }
-    return out + fmt::format("clearance = {}\n", choice_.clearance) + placing_toml(request_) +
-           operation_toml();
+    return out + solid_.stock + fmt::format("clearance = {}\n", choice_.clearance) +
+           placing_toml(request_) + solid_.before + operation_toml() + solid_.after;
 }
 
 std::string OneLineWriter::said_roughing() const
@@ -107,11 +116,52 @@ std::vector<std::string> OneLineWriter::said() const
                         : is_pocket()      ? " (0 or the floor's top; --stock-top)"
                                            : " (the part's; --stock-top)",
                         choice_.words(choice_.part.low.z)),
-            said_feeds(request_, choice_), said_roughing(),
+            said_feeds(request_, all_), said_roughing(),
             fmt::format("finish: {}, {}, scallop {:.6g} {}, tolerance {:.6g}{}, {}",
                         choice_.strategy, words_of(choice_.tools.back(), request_.inch),
                         *request_.scallop, choice_.unit, choice_.tolerance,
                         request_.tolerance ? "" : " (--tolerance)", request_.output)};
+}
+
+// The call without its drills, which come last in `all`.
+OneLineRequest without_drills(const OneLineRequest& request)
+{
+    OneLineRequest mills = request;
+    const auto drills =
+        std::stable_partition(mills.tools.begin(), mills.tools.end(),
+                              [](const std::string& text) { return text.rfind("drill:", 0) != 0; });
+    mills.tools.erase(drills, mills.tools.end());
+    return mills;
+}
+
+OneLineRequest with_drills_last(OneLineRequest request)
+{
+    std::stable_partition(request.tools.begin(), request.tools.end(),
+                          [](const std::string& text) { return text.rfind("drill:", 0) != 0; });
+    return request;
+}
+
+OneLineJob solid_job(const OneLineRequest& asked,
+                     const job::Strategies& strategies,
+                     PartFiles& parts)
+{
+    check_solid_request(asked);
+    const OneLineRequest request = with_drills_last(asked);
+    const OneLineChoice all = choose_rates(request);
+    place_request(request, parts);
+    const SolidCuts solid = solid_cuts(request, all, strategies, parts);
+    if (solid.is_all) {
+        return {head_toml(request, all) +
+                    fmt::format("\n[stock]\n{}clearance = {}\n", solid.stock, all.clearance) +
+                    placing_toml(request) + solid.before + solid.after,
+                solid.said};
+    }
+    const OneLineRequest mills = without_drills(request);
+    const OneLineChoice choice = choose(mills, strategies, parts);
+    const OneLineWriter writer{mills, choice, all, solid};
+    OneLineJob job{writer.toml(), writer.said()};
+    job.said.insert(job.said.end(), solid.said.begin(), solid.said.end());
+    return job;
 }
 
 }  // namespace
@@ -123,8 +173,12 @@ OneLineJob one_line_job(const OneLineRequest& request,
     if (is_sheet_request(request)) {
         return sheet_job(request, strategies, parts);
     }
+    if (is_solid_request(request)) {
+        return solid_job(request, strategies, parts);
+    }
     const OneLineChoice choice = choose(request, strategies, parts);
-    const OneLineWriter writer{request, choice};
+    const SolidCuts none;
+    const OneLineWriter writer{request, choice, choice, none};
     return {writer.toml(), writer.said()};
 }
 

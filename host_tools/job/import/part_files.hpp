@@ -88,7 +88,7 @@ private:
     // keys: file, limits of gaps; below 0: not given
     std::map<std::tuple<std::string, double, double>, std::vector<FileLoop>> loops_;
     std::map<std::string, DrawnPaths> drawn_;
-    std::map<std::string, Triangles> facets_;     // of models
+    std::map<std::string, Triangles> facets_;    // of models
     std::map<std::string, DrawnPaths> regions_;  // of parts, placed
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are

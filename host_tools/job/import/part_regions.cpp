@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
@@ -50,22 +51,13 @@ RegionName read_name(const std::string& name, double millimetres)
         const char* const end = height.data() + height.size();
         const auto [stop, error] = std::from_chars(height.data(), end, read.z);
         if (error != std::errc{} || stop != end || !std::isfinite(read.z)) {
-            throw InputError(fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4",
-                                         name, height, read.kind));
+            throw InputError(
+                fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4", name,
+                            height, read.kind));
         }
         read.z *= millimetres;
     }
     return read;
-}
-
-Region2d rectangle(const PartExtent& box)
-{
-    const Vec2d a{box.low.x, box.low.y};
-    const Vec2d b{box.high.x, box.low.y};
-    const Vec2d c{box.high.x, box.high.y};
-    const Vec2d d{box.low.x, box.high.y};
-    return {{{offset::line_edge(a, b), offset::line_edge(b, c), offset::line_edge(c, d),
-              offset::line_edge(d, a)}}};
 }
 
 [[noreturn]] void refuse_empty(const std::string& name,
@@ -78,14 +70,15 @@ Region2d rectangle(const PartExtent& box)
         for (const offset::LevelHeight& level : offset::level_heights(facets)) {
             heights.push_back(std::round(level.z * 1e4) / 1e4);
         }
-        throw InputError(fmt::format("{}: no level ground at z {:g} mm; {}", name, wanted.z,
-                                     heights.empty() ? "the part has none"
-                                                     : fmt::format("it is at z {:g} mm",
-                                                                   fmt::join(heights, ", "))));
+        throw InputError(fmt::format(
+            "{}: no level ground at z {:g} mm; {}", name, wanted.z,
+            heights.empty() ? "the part has none"
+                            : fmt::format("it is at z {:g} mm", fmt::join(heights, ", "))));
     }
-    throw InputError(fmt::format("{}: nothing {} z {:g} mm; the part reaches from z {:.6g} to {:.6g} mm",
-                                 name, wanted.kind == "below" ? "is to be cut down to" : "stands above",
-                                 wanted.z, box.low.z, box.high.z));
+    throw InputError(
+        fmt::format("{}: nothing {} z {:g} mm; the part reaches from z {:.6g} to {:.6g} mm", name,
+                    wanted.kind == "below" ? "is to be cut down to" : "stands above", wanted.z,
+                    box.low.z, box.high.z));
 }
 
 nurbs::Curve curve_of(const Edge& edge)
@@ -98,7 +91,47 @@ nurbs::Curve curve_of(const Edge& edge)
                      edge.turn * sweep(edge));
 }
 
+// The circle that the contour is, to a few of its fits; the border of a round hole is one.
+std::optional<nurbs::Curve> circle_of(const offset::Contour& contour)
+{
+    constexpr double kRound = 3 * kRegionFit;
+    constexpr double kLook = 0.05;  // of the way around between two looks
+    const double step = kLook * length(contour);
+    std::vector<Vec2d> looks;
+    for (const Edge& edge : contour) {
+        const int count = 1 + static_cast<int>(length(edge) / step);
+        for (int k = 0; k < count; ++k) {
+            looks.push_back(point_on(edge, (k + 0.5) / count));
+        }
+    }
+    const PartExtent box = extent_of_curves(drawn_region({{contour}}).paths.front().curves);
+    const Vec2d centre = 0.5 * in_plan(box.low + box.high);
+    double radius = 0;
+    for (const Vec2d look : looks) {
+        radius += norm(look - centre) / static_cast<double>(looks.size());
+    }
+    const bool is_round = std::all_of(looks.begin(), looks.end(), [&](Vec2d look) {
+        return std::abs(norm(look - centre) - radius) <= kRound;
+    });
+    const bool has_corners = std::any_of(contour.begin(), contour.end(),
+                                         [](const Edge& edge) { return edge.turn == 0; });
+    if (!is_round || has_corners || contour.size() > 8) {
+        return std::nullopt;
+    }
+    return arc_curve(centre, radius, 0, offset::area(contour) > 0 ? 2 * kPi : -2 * kPi);
+}
+
 }  // namespace
+
+Region2d box_region(const PartExtent& box)
+{
+    const Vec2d a{box.low.x, box.low.y};
+    const Vec2d b{box.high.x, box.low.y};
+    const Vec2d c{box.high.x, box.high.y};
+    const Vec2d d{box.low.x, box.high.y};
+    return {{{offset::line_edge(a, b), offset::line_edge(b, c), offset::line_edge(c, d),
+              offset::line_edge(d, a)}}};
+}
 
 bool names_part_region(const std::string& name)
 {
@@ -130,13 +163,19 @@ DrawnPaths part_region(const std::string& name,
     const double z = wanted.kind == "outline" ? box.low.z - 1 : wanted.z;
     const Region2d region = wanted.kind == "level" ? offset::level_ground(facets, z)
                             : wanted.kind == "below"
-                                ? offset::without(rectangle(box), offset::shadow_above(facets, z))
+                                ? offset::without(box_region(box), offset::shadow_above(facets, z))
                                 : offset::shadow_above(facets, z);
     const Region2d fitted = waterline_slices::fitted_region(region, kRegionFit);
     if (fitted.contours.empty()) {
         refuse_empty(name, wanted, box, facets);
     }
-    return drawn_region(fitted);
+    DrawnPaths drawn = drawn_region(fitted);
+    for (std::size_t k = 0; k < fitted.contours.size(); ++k) {
+        if (const auto circle = circle_of(fitted.contours[k])) {
+            drawn.paths[k].curves = {*circle};
+        }
+    }
+    return drawn;
 }
 
 }  // namespace cusp::import

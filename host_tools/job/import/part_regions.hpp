@@ -13,9 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/geometry/offset/contour.hpp"
 #include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/geometry/offset/contour.hpp"
 #include "host_tools/job/import/drawing.hpp"
+#include "host_tools/job/import/part_extent.hpp"
 
 namespace cusp::import {
 
@@ -35,6 +36,9 @@ bool names_part_region(const std::string& name);
 DrawnPaths part_region(const std::string& name,
                        double millimetres,
                        const std::vector<std::array<Vec3d, 3>>& facets);
+
+// The rectangle of the box.
+offset::Region2d box_region(const PartExtent& box);
 
 // Lines and arcs as closed curves.
 DrawnPaths drawn_region(const offset::Region2d& region);

@@ -83,6 +83,8 @@ const std::vector<Key>& pass_keys()
         choice("loops", {"all", "outer", "inner", "open"},
                "or those in no other one, those in others by themselves, open lines alone "
                "(`engrave`)"),
+        {"except_diameters", Kind::kLengths, "none",
+         "circles of these diameters are left to other operations", kPositive},
         {"text", Kind::kText, "none",
          "letters in place of `boundary`; a line break begins another line (Text, below)"},
         {"font", Kind::kText, "single lines",

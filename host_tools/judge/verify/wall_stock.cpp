@@ -29,6 +29,7 @@ constexpr double kStep = 0.1;       // mm along the wall
 constexpr double kSquare = 2.0;     // mm: side of a square of moves
 constexpr double kThickest = 1.0;   // mm: stock that is thicker is a pass that is missing
 constexpr double kNothing = 1e-9;   // mm
+constexpr int kLooks = 8;           // from the wall to where the tool reaches
 constexpr double kTipBeside = 0.2;  // mm from an edge: there the tip of a chamfer's tool passes
 
 bool follows_curves(const Operation& operation)
@@ -281,7 +282,8 @@ public:
             const MovesBelow moves{q_.cuts, z, [](const EarlierCut& cut) {
                                        return cut.line > 0;
                                    }};
-            for_each_place(lines_, [&](Vec2d place, Vec2d) { look_for_gouge(moves, place, z); });
+            for_each_place(lines_,
+                           [&](Vec2d place, Vec2d left) { look_for_gouge(moves, place, left, z); });
         }
     }
 
@@ -350,24 +352,41 @@ private:
         return heights;
     }
 
-    void look_for_gouge(const MovesBelow& moves, Vec2d place, double z)
+    // left  square to the wall, of length 1
+    void look_for_gouge(const MovesBelow& moves, Vec2d place, Vec2d left, double z)
     {
-        const auto found = moves.nearest(place, true, -kUnbounded);
-        double depth = -found.thickness;
+        const double reach = -moves.nearest(place, true, -kUnbounded).thickness;
         const double known = faults_.gouge ? faults_.gouge->depth : q_.plan_tolerance;
-        if (depth <= known) {
+        if (reach <= known) {
             return;
         }
-        for (const CutRegion& other : q_.regions) {
-            const RegionAt here = other.around(place);
-            if (&other != &region_ && here.floor - here.below <= z + q_.floor_tolerance) {
-                depth = std::min(depth, -found.thickness - std::max(0.0, here.inside));
+        const bool is_out = region_.around(place + kSpare * left).inside < 0;
+        const Vec2d out = is_out ? left : -1.0 * left;
+        double depth = 0;
+        for (int k = 1; k <= kLooks; ++k) {
+            const Vec2d beyond = place + (reach * k / kLooks) * out;
+            if (q_.stock.is_over(beyond, z - kSpare)) {
+                depth = std::max(depth, beyond_all_walls(beyond, z));
             }
         }
-        if (depth > known && q_.stock.is_over(place, z - kSpare)) {
+        if (depth > known) {
+            const auto found = moves.nearest(place, true, -kUnbounded);
             faults_.gouge = {depth,
                              {{place.x, place.y, z}, found.cut->line, found.cut->tool.number}};
         }
+    }
+
+    // mm from the nearest region that may be cut at the height; 0 in one.
+    double beyond_all_walls(Vec2d place, double z) const
+    {
+        double least = kUnbounded;
+        for (const CutRegion& region : q_.regions) {
+            const RegionAt here = region.around(place);
+            if (&region == &region_ || here.floor - here.below <= z + q_.floor_tolerance) {
+                least = std::min(least, std::max(0.0, -here.inside));
+            }
+        }
+        return least;
     }
 
     const CutRegion& region_;

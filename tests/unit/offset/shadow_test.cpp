@@ -68,7 +68,8 @@ TEST(Shadow, OfABoxIsItsRectangle)
 TEST(Shadow, TakesWhatIsHigherAlone)
 {
     DOUBLES_EQUAL(600, area(shadow_above(stairs, 4.9)), 1e-6);
-    DOUBLES_EQUAL(100, area(shadow_above(stairs, 5)), 1e-6);  // level ground at the height stands not above it
+    DOUBLES_EQUAL(100, area(shadow_above(stairs, 5)),
+                  1e-6);  // level ground at the height stands not above it
     DOUBLES_EQUAL(0, area(shadow_above(stairs, 12)), 1e-6);
 }
 

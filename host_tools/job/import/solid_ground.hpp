@@ -1,0 +1,38 @@
+// What of a solid is to be cut from above: levels, walls, holes, slanted ground.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/geometry/offset/shadow.hpp"
+#include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/import/part_files.hpp"
+
+namespace cusp::import {
+
+// A stretch of heights.
+struct SolidBand {
+    double top;     // z, mm
+    double bottom;  // of level ground or of the part; of walls their foot
+    // What stands above the bottom ends at the sides of the part's box alone.
+    bool fills_box;
+    double widest;  // mm: then, of walls, the radius of the largest disc beside them
+};
+
+struct SolidGround {
+    PartExtent box;
+    std::vector<SolidBand>
+        openings;  // the highest first: down to the bottom something of the box is open beside the
+                   // holes
+    std::vector<SolidBand> walls;  // the highest first: upright walls begin at the bottom
+    double wall{};                 // mm^2 of upright walls that begin elsewhere
+    double slanted{};              // mm^2, seen from above: neither level nor upright
+    Vec3d slanted_at;              // in its largest facet
+};
+
+// Sides of the part's box are no walls, and nothing in the holes counts.
+//
+// facets  of the whole part
+// holes   that are cut by themselves
+SolidGround ground_of_solid(const Triangles& facets, const std::vector<job::Hole>& holes);
+
+}  // namespace cusp::import

@@ -1,0 +1,317 @@
+// The survey of the solid says which bands of heights are cut, and how.
+#include "host_tools/job/import/solid_job.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "firmware/base/inch.hpp"
+#include "host_tools/base/input_error/counted.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/drawing_choice.hpp"
+#include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/one_line_check.hpp"
+#include "host_tools/job/import/one_line_text.hpp"
+#include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/import/sheet_layers.hpp"
+#include "host_tools/job/import/sheet_tools.hpp"
+#include "host_tools/job/import/solid_ground.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using job::Hole;
+using job::Region;
+
+namespace {
+
+constexpr double kLeastSlant = 0.05;  // mm^2
+constexpr double kLeastUncut = 1.0;   // mm^2
+constexpr double kPeckFrom = 3;       // diameters
+
+bool has_shape(const OneLineRequest& request, const char* shape)
+{
+    return std::any_of(request.tools.begin(), request.tools.end(), [&](const std::string& text) {
+        return text.rfind(std::string{shape} + ":", 0) == 0;
+    });
+}
+
+class SolidCutter {
+public:
+    SolidCutter(const OneLineRequest& request,
+                const OneLineChoice& choice,
+                const job::Strategies& strategies,
+                PartFiles& parts)
+        : request_{request},
+          choice_{choice},
+          strategies_{strategies},
+          tools_{request, choice},
+          unit_{request.inch ? kMillimetresPerInch : 1.0},
+          file_{request.parts.front()},
+          parts_{parts}
+    {
+        for (std::size_t k = 0; k < choice.tools.size(); ++k) {
+            if (choice.tools[k].shape == "flat") {
+                flats_.push_back(k);
+            }
+        }
+    }
+
+    SolidCuts cuts()
+    {
+        const std::vector<Hole> drilled = drilled_holes();
+        const SolidGround ground = ground_of_solid(parts_.facets(file_, unit_), drilled);
+        const Vec3d size = ground.box.size();
+        check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
+        const bool slants = ground.slanted > kLeastSlant;
+        const bool has_ball = has_shape(request_, "ball");
+        cuts_.is_all = !(slants && has_ball);
+        if (cuts_.is_all && flats_.empty()) {
+            throw InputError(
+                "--tool: level ground and upright walls need a flat end: add one, such as --tool "
+                "flat:6");
+        }
+        top_ = request_.stock_top.value_or(number(ground.box.high.z));
+        if (top_ * unit_ < ground.box.high.z - kSameDiameter) {
+            throw InputError(fmt::format("--stock-top: is {:g} {}, but {} rises to z = {:.6g}",
+                                         top_, choice_.unit, file_, number(ground.box.high.z)));
+        }
+        if (cuts_.is_all) {
+            say_part(ground);
+            add_face(ground);
+        }
+        add_drills(drilled);
+        for (const SolidBand& band : cuts_.is_all ? ground.openings : ground.walls) {
+            if (cuts_.is_all) {
+                add_band(Region::kLevelPocket, "below", band);
+            } else if (!flats_.empty() &&
+                       choice_.tools[flats_.back()].diameter * unit_ / 2 < band.widest) {
+                add_band(Region::kOutline, "above", band);
+            }
+        }
+        if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
+            throw InputError(fmt::format(
+                "{}: a flat end has nothing to cut: {:.4g} mm2 of slanted ground need a ball, such "
+                "as --tool {} ball:4 --scallop 0.05",
+                file_, ground.slanted, request_.tools.front()));
+        }
+        say_ground(ground, slants, has_ball);
+        return std::move(cuts_);
+    }
+
+private:
+    // In the unit of the job, without the noise of a conversion.
+    double number(double millimetres) const
+    {
+        return std::round(millimetres / unit_ * 1e6) / 1e6 + 0.0;
+    }
+    std::string tool_words(std::size_t tool) const
+    {
+        return words_of(choice_.tools[tool], request_.inch);
+    }
+    std::string operation(Region region, const std::string& boundary) const
+    {
+        return fmt::format(
+            "\n[[operation]]\nstrategy = \"{}\"\n{}", strategy_for(region, strategies_).name,
+            boundary.empty() ? "" : fmt::format("boundary = {}\n", quoted(boundary)));
+    }
+
+    // The vertical holes of a model that a tool of the call has the diameter of.
+    std::vector<Hole> drilled_holes()
+    {
+        std::vector<Hole> drilled;
+        if (!is_cad_file(file_)) {
+            return drilled;
+        }
+        try {
+            for (const Hole& hole : parts_.holes(file_, unit_, {0, job::kLargest}, true)) {
+                if (tool_for(hole)) {
+                    drilled.push_back(hole);
+                } else {
+                    ++milled_[number(hole.diameter)];
+                }
+            }
+        } catch (const InputError&) {
+            return {};  // there is none
+        }
+        return drilled;
+    }
+
+    std::optional<std::size_t> tool_for(const Hole& hole) const
+    {
+        return tools_.drill_for(hole.diameter / unit_, kSameDiameter / unit_, false);
+    }
+
+    void add_face(const SolidGround& ground)
+    {
+        const double above = top_ - number(ground.box.high.z);
+        if (above * unit_ <= kSameDiameter) {
+            return;
+        }
+        const std::size_t tool = flats_.front();
+        faces_ = true;
+        cuts_.before += operation(Region::kTop, "") +
+                        fmt::format("tool = {}\ndepth = {}\nmax_depth = {}\n", tool + 1,
+                                    number(above * unit_), tools_.step_of(tool));
+        cuts_.said.push_back(
+            fmt::format("top: face, {}, {:.6g} {} deep", tool_words(tool), above, choice_.unit));
+    }
+
+    void add_drills(const std::vector<Hole>& drilled)
+    {
+        std::map<double, std::vector<Hole>> by_diameter;
+        for (const Hole& hole : drilled) {
+            by_diameter[std::round(hole.diameter * 1e3) / 1e3].push_back(hole);
+        }
+        for (const auto& [diameter, holes] : by_diameter) {
+            const std::size_t tool = *tool_for(holes.front());
+            double deepest = 0;
+            for (const Hole& hole : holes) {
+                deepest = std::max(deepest, top_ * unit_ - hole.span->bottom);
+            }
+            const double across = choice_.tools[tool].diameter;
+            cuts_.before += operation(Region::kHoles, file_) +
+                            fmt::format("tool = {}\ndiameter = {}\n", tool + 1, number(diameter));
+            if (deepest > kPeckFrom * across * unit_) {
+                cuts_.before += fmt::format("peck = {}\n", across);
+            }
+            drilled_diameters_.push_back(number(diameter));
+            const auto through = static_cast<std::size_t>(std::count_if(
+                holes.begin(), holes.end(), [](const Hole& hole) { return hole.span->through; }));
+            cuts_.said.push_back(fmt::format("{} of {:.6g} {}, {} through: drill, {}",
+                                             counted(holes.size(), "hole"), number(diameter),
+                                             choice_.unit,
+                                             through == holes.size() ? "all"
+                                             : through == 0          ? "none"
+                                                                     : std::to_string(through),
+                                             tool_words(tool)));
+        }
+    }
+
+    // Down to a band's bottom: what the part's box has beside it is cleared, or its walls are finished.
+    void add_band(Region region, const char* part, const SolidBand& band)
+    {
+        const double bottom = number(band.bottom);
+        const double top = number(band.top);
+        const double depth = number(band.top - band.bottom);
+        const std::size_t tool = flats_.back();
+        const double across = choice_.tools[tool].diameter;
+        const double step = request_.max_depth.value_or(across);
+        std::string keys =
+            fmt::format("tool = {}\ntop = {}\ndepth = {}\nmax_depth = {}\noutput = \"{}\"\n",
+                        tool + 1, top, depth, step, request_.output);
+        const bool clears = region == Region::kLevelPocket;
+        if (clears) {
+            keys += "clearing = \"adaptive\"\n";
+        } else if (band.fills_box) {
+            keys += "loops = \"inner\"\nside = \"inside\"\n";
+        }
+        if (!drilled_diameters_.empty()) {
+            keys += fmt::format("except_diameters = [{}]\n", fmt::join(drilled_diameters_, ", "));
+        }
+        cuts_.after += operation(region, fmt::format("{}#{}:{}", file_, part, bottom)) + keys;
+        cuts_.said.push_back(
+            fmt::format("z {:.6g} to {:.6g}: {}, {}{}", top, bottom,
+                        clears ? "pocket" : "profile along the upright walls", tool_words(tool),
+                        step < depth ? fmt::format(", cuts of at most {:.6g}", step) : ""));
+        needs_box_ = true;
+    }
+
+    void say_part(const SolidGround& ground)
+    {
+        const PartExtent& box = ground.box;
+        cuts_.said.push_back(fmt::format(
+            "part: {:.6g} x {:.6g} {} from above, {:.6g} deep; {}", number(box.size().x),
+            number(box.size().y), choice_.unit, number(box.size().z),
+            lacks_unit(file_)
+                ? fmt::format("the file names no unit, {} is assumed (--units)", choice_.unit)
+                : "the unit is the file's own"));
+        cuts_.said.push_back(fmt::format(
+            "stock: x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, top z = {:.6g}{}; cut down to z = "
+            "{:.6g}",
+            number(box.low.x), number(box.high.x), number(box.low.y), number(box.high.y), top_,
+            request_.stock_top ? "" : " (the part's; --stock-top)", number(box.low.z)));
+        cuts_.said.push_back(said_feeds(request_, choice_));
+    }
+
+    void say_ground(const SolidGround& ground, bool slants, bool has_ball)
+    {
+        if (needs_box_) {
+            const PartExtent& box = ground.box;
+            cuts_.stock = fmt::format("x = [{}, {}]\ny = [{}, {}]\n", number(box.low.x),
+                                      number(box.high.x), number(box.low.y), number(box.high.y));
+        }
+        if (cuts_.is_all) {
+            cuts_.stock = fmt::format("top = {}\nbottom = {}\n", top_, number(ground.box.low.z)) +
+                          cuts_.stock;
+        }
+        for (const auto& [diameter, count] : milled_) {
+            cuts_.said.push_back(fmt::format(
+                "{} of {:.6g} {}: milled where a flat end fits; --tool drill:{:.6g} drills {}",
+                counted(count, "hole"), diameter, choice_.unit, diameter,
+                count == 1 ? "it" : "them"));
+        }
+        if (!cuts_.is_all && ground.wall > kLeastUncut && !flats_.empty()) {
+            cuts_.said.push_back(
+                fmt::format("{:.4g} mm2 of upright walls keep the allowance: they stand on slanted "
+                            "ground, where "
+                            "strategy = \"waterline\" finishes them",
+                            ground.wall));
+        }
+        if (slants && !has_ball) {
+            cuts_.said.push_back(fmt::format(
+                "slanted ground stays, {:.4g} mm2 seen from above, such as at x {:.6g} y {:.6g} z "
+                "{:.6g}: a ball in --tool finishes it",
+                ground.slanted, number(ground.slanted_at.x), number(ground.slanted_at.y),
+                number(ground.slanted_at.z)));
+        }
+        for (const std::size_t flat : flats_) {
+            const bool faces = flat == flats_.front() && faces_;
+            if (cuts_.is_all && flat != flats_.back() && !faces) {
+                cuts_.said.push_back(tool_words(flat) +
+                                     " is not used: the last flat end clears alone");
+            }
+        }
+        if (!slants && has_ball) {
+            cuts_.said.push_back("all ground is level: the ball is not used");
+        }
+    }
+
+    const OneLineRequest& request_;
+    const OneLineChoice& choice_;
+    const job::Strategies& strategies_;
+    SheetTools tools_;
+    double unit_;  // mm
+    const std::string& file_;
+    PartFiles& parts_;
+    std::vector<std::size_t> flats_;  // places in the call
+    std::map<double, std::size_t> milled_;
+    std::vector<double> drilled_diameters_;  // in the unit of the job
+    double top_{};                           // of the stock, in it
+    bool faces_{};
+    bool needs_box_{};
+    SolidCuts cuts_;
+};
+
+}  // namespace
+
+bool is_solid_request(const OneLineRequest& request)
+{
+    const bool is_solid = request.parts.size() == 1 && (is_cad_file(request.parts.front()) ||
+                                                        is_mesh_file(request.parts.front()));
+    return is_solid && !request.boundary && request.islands.empty() && request.strategy.empty() &&
+           request.roughing && (has_shape(request, "flat") || has_shape(request, "drill"));
+}
+
+SolidCuts solid_cuts(const OneLineRequest& request,
+                     const OneLineChoice& choice,
+                     const job::Strategies& strategies,
+                     PartFiles& parts)
+{
+    return SolidCutter{request, choice, strategies, parts}.cuts();
+}
+
+}  // namespace cusp::import
