@@ -21,7 +21,7 @@ constexpr double kUpright = 1e-9;  // twice the area in plan over the square of 
 
 using Corner = std::array<std::int64_t, 2>;
 
-struct Side {
+struct BorderSide {
     Corner from;
     Corner to;
 
@@ -58,7 +58,7 @@ public:
             const Corner a = corner_of(polygon[k]);
             const Corner b = corner_of(polygon[(k + 1) % polygon.size()]);
             if (a != b) {
-                sides_.push_back(twice > 0 ? Side{a, b} : Side{b, a});
+                sides_.push_back(twice > 0 ? BorderSide{a, b} : BorderSide{b, a});
             }
         }
     }
@@ -67,7 +67,7 @@ public:
     Region2d region()
     {
         cancel();
-        std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+        std::sort(sides_.begin(), sides_.end(), [](const BorderSide& a, const BorderSide& b) {
             return std::tie(a.from, a.to) < std::tie(b.from, b.to);
         });
         std::vector<bool> taken(sides_.size(), false);
@@ -85,8 +85,8 @@ private:
     void cancel()
     {
         std::sort(sides_.begin(), sides_.end(),
-                  [](const Side& a, const Side& b) { return a.ends() < b.ends(); });
-        std::vector<Side> left;
+                  [](const BorderSide& a, const BorderSide& b) { return a.ends() < b.ends(); });
+        std::vector<BorderSide> left;
         for (std::size_t k = 0; k < sides_.size();) {
             const std::size_t first = k;
             std::ptrdiff_t more = 0;
@@ -94,7 +94,7 @@ private:
                 more += sides_[k].forwards() ? 1 : -1;
             }
             const auto [low, high] = sides_[first].ends();
-            const Side side = more > 0 ? Side{low, high} : Side{high, low};
+            const BorderSide side = more > 0 ? BorderSide{low, high} : BorderSide{high, low};
             left.insert(left.end(), static_cast<std::size_t>(std::abs(more)), side);
         }
         sides_ = std::move(left);
@@ -105,7 +105,7 @@ private:
     {
         Contour contour;
         for (std::size_t k = first;;) {
-            const Side& side = sides_[k];
+            const BorderSide& side = sides_[k];
             taken[k] = true;
             contour.push_back(line_edge(place_of(side.from), place_of(side.to)));
             if (side.to == sides_[first].from) {
@@ -113,7 +113,7 @@ private:
             }
             const auto next = std::lower_bound(
                 sides_.begin(), sides_.end(), side.to,
-                [](const Side& a, const Corner& corner) { return a.from < corner; });
+                [](const BorderSide& a, const Corner& corner) { return a.from < corner; });
             k = static_cast<std::size_t>(next - sides_.begin());
             while (taken[k]) {
                 ++k;
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    std::vector<Side> sides_;
+    std::vector<BorderSide> sides_;
 };
 
 // The same point from both triangles at an edge.

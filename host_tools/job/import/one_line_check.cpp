@@ -210,7 +210,7 @@ void check_shapes(const OneLineRequest& request,
                   const Vec2d& part)
 {
     for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (tools[i].tip_angle > 0 && tools[i].shape != "drill") {
+        if (tools[i].tip_angle > 0 && tools[i].shape != name_of(toolpath::ToolShape::kDrill)) {
             throw InputError(fmt::format(
                 "--tool {}: is for drawings; parts are cut by ball, flat and bull, their holes by "
                 "drill",
@@ -228,7 +228,7 @@ void check_shapes(const OneLineRequest& request,
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)
 {
     for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (tools[i].shape == "drill") {
+        if (tools[i].shape == name_of(toolpath::ToolShape::kDrill)) {
             throw InputError(fmt::format(
                 "--tool {}: drills holes of one STEP, IGES or BREP part without --boundary",
                 request.tools[i]));

@@ -215,7 +215,7 @@ private:
         cuts_.after += operation(region, fmt::format("{}#{}:{}", file_, part, bottom)) + keys;
         cuts_.said.push_back(
             fmt::format("z {:.6g} to {:.6g}: {}, {}{}", top, bottom,
-                        clears ? "pocket" : "profile along the upright walls", tool_words(tool),
+                        clears ? "cleared" : "along the upright walls", tool_words(tool),
                         step < depth ? fmt::format(", cuts of at most {:.6g}", step) : ""));
         needs_box_ = true;
     }
@@ -303,7 +303,8 @@ bool is_solid_request(const OneLineRequest& request)
     const bool is_solid = request.parts.size() == 1 && (is_cad_file(request.parts.front()) ||
                                                         is_mesh_file(request.parts.front()));
     return is_solid && !request.boundary && request.islands.empty() && request.strategy.empty() &&
-           request.roughing && (has_shape(request, "flat") || has_shape(request, "drill"));
+           request.roughing &&
+           (has_shape(request, "flat") || has_shape(request, name_of(toolpath::ToolShape::kDrill)));
 }
 
 SolidCuts solid_cuts(const OneLineRequest& request,

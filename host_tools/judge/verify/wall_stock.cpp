@@ -29,7 +29,7 @@ constexpr double kStep = 0.1;       // mm along the wall
 constexpr double kSquare = 2.0;     // mm: side of a square of moves
 constexpr double kThickest = 1.0;   // mm: stock that is thicker is a pass that is missing
 constexpr double kNothing = 1e-9;   // mm
-constexpr int kLooks = 8;           // from the wall to where the tool reaches
+constexpr int kGougeLooks = 8;      // from the wall to where the tool reaches
 constexpr double kTipBeside = 0.2;  // mm from an edge: there the tip of a chamfer's tool passes
 
 bool follows_curves(const Operation& operation)
@@ -363,8 +363,8 @@ private:
         const bool is_out = region_.around(place + kSpare * left).inside < 0;
         const Vec2d out = is_out ? left : -1.0 * left;
         double depth = 0;
-        for (int k = 1; k <= kLooks; ++k) {
-            const Vec2d beyond = place + (reach * k / kLooks) * out;
+        for (int k = 1; k <= kGougeLooks; ++k) {
+            const Vec2d beyond = place + (reach * k / kGougeLooks) * out;
             if (q_.stock.is_over(beyond, z - kSpare)) {
                 depth = std::max(depth, beyond_all_walls(beyond, z));
             }
