@@ -11,7 +11,7 @@ import unittest
 from cusp_case import CuspCase
 from plate_mesh import plate, stl
 
-CALL = ("p.stl", "--tool", "flat:6", "ball:4", "--scallop", "0.1")
+CALL = ("p.stl", "--tool", "flat:6", "ball:4", "--scallop", "0.1", "--strategy", "adaptive_isocurve")
 WIDE, DEEP, TOP = 10, 8, 12
 
 

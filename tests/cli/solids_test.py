@@ -97,6 +97,16 @@ class Solids(unittest.TestCase):
         self.assertIn("top: face, flat 4 mm, 1.5 mm deep", said)
         self.check_cut(heights, program, top=8.5)
 
+    def test_a_hole_of_the_mesh_is_closed_and_not_milled_through(self):
+        heights = [[7] * 9 for _ in range(9)]
+        for i in range(3, 6):
+            for j in range(3, 6):
+                heights[i][j] = 3
+        (self.folder / "plate.stl").write_text(stl(plate(heights, {(4, 4)})))
+        said, program = self.one_line("plate.stl", "--tool", "flat:4")
+        self.assertIn("plate.stl: facets are missing: 1 hole of the part open above: 4 x 4 mm", said)
+        self.check_cut(heights, program)
+
     def test_a_ball_is_not_used_where_all_ground_is_level(self):
         self.write_plate(random_plate(5))
         said, program = self.one_line("plate.stl", "--tool", "flat:4", "ball:3", "--scallop", 0.05)

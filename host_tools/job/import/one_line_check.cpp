@@ -212,8 +212,7 @@ void check_shapes(const OneLineRequest& request,
     for (std::size_t i = 0; i < tools.size(); ++i) {
         if (tools[i].tip_angle > 0 && tools[i].shape != name_of(toolpath::ToolShape::kDrill)) {
             throw InputError(fmt::format(
-                "--tool {}: is for drawings; parts are cut by ball, flat and bull, their holes by "
-                "drill",
+                "--tool {}: is for drawings; parts are cut by ball, flat and bull, holes by drills",
                 request.tools[i]));
         }
         if (tools[i].diameter > std::max(part.x, part.y)) {

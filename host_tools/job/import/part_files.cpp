@@ -95,7 +95,13 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
 
 void PartFiles::close_mesh(const std::vector<std::string>& files, Triangles& mesh)
 {
-    cover_holes(fmt::format("{}", fmt::join(files, ", ")), mesh, notes_);
+    std::vector<std::string> said;
+    cover_holes(fmt::format("{}", fmt::join(files, ", ")), mesh, said);
+    for (const std::string& sentence : said) {
+        if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) {
+            note(sentence);
+        }
+    }
 }
 
 const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
@@ -144,12 +150,11 @@ std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres
 
 const Triangles& PartFiles::facets(const std::string& file, double millimetres)
 {
-    if (is_mesh_file(file)) {
-        return mesh(file, millimetres);
-    }
     const auto [found, is_new] = facets_.try_emplace(file);
     if (is_new) {
-        found->second = read_cad_facets(file, placed(file));
+        found->second =
+            is_mesh_file(file) ? mesh(file, millimetres) : read_cad_facets(file, placed(file));
+        close_mesh({file}, found->second);
     }
     return found->second;
 }

@@ -55,7 +55,7 @@ public:
     // A drawing that is no file, such as a text: loops(), shapes() and chains() find it by its name.
     void draw(const std::string& name, DrawnPaths drawn) { drawn_[name] = std::move(drawn); }
 
-    // The facets of a model or a mesh, whole, for its regions (part_regions.hpp), which loops() and shapes() find
+    // The facets of a model or a mesh, whole and closed (close_mesh()), for its regions (part_regions.hpp), which loops() and shapes() find
     // by their names.
     const Triangles& facets(const std::string& file, double millimetres);
 

@@ -68,7 +68,8 @@ public:
         check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
         const bool slants = ground.slanted > kLeastSlant;
         const bool has_ball = has_shape(request_, "ball");
-        cuts_.is_all = !(slants && has_ball);
+        // A ball finishes slanted ground, and a part of which nothing is below its top.
+        cuts_.is_all = !(has_ball && (slants || ground.openings.empty()));
         if (cuts_.is_all && flats_.empty()) {
             throw InputError(
                 "--tool: level ground and upright walls need a flat end: add one, such as --tool "

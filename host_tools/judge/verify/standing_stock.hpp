@@ -20,12 +20,15 @@ public:
     // stock's own edge it is never true.
     bool is_over(Vec2d place, double z) const
     {
-        const double x_end = grid_.x0 + static_cast<double>(grid_.nx - 1) * grid_.pitch;
-        const double y_end = grid_.y0 + static_cast<double>(grid_.ny - 1) * grid_.pitch;
-        if (place.x < grid_.x0 || place.x > x_end || place.y < grid_.y0 || place.y > y_end) {
-            return false;
-        }
-        return !any_near(place, grid_.pitch, [&](std::size_t k) { return !(heights_[k] > z); });
+        return is_on_grid(place) &&
+               !any_near(place, grid_.pitch, [&](std::size_t k) { return !(heights_[k] > z); });
+    }
+
+    // True where some point of the grid beside a place is higher than z.
+    bool may_be_over(Vec2d place, double z) const
+    {
+        return is_on_grid(place) &&
+               any_near(place, 0, [&](std::size_t k) { return heights_[k] > z; });
     }
 
     // True if is(k) holds for some point of the grid within `reach` mm in x and in y, and the ones around these.
@@ -45,6 +48,13 @@ public:
     }
 
 private:
+    bool is_on_grid(Vec2d place) const
+    {
+        const double x_end = grid_.x0 + static_cast<double>(grid_.nx - 1) * grid_.pitch;
+        const double y_end = grid_.y0 + static_cast<double>(grid_.ny - 1) * grid_.pitch;
+        return place.x >= grid_.x0 && place.x <= x_end && place.y >= grid_.y0 && place.y <= y_end;
+    }
+
     HeightGrid grid_;
     std::vector<double> heights_;
 };

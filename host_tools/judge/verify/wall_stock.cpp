@@ -360,13 +360,17 @@ private:
         if (reach <= known) {
             return;
         }
+        if (!q_.stock.is_over(place, z - kSpare)) {
+            return;
+        }
         const bool is_out = region_.around(place + kSpare * left).inside < 0;
-        const Vec2d out = is_out ? left : -1.0 * left;
+        const Vec2d way = (is_out ? reach : -reach) * left;
+        const std::vector<const CutRegion*> open = open_at(place, z);
         double depth = 0;
         for (int k = 1; k <= kGougeLooks; ++k) {
-            const Vec2d beyond = place + (reach * k / kGougeLooks) * out;
-            if (q_.stock.is_over(beyond, z - kSpare)) {
-                depth = std::max(depth, beyond_all_walls(beyond, z));
+            const Vec2d beyond = place + (static_cast<double>(k) / kGougeLooks) * way;
+            if (q_.stock.may_be_over(beyond, z - kSpare)) {
+                depth = std::max(depth, beyond_walls(open, beyond, reach));
             }
         }
         if (depth > known) {
@@ -376,15 +380,27 @@ private:
         }
     }
 
-    // mm from the nearest region that may be cut at the height; 0 in one.
-    double beyond_all_walls(Vec2d place, double z) const
+    // The other regions that may be cut at the height, at a place on the walls of this one.
+    std::vector<const CutRegion*> open_at(Vec2d place, double z) const
     {
-        double least = kUnbounded;
-        for (const CutRegion& region : q_.regions) {
-            const RegionAt here = region.around(place);
-            if (&region == &region_ || here.floor - here.below <= z + q_.floor_tolerance) {
-                least = std::min(least, std::max(0.0, -here.inside));
+        std::vector<const CutRegion*> open;
+        for (const CutRegion& other : q_.regions) {
+            const RegionAt here = other.around(place);
+            if (&other != &region_ && here.floor - here.below <= z + q_.floor_tolerance) {
+                open.push_back(&other);
             }
+        }
+        return open;
+    }
+
+    // mm from the nearest of the regions; 0 in one; `most` without any.
+    static double beyond_walls(const std::vector<const CutRegion*>& regions,
+                               Vec2d place,
+                               double most)
+    {
+        double least = most;
+        for (const CutRegion* region : regions) {
+            least = std::min(least, std::max(0.0, -region->around(place).inside));
         }
         return least;
     }
