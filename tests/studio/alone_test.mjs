@@ -76,3 +76,15 @@ test("a fault stands at the key that caused it", async () => {
   await page.waitForFunction(() => window.cusp.state().faults.some(({ key }) => key === "scallop"));
   await close();
 });
+
+test("a program of the project runs on the virtual mill, sent as the planners in the page read it", async () => {
+  const { page, faults, close } = await open();
+  await page.locator("input[type=file]").setInputFiles(write("alone/part.ngc", "G21 G90 F3000\n(there)\nG1 X10 Y2\nG1 X0 Y0\nM2\n"));
+  await step(page, "Machine");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("button", { name: "Run all the same" }).click();
+  await page.waitForFunction(() => window.cusp.state().machine.run?.phase === "done");
+  assert.equal((await page.evaluate(() => window.cusp.state().machine.run)).line, 5);
+  assert.deepEqual(faults, []);
+  await close();
+});

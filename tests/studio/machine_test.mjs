@@ -348,6 +348,9 @@ test("all panels: contrast, names, 44 px, nothing sticks out", async () => {
       const small = await page.locator(".machine button, .machine select, .machine input:not([type=checkbox]), .machine .check-line, .machine summary")
         .evaluateAll((all) => all.filter((e) => e.getBoundingClientRect().height < 44).map((e) => e.outerHTML.slice(0, 100)));
       assert.deepEqual(small, [], `targets of ${name}`);
+      await page.evaluate(() => { window.scrollTo(0, 0); });
+      const stop = await page.getByRole("button", { name: "Stop", exact: true }).boundingBox();
+      assert.ok(stop.y > 0 && stop.y + stop.height <= 900, `${name}: Stop is in sight at ${width} px`);
     }
     assert.deepEqual(faults, []);
     await close();

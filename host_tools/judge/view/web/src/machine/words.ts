@@ -41,7 +41,7 @@ export function alarmText(now: Snapshot, { alarms }: Codes): string {
 
 function toolText(now: Snapshot, text: string, where: string): string {
   const tool = /T(\d+)/i.exec(text)?.[1], way = now.settings[341];
-  const then = way === 3 ? "Resume then measures it at the tool setter." : way === 1 || way === 2 ? "Its length is not measured: G43 in the program must allow for it." :
+  const then = !/M0*6/i.test(text) ? "Fit it at the length of the one before: its length is not measured." : way === 3 ? "Resume then measures it at the tool setter." : way === 1 || way === 2 ? "Its length is not measured: G43 in the program must allow for it." :
     "Fit it at the length of the one before: it is not measured ($341=3 does that, at a tool setter).";
   return `Change to ${tool ? `tool T${tool}` : "the next tool"}, at ${where}. ${now.spindle > 0 ? "The spindle may still turn: look first. " : ""}${then} Then Resume.`;
 }
