@@ -48,9 +48,9 @@ FAULTS = {
                           "raise = static_cast<PulseLines>((raise & ~3U) | (raise & 1U) << 1U | (raise >> 1U & 1U));\n"
                           "    return {static_cast<PulseLines>((raise & ~inverted) | (lower & inverted)),"),
     "lines left inputs": (PLAYER, "pin.number, PinMode::kOutput);", "pin.number, PinMode::kInput);"),
-    "stream changed while it is on": (PLAYER, "    begin_gate();\n    const std::uint32_t raised",
-                                      "    begin_gate();\n    stream().m0ar.write(0x20000000);\n"
-                                      "    const std::uint32_t raised"),
+    "stream changed while it is on": (PLAYER, "    const std::uint32_t raised = flags().read();",
+                                      "    stream().m0ar.write(0x20000000);\n"
+                                      "    const std::uint32_t raised = flags().read();"),
     "too few wait states": (TABLE, "168000000, 5, 2, 4, 1}", "168000000, 3, 2, 4, 1}"),
     "slow bus too fast": (TABLE, "168000000, 5, 2, 4, 1}", "168000000, 5, 2, 2, 1}"),
     "voltage too low": (CLOCKS, "set_bits(Chip::power().cr, scale << 14U);",
