@@ -29,6 +29,8 @@ namespace {
 
 constexpr int kFirstOffset = 54;
 constexpr int kOtherOffset = 60;
+constexpr const char* kSuspend =
+    "M600";  // Smoothieware's word for a change of the tool, which a comment names
 
 Vec3d point_on(const path::Arc& arc, double t)
 {
@@ -135,7 +137,11 @@ public:
         commented_tool_ = tool_in_comment(line).value_or(commented_tool_);
         take_tool(line);
         const bool was_curve = is_curve(interpreter_.modal().motion);
-        const Status status = interpreter_.execute(dialect::bare_line(line), number_);
+        const std::string words = dialect::bare_line(line);
+        if (words == kSuspend) {
+            return true;
+        }
+        const Status status = interpreter_.execute(words, number_);
         if (!status) {
             const int code = static_cast<int>(status.error());
             throw InputError(
