@@ -153,6 +153,9 @@ private:
         if (star == std::string::npos || with_check(line.substr(0, star)) != line) {
             return;
         }
+        if (line.front() == '<') {
+            return;  // a status report, which noise asked for
+        }
         // The answer to the empty line behind `$CRC=1`.
         on_ = on_ || line.compare(0, 9, "resend N1") == 0;
         if (line.compare(0, 4, "ok N") == 0) {
