@@ -74,7 +74,7 @@ struct ChipTraits {
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
     static_assert(!kUsb || Table::kClocks.has_usb(), "no 48 MHz from this core_hz");
 
-    // What the drives' part of MillBoard needs.
+    // The drives' part of MillBoard needs these.
     static constexpr const hal::stm32f4::DrivePins& kDrivePins = detail::drive_pins<Table>;
     static constexpr std::uint8_t kDriveWires = hal::stm32f4::drive_wires(kDrivePins);
     static constexpr float kSenseMilliohms = detail::sense_milliohms<Table>;

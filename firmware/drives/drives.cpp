@@ -1,4 +1,4 @@
-// What is done with each drive, step by step.
+// Each drive is set and watched step by step.
 #include "firmware/drives/drives.hpp"
 
 namespace cusp::drives {

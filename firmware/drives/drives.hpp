@@ -45,7 +45,7 @@ struct DriveFault {
 // Context: main loop. `tick` counts servo ticks and wraps.
 class Drives {
 public:
-    // What the drives of `motors` shall have. If it is something else than before, or another set of them,
+    // The drives of `motors` shall have these settings. If it is something else than before, or another set of them,
     // all are set anew; they keep their current meanwhile.
     void configure(const std::array<DriveRegisters, kMostDrives>& registers,
                    std::uint8_t motors) noexcept;

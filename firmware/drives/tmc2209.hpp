@@ -35,7 +35,7 @@ Datagram write_request(Register to, std::uint32_t value) noexcept;
 // The value in an answer to read_request(from). Nothing where it is none, or its checksum is wrong.
 std::optional<std::uint32_t> parse_reply(Span<const std::uint8_t> bytes, Register from) noexcept;
 
-// What a motor needs.
+// The needs of a motor.
 struct MotorSetup {
     float milliamperes{0};  // root mean square, in motion; more than the drive gives is its most
     float hold_percent{0};  // of it, at rest

@@ -54,7 +54,7 @@ void Machine::configure_drives() noexcept
     drives_.configure(registers, static_cast<std::uint8_t>(motors));
 }
 
-// What may move, or switch something on, waits until they are set.
+// A line that may move or switch something on waits until they are set.
 bool Machine::waits_for_drives() const noexcept
 {
     const bool may_move =

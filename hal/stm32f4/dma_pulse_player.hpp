@@ -350,7 +350,7 @@ bool DmaPulsePlayer<Chip, Table, Pace>::try_play(const PulseFrame& frame) noexce
 template <class Chip, class Table, class Pace>
 bool DmaPulsePlayer<Chip, Table, Pace>::on_interrupt() noexcept
 {
-    // What the gate has ended is not played on: the next word may be of a frame that is over.
+    // A frame that the gate has ended is not played on: the next word may be of a frame that is over.
     const bool late = gate_ended() && moving();
     if (!late) {
         begin_gate();

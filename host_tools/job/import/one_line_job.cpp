@@ -123,21 +123,19 @@ std::vector<std::string> OneLineWriter::said() const
                         request_.tolerance ? "" : " (--tolerance)", request_.output)};
 }
 
-// The call without its drills, which come last in `all`.
-OneLineRequest without_drills(const OneLineRequest& request)
-{
-    OneLineRequest mills = request;
-    const auto drills =
-        std::stable_partition(mills.tools.begin(), mills.tools.end(),
-                              [](const std::string& text) { return text.rfind("drill:", 0) != 0; });
-    mills.tools.erase(drills, mills.tools.end());
-    return mills;
-}
+bool is_no_drill(const std::string& tool) { return tool.rfind("drill:", 0) != 0; }
 
+// Its tools, the drills last.
 OneLineRequest with_drills_last(OneLineRequest request)
 {
-    std::stable_partition(request.tools.begin(), request.tools.end(),
-                          [](const std::string& text) { return text.rfind("drill:", 0) != 0; });
+    std::stable_partition(request.tools.begin(), request.tools.end(), is_no_drill);
+    return request;
+}
+
+OneLineRequest without_drills(OneLineRequest request)
+{
+    auto& tools = request.tools;
+    tools.erase(std::partition_point(tools.begin(), tools.end(), is_no_drill), tools.end());
     return request;
 }
 

@@ -112,10 +112,8 @@ private:
             bottoms.insert(bottoms.begin(), level.z);
         }
         bottoms.push_back(ground_.box.low.z);
-        for (SolidBand& band : bands_down(bottoms)) {
-            const Region2d stands = offset::shadow_above(facets_, band.bottom);
-            band.fills_box = fills_box(stands);
-            if (has_opening(stands)) {
+        for (const SolidBand& band : bands_down(bottoms)) {
+            if (has_opening(offset::shadow_above(facets_, band.bottom))) {
                 ground_.openings.push_back(band);
             }
         }

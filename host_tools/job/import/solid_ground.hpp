@@ -13,7 +13,7 @@ namespace cusp::import {
 struct SolidBand {
     double top;     // z, mm
     double bottom;  // of level ground or of the part; of walls their foot
-    // What stands above the bottom ends at the sides of the part's box alone.
+    // Of walls: what stands above the bottom ends at the sides of the part's box alone.
     bool fills_box;
     double widest;  // mm: then, of walls, the radius of the largest disc beside them
 };

@@ -9,9 +9,8 @@ namespace cusp::import {
 
 // What 2.5-D operations cut of a solid, beside the operations that finish its slanted ground.
 struct SolidCuts {
-    std::string before;  // tables of operations: the face, the holes
-    std::string
-        after;  // and the walls; or, of a part without slanted ground, all that there is to clear
+    std::string before;             // tables of operations: the face, the holes
+    std::string after;              // likewise: the walls, or all levels where nothing else is cut
     std::vector<std::string> said;  // in words
     bool is_all{};                  // no other operation is needed
     std::string stock;              // keys of [stock] that they need

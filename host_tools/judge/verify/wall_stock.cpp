@@ -355,12 +355,10 @@ private:
     // left  square to the wall, of length 1
     void look_for_gouge(const MovesBelow& moves, Vec2d place, Vec2d left, double z)
     {
-        const double reach = -moves.nearest(place, true, -kUnbounded).thickness;
+        const auto found = moves.nearest(place, true, -kUnbounded);
+        const double reach = -found.thickness;
         const double known = faults_.gouge ? faults_.gouge->depth : q_.plan_tolerance;
-        if (reach <= known) {
-            return;
-        }
-        if (!q_.stock.is_over(place, z - kSpare)) {
+        if (reach <= known || !q_.stock.is_over(place, z - kSpare)) {
             return;
         }
         const bool is_out = region_.around(place + kSpare * left).inside < 0;
@@ -374,7 +372,6 @@ private:
             }
         }
         if (depth > known) {
-            const auto found = moves.nearest(place, true, -kUnbounded);
             faults_.gouge = {depth,
                              {{place.x, place.y, z}, found.cut->line, found.cut->tool.number}};
         }
