@@ -81,14 +81,6 @@ private:
     }
     bool read_bytes() noexcept;
     void serve_drives() noexcept;
-    bool drives_busy() const noexcept
-    {
-        if constexpr (hal::has_drive_wire<Board>) {
-            return board_.drive_wire.busy();
-        } else {
-            return false;
-        }
-    }
     bool write_bytes() noexcept;
     void store_settings() noexcept;
     void want_outputs(const OutputLevels& outputs) noexcept;
@@ -132,8 +124,7 @@ bool App<Board>::poll() noexcept
         board_.pulse_player.clear_underrun();
     }
     slices_.store(slices_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-    // An erase stalls the core: no answer of a drive is under way.
-    const bool stores = machine_.wants_store() && !drives_busy();
+    const bool stores = machine_.wants_store();
     if (stores) {
         store_settings();
     }
@@ -197,9 +188,6 @@ void App<Board>::serve_drives() noexcept
             std::array<std::uint8_t, drives::kReplySize> answer{};
             const std::size_t size = busy ? 0 : wire.take(answer);
             drives.take(Span<const std::uint8_t>{answer}.first(size), tick);
-        }
-        if (machine_.wants_store()) {
-            return;
         }
         if (const std::optional<drives::DriveRequest> request = drives.next(tick)) {
             wire.begin(request->drive, request->bytes.span(), request->replies);
@@ -300,6 +288,12 @@ bool App<Board>::write_bytes() noexcept
 template <class Board>
 void App<Board>::store_settings() noexcept
 {
+    if constexpr (hal::has_drive_wire<Board>) {
+        // An erase stalls the core. The store doesn't wait: a program takes the same time on every board.
+        if (board_.drive_wire.let_go()) {
+            machine_.drives().put_off(machine_.motion().ticks());
+        }
+    }
     const machine::StoredState& stored = machine_.stored();
     machine_.store_done(log_.append(stored.bytes()));
 }

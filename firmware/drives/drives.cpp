@@ -142,6 +142,13 @@ void Drives::take(Span<const std::uint8_t> answer, std::uint32_t tick) noexcept
     judge(*value, tick);
 }
 
+void Drives::put_off(std::uint32_t tick) noexcept
+{
+    waits_ = false;
+    stale_ = false;
+    due_ = tick + kAgainTicks;
+}
+
 // An answer, by the register that was asked for.
 void Drives::judge(std::uint32_t value, std::uint32_t tick) noexcept
 {

@@ -71,6 +71,9 @@ public:
     bool overdue(std::uint32_t tick) const noexcept;
     // The answer to the last request: empty where none came, or none was asked for.
     void take(Span<const std::uint8_t> answer, std::uint32_t tick) noexcept;
+    // The last request was not sent to its end: it is sent anew, after a pause in which the drive forgets it.
+    // Precondition: waits().
+    void put_off(std::uint32_t tick) noexcept;
 
 private:
     enum class Phase : std::uint8_t { kStarting, kSetting, kWatching, kFailed };

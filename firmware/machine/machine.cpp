@@ -255,7 +255,11 @@ void Machine::enter_alarm(Alarm alarm) noexcept
     }
 }
 
-void Machine::frame_missed() noexcept { frame_missed_ = true; }
+void Machine::frame_missed() noexcept
+{
+    frame_missed_ = true;
+    motion_.lose_frames();
+}
 
 void Machine::reset() noexcept
 {

@@ -153,6 +153,18 @@ void Motion::abandon() noexcept
     gate_shut_.store(false, std::memory_order_release);
 }
 
+void Motion::lose_frames() noexcept
+{
+    gate_shut_.store(true, std::memory_order_release);
+    stand_still(true);
+    set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
+    recent_.fill(set_point_);
+    pulses_.lose_frames(set_point_);
+    halted_.store(true, std::memory_order_release);
+    stand_still(false);
+    gate_shut_.store(false, std::memory_order_release);
+}
+
 void Motion::relocate(Position at) noexcept
 {
     gate_shut_.store(true, std::memory_order_release);

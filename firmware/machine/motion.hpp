@@ -70,6 +70,9 @@ public:
     // Discards all moves and stays at the last set point: after a hold, or at once after a
     // fault.
     void abandon() noexcept;
+    // Frames were made and not played: motion has ended at once, and there is none until abandon(). The
+    // position is lost by some milliseconds of travel.
+    void lose_frames() noexcept;
     // Sets the machine's position without motion. Precondition: settled().
     void relocate(Position at) noexcept;
     // Precondition: settled().

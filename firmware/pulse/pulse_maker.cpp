@@ -125,6 +125,17 @@ void PulseMaker::cut(Position at, PulseFrame& frame) noexcept
     compress(frame);
 }
 
+void PulseMaker::lose_frames(Position at) noexcept
+{
+    edges_.fill(0);
+    edges_end_ = 0;
+    marks_ = {};
+    reset(at);
+    for (AxisState& axis : axes_) {
+        axis.direction_known = false;
+    }
+}
+
 // Begins the next tick of an axis. Returns its travel in the tick before, 1e-9 steps.
 inline std::int64_t PulseMaker::take_set_point(unsigned index, std::int64_t nanometres) noexcept
 {

@@ -59,6 +59,10 @@ public:
     // one, which is where those steps end.
     void cut(Position at, PulseFrame& frame) noexcept;
 
+    // After frames that were made and not played: nothing of them follows, all step lines are low, and what
+    // the direction lines say is unknown. The position is `at` from now on.
+    void lose_frames(Position at) noexcept;
+
     // True if all lines are low and the last set points are played.
     bool idle() const noexcept;
 

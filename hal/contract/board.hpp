@@ -135,6 +135,8 @@ constexpr bool is_settings_store()
 //                                 way before is given up.
 //   busy()                        whether that is still under way.
 //   take(answer)                  the bytes of the answer, at most 8; how many came. Precondition: !busy().
+//   let_go()                      before the core stands still, as in an erase: gives a request up that it
+//                                 would have to turn the wire round for. Whether there was one.
 template <class T>
 constexpr bool is_drive_wire()
 {
@@ -143,6 +145,7 @@ constexpr bool is_drive_wire()
     static_assert(std::is_same_v<decltype(&T::busy), bool (T::*)() const noexcept>);
     static_assert(
         std::is_same_v<decltype(&T::take), std::size_t (T::*)(Span<std::uint8_t>) const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::let_go), bool (T::*)() noexcept>);
     return true;
 }
 // Such a board has a drive_wire; kDriveWires, the motors that it reaches, a bit each for X, Y, Z and the

@@ -49,6 +49,7 @@ public:
     void begin(unsigned drive, Span<const std::uint8_t> bytes, bool replies) noexcept;
     bool busy() const noexcept { return phase_.load(std::memory_order_acquire) != Phase::kRest; }
     std::size_t take(Span<std::uint8_t> answer) const noexcept;
+    bool let_go() noexcept;
 
     // Stream 5's.
     void on_interrupt() noexcept;
@@ -161,12 +162,26 @@ void DriveWire<Chip, Table>::run(std::uint32_t settings,
     timer().cr1.write(1);
 }
 
+// The pin turns first: a drive that has the whole request already answers on a wire that nobody drives.
+template <class Chip, class Table>
+bool DriveWire<Chip, Table>::let_go() noexcept
+{
+    Phase sending = Phase::kSending;
+    if (!replies_ || !phase_.compare_exchange_strong(sending, Phase::kRest)) {
+        return false;
+    }
+    set_pin(port(), pin_.number, PinMode::kInput, Pull::kUp);
+    halt();
+    replies_ = false;
+    return true;
+}
+
 // A stream that is switched off may end with its flag: cleared before it is used again.
 template <class Chip, class Table>
 void DriveWire<Chip, Table>::halt() noexcept
 {
     timer().cr1.write(0);
-    stream().cr.write(0);
+    stream().cr.write(stream().cr.read() & ~kStreamEnable);
     for (unsigned round = 0; round < kDisableRounds && (stream().cr.read() & kStreamEnable) != 0;
          ++round) {
     }

@@ -8,7 +8,8 @@ constexpr std::uint32_t kGconf = 0x00, kGstat = 0x01, kIfcnt = 0x02, kSlaveconf 
                         kIoin = 0x06;
 constexpr std::uint32_t kIholdIrun = 0x10, kTpowerdown = 0x11, kTpwmthrs = 0x13, kChopconf = 0x6C;
 constexpr std::uint32_t kDrvStatus = 0x6F, kPwmconf = 0x70;
-constexpr unsigned kLongestPause = 63;  // bits between two bytes
+constexpr unsigned kLongestPause = 63;               // bits between two bytes
+constexpr Picoseconds kSlowestBit = kSecond / 9000;  // section 4.1: 9000 baud at least
 
 // Bit by bit: what a shift register with the polynomial's taps holds.
 std::uint8_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t count)
@@ -90,6 +91,7 @@ void DriveModel::look()
         bytes_.clear();
         edges_ = {circuit_.now};
         state_ = State::kSync;
+        plan(circuit_.now + (bit_ > 0 ? bit_ : kSlowestBit) * kLongestPause);
     } else if (state_ == State::kSync) {
         // Start, 1, 0, 1, 0: the fifth edge is the begin of the fourth data bit.
         edges_.push_back(circuit_.now);

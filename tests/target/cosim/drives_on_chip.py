@@ -35,8 +35,8 @@ def currents(registers):
     return [(bits(registers[IHOLD_IRUN], low, low + 4) + 1) * step for low in (8, 0)], step
 
 
-def check_registers(chip, drive, axis, settings, steps_per_mm=800):
-    """That the drive does what the settings ask for."""
+def check_registers(chip, drive, axis, settings, steps_per_mm=800, stores=0):
+    """That the drive does what the settings ask for. Each store may have cut a request, which the drive drops."""
     registers = chip.drive_registers(drive)
     (run, hold), step = currents(registers)
     asked = settings[140 + axis]
@@ -60,7 +60,7 @@ def check_registers(chip, drive, axis, settings, steps_per_mm=800):
         clocks = 12e6 / (silent / 60 * steps_per_mm * 256 / settings[150 + axis])
         if not abs(registers[TPWMTHRS] - clocks) <= 1:
             raise Wrong(f"drive {drive}: TPWMTHRS {registers[TPWMTHRS]}, {clocks:.1f} is right")
-    if registers[GSTAT] & 1 or registers["damaged"]:
+    if registers[GSTAT] & 1 or registers["damaged"] > stores:
         raise Wrong(f"drive {drive}: GSTAT {registers[GSTAT]}, {registers['damaged']} damaged requests")
     if abs(registers["baud"] - 40000) > 400:
         raise Wrong(f"drive {drive}: {registers['baud']} baud")
@@ -114,7 +114,7 @@ def trial_settings(chip):
     chip.boot()
     set_all(chip, SETTINGS)
     for drive in range(3):
-        check_registers(chip, drive, drive, SETTINGS)
+        check_registers(chip, drive, drive, SETTINGS, stores=len(SETTINGS))
     for text, error in (("$150=17", 3), ("$150=512", None), ("$140=49", None), ("$338=8", None)):
         heard = chip.ask(text)
         if "error" not in heard or (error and f"error:{error}" not in heard):
@@ -122,7 +122,7 @@ def trial_settings(chip):
     chip.command("power cycle")
     chip.boot()
     for drive in range(3):
-        check_registers(chip, drive, drive, SETTINGS)
+        check_registers(chip, drive, drive, SETTINGS, stores=len(SETTINGS))
 
 
 def trial_second_motor(chip):
@@ -133,7 +133,7 @@ def trial_second_motor(chip):
     if chip.drive_registers(3)["answers"]:
         raise Wrong("the drive of a second motor is asked though there is none")
     set_all(chip, {**SETTINGS, 793: 2})
-    check_registers(chip, 3, 1, SETTINGS)
+    check_registers(chip, 3, 1, SETTINGS, stores=len(SETTINGS) + 1)
     chip.command("drive 3 status 2")
     expect_alarm(chip, chip.run(300), "Drive of the second motor is too hot")
 

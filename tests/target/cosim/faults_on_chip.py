@@ -208,6 +208,22 @@ class StandStill(unittest.TestCase):
             self.assertGreater(each_millisecond, 50)
             self.assertLessEqual(steps, 1)
 
+    def test_after_an_underrun_nothing_of_the_motion_follows(self):
+        # By the moment at which the core stands still, and for how long.
+        for after, still in ((200, 50), (200.4, 3), (213.7, 2.3), (190.9, 5.5)):
+            with self.subTest(after=after, still=still), chip() as machine:
+                machine.boot()
+                machine.ask("$J=G91 X30 Y30 Z30 F3000")
+                machine.run(after)
+                machine.command("core stop")
+                machine.run(still)
+                machine.changes()
+                machine.command("core go")
+                heard = machine.run(200)
+                self.assertIn("ALARM:3", heard)
+                changes = machine.changes()
+                self.assertEqual([machine.steps(changes, axis) for axis in "XYZ"], [0, 0, 0])
+
     def test_after_an_underrun_all_lines_step_again(self):
         with chip() as machine:
             machine.boot()

@@ -144,7 +144,10 @@ FAULTS_OF_DRIVES = {
     "wires of two drives swapped": (SKR2, "{'E', 0}, {'D', 3}", "{'D', 3}, {'E', 0}"),
     "another sense resistor": (SKR2, "kSenseMilliohms = 110", "kSenseMilliohms = 75"),
     "drives never asked": (APP, "    serve_drives();\n", ""),
-    "an erase amid an answer": (APP, "machine_.wants_store() && !drives_busy()", "machine_.wants_store()"),
+    "an erase amid an answer": (APP, "if (board_.drive_wire.let_go()) {", "if (false) {"),
+    "a request that is given up counts": (APP, "machine_.drives().put_off(", "machine_.drives().take({}, "),
+    "a request given up on a wire that is driven": (WIRE, "Pull::kUp);\n    halt();", "Pull::kUp);\n    set_pin(port(), "
+                                                    "pin_.number, PinMode::kOutput);\n    halt();"),
 }
 
 

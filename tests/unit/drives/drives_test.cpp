@@ -142,6 +142,23 @@ TEST(Drives, two_lost_answers_are_asked_for_again_and_three_are_a_fault)
     bench.fails(1, FaultKind::kSilent);
 }
 
+// Before each store, which may come at any rate.
+TEST(Drives, requests_that_are_put_off_are_sent_anew_and_are_no_fault)
+{
+    for (unsigned i = 0; i < 20; ++i) {
+        const std::uint32_t before = bench.tick;
+        while (!bench.drives.waits()) {
+            bench.run(1);
+            CHECK_TRUE(bench.tick - before < kSetTime);
+        }
+        bench.drives.put_off(bench.tick);
+        CHECK_FALSE(bench.drives.waits());
+    }
+    bench.run(kSetTime);
+    CHECK_TRUE(bench.drives.ready());
+    UNSIGNED_LONGS_EQUAL(bench.registers[1].currents, bench.fakes[1].registers[0x10]);
+}
+
 TEST(Drives, wrong_checksums_are_a_fault_of_that_drive)
 {
     bench.fakes[2].garbled = 1000;

@@ -1,5 +1,6 @@
 // A machine whose board has wires to its drives: what waits for them, and what a fault of one does.
 #include <string>
+#include <utility>
 
 #include "CppUTest/TestHarness.h"
 
@@ -27,7 +28,12 @@ public:
             ++registers[drive][2];
         }
     }
-    bool busy() const noexcept { return false; }
+    bool busy() const noexcept { return sends_for_ever; }
+    bool let_go() noexcept
+    {
+        let_go_of += sends_for_ever ? 1U : 0U;
+        return std::exchange(sends_for_ever, false);
+    }
     std::size_t take(Span<std::uint8_t> answer) const noexcept
     {
         if (!replies_ || drive_ == missing) {
@@ -50,6 +56,8 @@ public:
 
     std::array<std::array<std::uint32_t, 128>, 4> registers{};
     unsigned missing{9};
+    bool sends_for_ever{false};
+    unsigned let_go_of{0};
 
 private:
     using Datagram = drives::Datagram;
@@ -164,6 +172,18 @@ TEST(MachineDrives, the_second_motor_has_the_settings_of_its_axis)
     const auto& registers = bench.board.drive_wire.registers;
     CHECK_TRUE(registers[1][0x10] != registers[0][0x10]);
     UNSIGNED_LONGS_EQUAL(registers[1][0x10], registers[3][0x10]);
+}
+
+TEST(MachineDrives, a_store_waits_for_no_datagram)
+{
+    bench.run(kSet);
+    for (unsigned i = 0; i < 20; ++i) {
+        bench.board.drive_wire.sends_for_ever = true;
+        bench.run(15);  // one is on its way
+        CHECK_TRUE(has_text(bench.exchange("G10L2P1X" + std::to_string(i) + "\n", 3), "ok"));
+        UNSIGNED_LONGS_EQUAL(i + 1, bench.board.drive_wire.let_go_of);
+    }
+    CHECK_FALSE(has_text(bench.exchange("", kSet), "ALARM"));
 }
 
 TEST(MachineDrives, microsteps_that_no_drive_has_are_refused)

@@ -189,6 +189,34 @@ TEST(Stops, CutTheOutputsOfAMainLoopThatHangsWhereAFrameIsMissing)
     CHECK_FALSE(mill.board.mill.outputs().spindle_on);
 }
 
+// Whichever frame is lost, one with a turn of an axis too: no step follows, and the next way is the right one.
+TEST(Stops, LeaveNoStepAndNoWrongDirectionBehindAMissingFrame)
+{
+    unsigned lost = 0;
+    for (unsigned after = 1; after < 160; after += 3) {
+        cusp::ControllerBench mill;
+        (void)mill.exchange("G1 X0.4 F6000\nX0\nX0.4\nX0\nX0.4\nX0\n", after);
+        mill.board.pulse_player.lose_next_frame();
+        bool told = false;
+        for (unsigned tick = 0; tick < 5 && !told; ++tick) {
+            told = has_text(mill.exchange("", 1), "ALARM:3");
+        }
+        if (!told) {
+            continue;  // it had no step
+        }
+        ++lost;
+        const std::uint64_t taken = mill.board.mill.steps_taken()[0];
+        mill.run(50);
+        LONGS_EQUAL(taken, mill.board.mill.steps_taken()[0]);
+        (void)mill.exchange("\x18", 20);
+        const double before = mill.board.mill.place().x;
+        (void)mill.exchange("$X\n$J=G91 X2 F6000\n");
+        (void)mill.finish();
+        DOUBLES_EQUAL(2.0, mill.board.mill.place().x - before, 0.002);
+    }
+    CHECK(lost > 20);
+}
+
 // try_scan() of the link: the reset is found behind what waits to be read, and is read once.
 TEST(Stops, FindAResetByteThatTheMainLoopDoesNotComeToRead)
 {
