@@ -117,7 +117,7 @@ struct ChipTraits {
             "i"(kSettings.sector_bytes));
         SettingsStore store;
         if (const auto settings = machine::glimpse_settings(store)) {
-            const OutputLevels off = machine::output_levels({}, 100, false, *settings);
+            const OutputLevels off = machine::output_levels({}, 100, {}, *settings);
             hal::stm32f4::start_peripherals<Chip>({clocks_of_ports(), 0, 0});
             Panel::rest(off);
             PulsePlayer::rest(off.inverted_lines);

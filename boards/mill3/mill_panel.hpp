@@ -100,7 +100,7 @@ public:
             off.spindle_pwm = last_.spindle_off_pwm;
             off.spindle_hz = last_.spindle_hz;
             off.inverted_outputs = last_.inverted_outputs;
-            off.drives_enabled_inverted = last_.drives_enabled_inverted;
+            off.drives_enable_inverted = last_.drives_enable_inverted;
             apply(off);
         }
     }
@@ -133,6 +133,8 @@ public:
 
 private:
     static constexpr InputPins kInputs = input_pins(Rules::kPanelPins);
+    // One line for all drives.
+    static constexpr bool kOneForAll = !is_there(Rules::kPanelPins.drives_off[1]);
     static constexpr unsigned kStartPlace = 6;
     static_assert(kStartButton == 1U << kStartPlace);
 
@@ -154,9 +156,10 @@ private:
         put(kPins.spindle_on, levels.spindle_on, inverts(levels, kSpindleOnOutput));
         put(kPins.flood, levels.flood, inverts(levels, kFloodOutput));
         put(kPins.mist, levels.mist, inverts(levels, kMistOutput));
-        for (const Pin pin : kPins.drives_off) {
-            if (is_there(pin)) {
-                put(pin, !levels.drives_enabled, levels.drives_enabled_inverted);
+        for (unsigned i = 0; i < kPins.drives_off.size(); ++i) {
+            if (is_there(kPins.drives_off[i])) {
+                const unsigned motors = kOneForAll ? levels.drives_on : levels.drives_on & 1U << i;
+                put(kPins.drives_off[i], motors == 0, levels.drives_enable_inverted);
             }
         }
         if constexpr (is_there(kPins.power)) {

@@ -267,7 +267,9 @@ void App<Board>::drive_outputs() noexcept
         levels.flood = false;
         levels.mist = false;
     }
-    levels.drives_enabled = levels.drives_enabled && !drives_cut;
+    if (drives_cut) {
+        levels.drives_on = 0;
+    }
     board_.panel.set(levels);
 }
 

@@ -52,11 +52,11 @@ struct OutputLevels {
     std::uint32_t spindle_hz{1000};  // of its pulses, at least 1
     bool flood{false};
     bool mist{false};
-    bool drives_enabled{false};
+    std::uint8_t drives_on{0};  // motors with current: bits 0 to 3 for X, Y, Z and the second motor
     // Settings 2, 3, 4, 8, 15 and 16: what the board inverts at the pin; frames and levels stay
     // logical.
     PulseLines inverted_lines{0};
-    bool drives_enabled_inverted{false};
+    bool drives_enable_inverted{false};
     std::uint8_t inverted_outputs{0};  // bits of OutputBit
 
     friend constexpr bool operator==(const OutputLevels& a, const OutputLevels& b) noexcept
@@ -64,9 +64,9 @@ struct OutputLevels {
         return a.spindle_on == b.spindle_on && a.spindle_reverse == b.spindle_reverse &&
                a.spindle_pwm == b.spindle_pwm && a.spindle_off_pwm == b.spindle_off_pwm &&
                a.follows_speed == b.follows_speed && a.spindle_hz == b.spindle_hz &&
-               a.flood == b.flood && a.mist == b.mist && a.drives_enabled == b.drives_enabled &&
+               a.flood == b.flood && a.mist == b.mist && a.drives_on == b.drives_on &&
                a.inverted_lines == b.inverted_lines &&
-               a.drives_enabled_inverted == b.drives_enabled_inverted &&
+               a.drives_enable_inverted == b.drives_enable_inverted &&
                a.inverted_outputs == b.inverted_outputs;
     }
 };

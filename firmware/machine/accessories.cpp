@@ -74,7 +74,7 @@ float spindle_speed(const Accessories& accessories,
 
 OutputLevels output_levels(const Accessories& accessories,
                            unsigned spindle_override_percent,
-                           bool drives_enabled,
+                           AxisMask drives,
                            const Settings& settings) noexcept
 {
     OutputLevels levels;
@@ -91,8 +91,8 @@ OutputLevels output_levels(const Accessories& accessories,
     levels.spindle_hz = settings.whole(Setting::kSpindleFrequency);
     levels.flood = accessories.flood_on();
     levels.mist = accessories.mist_on();
-    levels.drives_enabled = drives_enabled;
     constexpr unsigned kAxes = 7;
+    levels.drives_on = drives.bits & kAxes;
     const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
     const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
     levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
@@ -101,8 +101,10 @@ OutputLevels output_levels(const Accessories& accessories,
         levels.inverted_lines |=
             static_cast<PulseLines>((steps >> *axis & 1U) * kSecondStepLine |
                                     (turned >> *axis & 1U) * kSecondDirectionLine);
+        constexpr unsigned kSecondDrive = 1U << kAxisCount;
+        levels.drives_on |= static_cast<std::uint8_t>(drives.contains(*axis) ? kSecondDrive : 0U);
     }
-    levels.drives_enabled_inverted = settings.on(Setting::kEnableInvert);
+    levels.drives_enable_inverted = settings.on(Setting::kEnableInvert);
     const unsigned coolant = settings.whole(Setting::kCoolantInvert) & (kFloodOutput | kMistOutput);
     constexpr unsigned kSpindleOutputs = 7;
     constexpr unsigned kFirstOfSpindle = 2;

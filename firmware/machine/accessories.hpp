@@ -71,9 +71,10 @@ float spindle_speed(const Accessories& accessories,
                     unsigned override_percent,
                     const Settings& settings) noexcept;
 
+// `drives`: axes whose motors have current.
 OutputLevels output_levels(const Accessories& accessories,
                            unsigned spindle_override_percent,
-                           bool drives_enabled,
+                           AxisMask drives,
                            const Settings& settings) noexcept;
 
 }  // namespace cusp::machine

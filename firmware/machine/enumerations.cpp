@@ -74,7 +74,7 @@ struct SettingName {
     std::string_view unit;
     std::string_view choices;  // of bits and choices, in order
 };
-constexpr std::array<SettingName, 62> kNames{{
+constexpr std::array<SettingName, 68> kNames{{
     {0, Group::kStepper, Type::kInteger, "Step pulse time", "us", ""},
     {1, Group::kStepper, Type::kInteger, "Step idle delay", "ms", ""},
     {2, Group::kStepper, Type::kAxes, "Step pulse invert", "", ""},
@@ -113,8 +113,13 @@ constexpr std::array<SettingName, 62> kNames{{
     {34, Group::kSpindle, Type::kDecimal, "Spindle PWM off value", "percent", ""},
     {35, Group::kSpindle, Type::kDecimal, "Spindle PWM min value", "percent", ""},
     {36, Group::kSpindle, Type::kDecimal, "Spindle PWM max value", "percent", ""},
+    {37, Group::kStepper, Type::kAxes, "Steppers to keep enabled", "", ""},
+    {44, Group::kHoming, Type::kAxes, "Axes homing, first pass", "", ""},
+    {45, Group::kHoming, Type::kAxes, "Axes homing, second pass", "", ""},
+    {46, Group::kHoming, Type::kAxes, "Axes homing, third pass", "", ""},
     {140, Group::kAxis, Type::kInteger, "motor current", "mA", ""},
     {150, Group::kAxis, Type::kInteger, "microsteps", "steps", ""},
+    {160, Group::kAxis, Type::kDecimal, "backlash compensation", "mm", ""},
     {170, Group::kAxis, Type::kDecimal, "dual axis offset", "mm", ""},
     {210, Group::kAxis, Type::kInteger, "hold current", "percent", ""},
     {338, Group::kStepper, Type::kAxes, "Trinamic driver", "", ""},
@@ -142,6 +147,7 @@ constexpr std::array<SettingName, 62> kNames{{
     {820, Group::kAxis, Type::kDecimal, "vibration frequency", "Hz", ""},
     {830, Group::kAxis, Type::kDecimal, "vibration damping ratio", "", ""},
     {840, Group::kAxis, Type::kDecimal, "stealthChop up to", "mm/min", ""},
+    {850, Group::kAxis, Type::kDecimal, "homing pull-off", "mm", ""},
 }};
 
 const SettingName& name_of(std::uint16_t number) noexcept
@@ -172,7 +178,7 @@ constexpr std::array<CodeText, 37> kErrors{{
     text_for(Error::kBadNumberFormat, "A value is missing or no number."),
     text_for(Error::kInvalidStatement, "The $ command or setting is not known."),
     text_for(Error::kNegativeValue, "A value is negative, or 0 where it must not be."),
-    text_for(Error::kSettingDisabled, "Homing is off, or the board lacks the pins."),
+    text_for(Error::kSettingDisabled, "Homing is off or has no axis, or the board lacks the pins."),
     text_for(Error::kSettingStepPulseMin, "The step pulse is too short."),
     text_for(Error::kSettingReadFail, "Stored settings could not be read, or new ones not stored."),
     text_for(Error::kIdleError, "Not in this state."),

@@ -8,7 +8,6 @@
 namespace cusp::machine {
 namespace {
 
-constexpr unsigned kAllAxes = 7;
 // Distances of search, as in Grbl: over the travel, and over the pull-off.
 constexpr float kSeekOverTravel = 1.5F;
 constexpr float kLocateOverPullOff = 5.0F;
@@ -27,13 +26,13 @@ float most_skew(const Settings& settings, unsigned axis) noexcept
 
 }  // namespace
 
-void Homing::begin(AxisMask axes, const Settings& /*settings*/) noexcept
+void Homing::begin(AxisMask axes, const Settings& settings) noexcept
 {
-    axes_ = axes.empty() ? AxisMask{kAllAxes} : axes;
+    axes_ = axes;
     alarm_ = Alarm::kNone;
     moving_ = false;
     resting_ = false;
-    (void)next_axis();
+    (void)next_axis(settings);
 }
 
 bool Homing::homes_to_minus(const Settings& settings) const noexcept
@@ -41,16 +40,18 @@ bool Homing::homes_to_minus(const Settings& settings) const noexcept
     return (settings.whole(Setting::kHomingDirection) >> axis_ & 1U) != 0;
 }
 
-// Z first, so that the tool is up before the table moves.
-bool Homing::next_axis() noexcept
+// Pass by pass, X first in each; then those that no pass names.
+bool Homing::next_axis(const Settings& settings) noexcept
 {
-    constexpr std::array<unsigned, kAxisCount> kOrder{2, 0, 1};
-    for (const unsigned axis : kOrder) {
-        if (axes_.contains(axis)) {
-            axis_ = axis;
-            axes_.bits = static_cast<std::uint8_t>(axes_.bits & ~(1U << axis));
-            phase_ = Phase::kSeek;
-            return true;
+    for (unsigned pass = 0; pass <= kHomingPasses; ++pass) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            const bool named = pass == kHomingPasses || settings.homing_pass(pass).contains(axis);
+            if (named && axes_.contains(axis)) {
+                axis_ = axis;
+                axes_.bits = static_cast<std::uint8_t>(axes_.bits & ~(1U << axis));
+                phase_ = Phase::kSeek;
+                return true;
+            }
         }
     }
     return false;
@@ -135,7 +136,7 @@ auto Homing::start_phase(Motion& motion, const Settings& settings) noexcept -> P
         case Phase::kFirstPullOff:
         case Phase::kSecondPullOff: {
             const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
-            const float pull_off = settings.value(Setting::kHomingPullOff);
+            const float pull_off = settings.pull_off(axis_);
             go(motion, contact_ - sign * nanometres(pull_off) - at,
                settings.value(Setting::kHomingSeek));
             break;
@@ -151,7 +152,7 @@ bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
     const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
     std::int64_t distance = nanometres(kSeekOverTravel * settings.value(Setting::kTravel, axis_));
     if (phase_ == Phase::kLocate) {
-        distance = nanometres(kLocateOverPullOff * settings.value(Setting::kHomingPullOff));
+        distance = nanometres(kLocateOverPullOff * settings.pull_off(axis_));
     } else if (phase_ == Phase::kSquare) {
         distance = nanometres(most_skew(settings, axis_)) - sign * (other_at_ - contact_);
     }
@@ -233,13 +234,13 @@ auto Homing::finish_phase(Motion& motion, const Settings& settings) noexcept -> 
 
 auto Homing::finish_axis(Motion& motion, const Settings& settings) noexcept -> Progress
 {
-    const std::int64_t pull_off = nanometres(settings.value(Setting::kHomingPullOff));
+    const std::int64_t pull_off = nanometres(settings.pull_off(axis_));
     Position at = motion.position();
     at[axis_] = homes_to_minus(settings)
                     ? pull_off - nanometres(settings.value(Setting::kTravel, axis_))
                     : -pull_off;
     motion.relocate(at);
-    return next_axis() ? Progress::kStepped : Progress::kFinished;
+    return next_axis(settings) ? Progress::kStepped : Progress::kFinished;
 }
 
 auto Homing::fail(Alarm alarm) noexcept -> Progress

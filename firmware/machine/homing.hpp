@@ -1,7 +1,7 @@
 // Homing: finds the switch of each axis and sets the machine position from it.
 //
-// Each axis in turn, Z first: seek the switch fast, pull off, find it again slowly, pull off. The
-// machine is then $27 inside its travel.
+// Each axis in turn, by the passes of $44 to $46: seek the switch fast, pull off, find it again slowly, pull
+// off. The machine is then $27, or $850 to $852, inside its travel.
 //
 // An axis with two motors and two switches is squared during the slow search: both motors run until
 // the first switch closes. The other motor continues alone to its switch, then until it is as far
@@ -20,7 +20,7 @@ namespace cusp::machine {
 // Context: main loop.
 class Homing {
 public:
-    // Begins a cycle over these axes, all where empty. Precondition: motion.settled().
+    // Begins a cycle over these axes, at least one. Precondition: motion.settled().
     void begin(AxisMask axes, const Settings& settings) noexcept;
 
     enum class Progress : std::uint8_t { kWaiting, kStepped, kFinished, kFailed };
@@ -50,7 +50,7 @@ private:
     bool start_search(Motion& motion, const Settings& settings) noexcept;
     std::int64_t alignment(const Motion& motion, const Settings& settings) const noexcept;
     bool homes_to_minus(const Settings& settings) const noexcept;
-    bool next_axis() noexcept;
+    bool next_axis(const Settings& settings) noexcept;
     Progress start_phase(Motion& motion, const Settings& settings) noexcept;
     void go(Motion& motion, std::int64_t distance, float mm_per_minute) const noexcept;
     Progress finish_search(const Motion& motion, const Settings& settings) noexcept;

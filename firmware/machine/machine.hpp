@@ -274,8 +274,9 @@ private:
     std::uint8_t startup_number_{0};
     Dwell dwell_;
     bool probe_alarm_{false};
-    AxisMask homing_axes_;  // all where empty
-    AxisMask homed_;        // since the position was lost last
+    AxisMask homing_axes_;
+    bool homes_all_{false};
+    AxisMask homed_;  // since the position was lost last
     ProbeResult probe_;
     Listing listing_{Listing::kSettings};
     unsigned listing_index_{0};

@@ -204,11 +204,16 @@ void Machine::start_homing(AxisMask axes) noexcept
         finish_line(Error::kCheckDoor);
         return;
     }
+    homes_all_ = axes.empty();
+    homing_axes_ = homes_all_ ? stored_.settings.homed_axes() : axes;
+    if (homing_axes_.empty()) {
+        finish_line(Error::kSettingDisabled);
+        return;
+    }
     motion_.guard_limits(false);
     state_ = State::kHome;
     answer_after_startup_ = false;
-    homing_axes_ = axes;
-    homing_.begin(axes, stored_.settings);
+    homing_.begin(homing_axes_, stored_.settings);
     task_ = Task::kHome;
 }
 

@@ -280,10 +280,8 @@ bool Machine::step_home() noexcept
     resynchronise();
     task_ = Task::kNone;
     answer_after_startup_ = true;
-    constexpr unsigned kAllAxes = 7;
-    const bool all = homing_axes_.empty();
-    homed_.bits = static_cast<std::uint8_t>(homed_.bits | (all ? kAllAxes : homing_axes_.bits));
-    startup_next_ = all ? 0 : kStartupLineCount;
+    homed_.bits = static_cast<std::uint8_t>(homed_.bits | homing_axes_.bits);
+    startup_next_ = homes_all_ ? 0 : kStartupLineCount;
     return true;
 }
 

@@ -27,10 +27,15 @@ unsigned control_inputs(unsigned mask) noexcept
     return inputs;
 }
 
+MachineLimits limits_of_the_way(const Settings& settings) noexcept
+{
+    return Backlash::left_of(settings.limits(), settings.backlash());
+}
+
 }  // namespace
 
 Motion::Motion(planner::PathQueue& queue, const Settings& settings) noexcept
-    : planner_{queue, settings.limits()}, pulses_{settings.steps()}
+    : planner_{queue, limits_of_the_way(settings)}, pulses_{settings.steps()}
 {
     configure(settings);
 }
@@ -39,14 +44,15 @@ void Motion::configure(const Settings& settings) noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
     stand_still(true);
-    const MachineLimits limits = settings.limits();
+    const MachineLimits limits = limits_of_the_way(settings);
     const Position at = interpolator_.position();
     planner_.set_limits(limits);
     planner_.reset(at);
     planner_.set_shaper(settings.input_shaper());
     interpolator_.reset(at);
+    backlash_.configure(settings.backlash(), settings.limits());
     pulses_.configure(settings.steps());
-    pulses_.reset(at);
+    put_motors(at);
     least_acceleration_ = limits.acceleration.x;
     path_filter_s_ = 0;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -145,6 +151,7 @@ void Motion::abandon() noexcept
     const Position at = set_point_;
     planner_.reset(at);
     interpolator_.reset(at);
+    backlash_.stop();
     open_ = false;
     changed_ = false;
     unwatch();
@@ -153,12 +160,21 @@ void Motion::abandon() noexcept
     gate_shut_.store(false, std::memory_order_release);
 }
 
+// Makes no step. Precondition: stands_still_.
+void Motion::put_motors(Position at) noexcept
+{
+    motors_ = at;
+    backlash_.rest(at);
+    pulses_.reset(at);
+}
+
 void Motion::lose_frames() noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
     stand_still(true);
     set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
     recent_.fill(set_point_);
+    put_motors(set_point_);
     pulses_.lose_frames(set_point_);
     halted_.store(true, std::memory_order_release);
     stand_still(false);
@@ -171,7 +187,7 @@ void Motion::relocate(Position at) noexcept
     stand_still(true);
     planner_.reset(at);
     interpolator_.reset(at);
-    pulses_.reset(at);
+    put_motors(at);
     set_point_ = at;
     recent_.fill(at);
     stand_still(false);
@@ -228,14 +244,17 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
             limit_hit_.load(std::memory_order_relaxed) || halted_.load(std::memory_order_relaxed);
         if (!ends) {
             set_point_ = interpolator_.tick();
+            motors_ = backlash_.follow(set_point_);
         }
         cuts = ends && !ended_;
         ended_ = ends;
     }
     if (cuts) {
         // Back to where the steps end that the player has by now.
+        static_assert(pulse::PulseMaker::kDelayTicks == 1, "Backlash keeps the last place");
         set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
         recent_.fill(set_point_);
+        motors_ = backlash_.cut(set_point_);
     }
     if (laser_.on()) {
         laser_.tick(interpolator_.power(), interpolator_.speed() <= 0,
@@ -248,9 +267,9 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
     if (stands_still_.load(std::memory_order_acquire)) {
         frame.edges.clear();
     } else if (cuts) {
-        pulses_.cut(set_point_, frame);
+        pulses_.cut(motors_, frame);
     } else {
-        pulses_.make_frame(set_point_, frame);
+        pulses_.make_frame(motors_, frame);
     }
     ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }
@@ -260,7 +279,7 @@ void Motion::sample(std::uint16_t raw_inputs) noexcept
     inputs_.sample(static_cast<std::uint16_t>((raw_inputs ^ inverted_inputs_) & used_inputs_));
     stops_.take_inputs(inputs_.raw(), inputs_.steady());
     interpolator_.brake(stops_.brakes());
-    if (stops_.halts() && !interpolator_.at_rest()) {
+    if (stops_.halts() && !at_rest()) {
         halted_.store(true, std::memory_order_release);
     }
     if (guarding_.load(std::memory_order_relaxed) && (inputs_.steady() & kLimitInputs) != 0) {

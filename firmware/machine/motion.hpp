@@ -11,6 +11,7 @@
 
 #include "firmware/base/pulse_frame.hpp"
 #include "firmware/interpolator/interpolator.hpp"
+#include "firmware/machine/backlash.hpp"
 #include "firmware/machine/input_filter.hpp"
 #include "firmware/machine/laser.hpp"
 #include "firmware/machine/settings.hpp"
@@ -56,9 +57,9 @@ public:
     float speed() const noexcept { return interpolator_.speed(); }  // mm/s
 
     // Nothing moves just now: a hold is complete, or there is nothing to do.
-    bool at_rest() const noexcept { return interpolator_.at_rest(); }
+    bool at_rest() const noexcept { return interpolator_.at_rest() && backlash_.idle(); }
     // Every move is done.
-    bool finished() const noexcept { return planner_.empty() && interpolator_.at_rest(); }
+    bool finished() const noexcept { return planner_.empty() && at_rest(); }
     // As above, and the last pulse is made.
     bool settled() const noexcept { return finished() && pulses_.idle(); }
 
@@ -124,11 +125,13 @@ private:
     // True if one of these inputs has answered long enough.
     bool answered(Answer& answer, unsigned inputs) noexcept;
     void check_watch() noexcept;
+    void put_motors(Position at) noexcept;
     void stand_still(bool on) noexcept { stands_still_.store(on, std::memory_order_release); }
 
     planner::Planner planner_;
     interpolator::Interpolator interpolator_{planner_};
     pulse::PulseMaker pulses_;
+    Backlash backlash_;
     InputFilter inputs_;
     Stops stops_;
     Laser laser_;
@@ -137,6 +140,7 @@ private:
     static constexpr std::size_t kPlayedBehind = Laser::kPlayedBehind;
     std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
     Position set_point_{};
+    Position motors_{};  // the set point, and what play has been taken up
     Answer contact_{};
     Answer later_contact_{};
     std::uint16_t contact_inputs_{0};

@@ -19,7 +19,10 @@ OutputLevels OutputControl::levels(bool stopped) const noexcept
     constexpr std::uint32_t kAlwaysOn = 255;
     const std::uint32_t idle_lock = settings_.whole(Setting::kIdleLock);
     const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;
-    const bool drives = !stopped && (idle_lock == kAlwaysOn || (has_moved_ && !still));
+    constexpr AxisMask kAllAxes{7};
+    const bool all = idle_lock == kAlwaysOn || (has_moved_ && !still);
+    const AxisMask kept{static_cast<std::uint8_t>(settings_.whole(Setting::kKeepCurrent))};
+    const AxisMask drives = stopped ? AxisMask{} : all ? kAllAxes : kept;
     return output_levels(accessories_, overrides_.spindle, drives, settings_);
 }
 

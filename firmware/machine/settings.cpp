@@ -61,12 +61,19 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {34, 3, 0, 0, 100, 7},
     {35, 3, 0, 0, 100, 7},
     {36, 3, 100, 0, 100, 7},
+    {37, 0, 0, 0, 7, 9},
+    {44, 0, 4, 0, 7, 9},
+    {45, 0, 3, 0, 7, 9},
+    {46, 0, 0, 0, 7, 9},
     {140, 0, 500, 50, 1700, 8},
     {141, 0, 500, 50, 1700, 8},
     {142, 0, 500, 50, 1700, 8},
     {150, 0, 16, 1, 256, 8},
     {151, 0, 16, 1, 256, 8},
     {152, 0, 16, 1, 256, 8},
+    {160, 3, 0, 0, 2, 9},
+    {161, 3, 0, 0, 2, 9},
+    {162, 3, 0, 0, 2, 9},
     {170, 3, 0, -10, 10, 3},
     {171, 3, 0, -10, 10, 3},
     {172, 3, 0, -10, 10, 3},
@@ -106,6 +113,9 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {840, 3, 0, 0, 120000, 8},
     {841, 3, 0, 0, 120000, 8},
     {842, 3, 0, 0, 120000, 8},
+    {850, 3, 0, 0, 1000, 9},
+    {851, 3, 0, 0, 1000, 9},
+    {852, 3, 0, 0, 1000, 9},
 }};
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept
@@ -308,6 +318,12 @@ MachineLimits Settings::limits() const noexcept
         limits.jerk[axis] = value(Setting::kJerk, axis);
     }
     return limits;
+}
+
+Vec3f Settings::backlash() const noexcept
+{
+    return {value(Setting::kBacklash, 0), value(Setting::kBacklash, 1),
+            value(Setting::kBacklash, 2)};
 }
 
 planner::InputShaper Settings::input_shaper() const noexcept

@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $33 to $36, $140 to $152, $170 to $172, $210 to $212, $338 to $349, $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $33 to $37, $44 to $46, $140 to $162, $170 to $172, $210 to $212, $338 to $349, $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -17,6 +17,8 @@
 #include "firmware/pulse/pulse_maker.hpp"
 
 namespace cusp::machine {
+
+inline constexpr unsigned kHomingPasses = 3;
 
 // Places in the table. Per-axis settings take three places, X first.
 enum class Setting : std::uint8_t {
@@ -46,19 +48,23 @@ enum class Setting : std::uint8_t {
     kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
     kAcceleration = kMaxRate + 3,        // $120 mm/s^2
     kTravel = kAcceleration + 3,         // $130 mm
-    kSecondInvert = kTravel + 3,       // $8 mask: the second motor turns the other way than $3 says
-    kControlInvert,                    // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
-                                       // 64 emergency stop, 256 motor fault
-    kCoolantInvert,                    // $15 mask: 1 flood, 2 mist
-    kSpindleInvert,                    // $16 mask: 1 on, 2 reverse, 4 pulses
-    kDirectionSetup,                   // $29 us
-    kSpindleFrequency,                 // $33 Hz, of the spindle's pulses
-    kSpindleOffDuty,                   // $34 %: of the time that they are high while it is off
-    kSpindleLeastDuty,                 // $35 %: and at $31
-    kSpindleMostDuty,                  // $36 %: and at $30
-    kMotorCurrent,                     // $140 mA rms, of a drive that is set over its wire
+    kSecondInvert = kTravel + 3,  // $8 mask: the second motor turns the other way than $3 says
+    kControlInvert,               // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                                  // 64 emergency stop, 256 motor fault
+    kCoolantInvert,               // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,              // $29 us
+    kSpindleFrequency,            // $33 Hz, of the spindle's pulses
+    kSpindleOffDuty,              // $34 %: of the time that they are high while it is off
+    kSpindleLeastDuty,            // $35 %: and at $31
+    kSpindleMostDuty,             // $36 %: and at $30
+    kKeepCurrent,                 // $37 mask: axes whose drives stay on, whatever $1 says
+    kHomingPass,                  // $44 to $46 masks: axes that are homed first, second, third
+    kMotorCurrent =
+        kHomingPass + kHomingPasses,   // $140 mA rms, of a drive that is set over its wire
     kMicrosteps = kMotorCurrent + 3,   // $150: of a full step, a power of two
-    kSquareOffset = kMicrosteps + 3,   // $170 mm: offset of the second motor towards plus
+    kBacklash = kMicrosteps + 3,       // $160 mm: the play of the axis
+    kSquareOffset = kBacklash + 3,     // $170 mm: offset of the second motor towards plus
     kHoldCurrent = kSquareOffset + 3,  // $210 %: of $140, at rest
     kSetDrives = kHoldCurrent + 3,     // $338 mask: axes whose drives are set over their wires
     kToolChangeMode,                   // $341; see ToolChangeMode
@@ -83,7 +89,8 @@ enum class Setting : std::uint8_t {
     kShaperFrequency = kShaperType + 3,     // $820 Hz
     kShaperDamping = kShaperFrequency + 3,  // $830 ratio
     kStealthSpeed = kShaperDamping + 3,  // $840 mm/min: up to which a drive runs silent; 0: never
-    kCount = kStealthSpeed + 3,
+    kAxisPullOff = kStealthSpeed + 3,    // $850 mm: of this axis in place of $27; 0: as $27 says
+    kCount = kAxisPullOff + 3,
 };
 
 inline constexpr std::size_t kSettingCount = static_cast<std::size_t>(Setting::kCount);
@@ -104,7 +111,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 8;
+inline constexpr std::uint8_t kSettingsLayout = 9;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -189,7 +196,28 @@ public:
         return on(Setting::kSquaring) && second_motor_axis() == axis;
     }
 
+    // Of the motors.
     MachineLimits limits() const noexcept;
+    Vec3f backlash() const noexcept;  // mm
+    // How far inside its switch homing leaves an axis, mm.
+    float pull_off(unsigned axis) const noexcept
+    {
+        const float own = value(Setting::kAxisPullOff, axis);
+        return own > 0 ? own : value(Setting::kHomingPullOff);
+    }
+    // Axes that homing takes in one of its passes, 0 to kHomingPasses - 1; and in all of them.
+    AxisMask homing_pass(unsigned pass) const noexcept
+    {
+        return {static_cast<std::uint8_t>(value(Setting::kHomingPass, pass))};
+    }
+    AxisMask homed_axes() const noexcept
+    {
+        unsigned bits = 0;
+        for (unsigned pass = 0; pass < kHomingPasses; ++pass) {
+            bits |= homing_pass(pass).bits;
+        }
+        return {static_cast<std::uint8_t>(bits)};
+    }
     pulse::StepSettings steps() const noexcept;
     planner::InputShaper input_shaper() const noexcept;
 

@@ -13,19 +13,19 @@ namespace {
 constexpr float kBackOffMillimetres = 2.0F;
 // The slow search goes so far beyond where the fast one touched.
 constexpr float kLocateBeyond = 2.0F;
+constexpr unsigned kAxisZ = 2;
 
 std::int64_t nanometres_of(float mm) noexcept { return to_nanometres(static_cast<double>(mm)); }
 
 // As far up as homing leaves Z where it homes upwards: the limit switch stays open.
 std::int64_t top_of(const Settings& settings) noexcept
 {
-    return -nanometres_of(settings.value(Setting::kHomingPullOff));
+    return -nanometres_of(settings.pull_off(kAxisZ));
 }
 
 std::int64_t bottom_of(const Settings& settings) noexcept
 {
-    constexpr unsigned kZ = 2;
-    return -nanometres_of(settings.value(Setting::kTravel, kZ));
+    return -nanometres_of(settings.value(Setting::kTravel, kAxisZ));
 }
 
 bool in_travel(Position at, const Settings& settings) noexcept

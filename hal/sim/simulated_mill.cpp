@@ -1,6 +1,7 @@
 // Slides, switches and plate of the virtual machine tool.
 #include "hal/sim/simulated_mill.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "firmware/base/pulse_frame.hpp"
@@ -96,6 +97,11 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
         const std::uint64_t forward = plus >> kCountBits * axis & kCountMask;
         steps_taken_[axis] += steps;
         steps_[axis] += static_cast<std::int64_t>(2 * forward) - static_cast<std::int64_t>(steps);
+        if (has_play()) {
+            const auto travel = static_cast<double>(2 * forward) - static_cast<double>(steps);
+            behind_[axis] = std::clamp(behind_[axis] - travel / geometry_.steps_per_mm[axis], 0.0,
+                                       geometry_.play[axis]);
+        }
     }
 }
 
@@ -125,7 +131,8 @@ Vec3d SimulatedMill::place() const noexcept
 {
     Vec3d at = geometry_.start;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        at[axis] += static_cast<double>(steps_[axis]) / geometry_.steps_per_mm[axis];
+        at[axis] +=
+            static_cast<double>(steps_[axis]) / geometry_.steps_per_mm[axis] + behind_[axis];
     }
     return at;
 }

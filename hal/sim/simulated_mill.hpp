@@ -22,6 +22,9 @@ struct MillGeometry {
     Vec3d start{-50.0, -30.0, -10.0};
     // A switch trips this far beyond the end of the travel.
     double switch_distance{0.0};
+    // Of each screw, mm: a motor that turns about goes so far before its slide follows. At the start they
+    // touch on the side that pushes towards plus.
+    Vec3d play{0.0, 0.0, 0.0};
     // Height of the probe plate over the place where the tool starts, mm; none: it touches nothing.
     std::optional<double> plate_above_start;
     // Directions whose direction line the drives invert, one bit an axis (setting 3 is applied by
@@ -47,7 +50,7 @@ public:
 
     void set_geometry(const MillGeometry& geometry);
 
-    // Position of the tool, mm from the upper ends of the travel.
+    // Position of the tool, that is of the slides, mm from the upper ends of the travel.
     Vec3d place() const noexcept;
     // Position to which the second motor has moved the slide, on the first one's scale.
     double second_place() const noexcept;
@@ -67,9 +70,14 @@ private:
     unsigned forward_axes() const noexcept;
     std::uint64_t count_steps_forward(const PulseFrame& frame);
     void take_second_step() noexcept;
+    bool has_play() const noexcept
+    {
+        return geometry_.play.x > 0 || geometry_.play.y > 0 || geometry_.play.z > 0;
+    }
 
     MillGeometry geometry_;
     PerAxis<std::int64_t> steps_{};
+    Vec3d behind_{};  // of the slides against their motors, mm towards plus, up to the play
     PerAxis<std::uint64_t> steps_taken_{};
     std::int64_t second_steps_{0};
     PulseLines levels_{0};

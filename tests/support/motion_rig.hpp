@@ -171,18 +171,20 @@ struct LimitUse {
     Vec3d velocity, acceleration, jerk;
 };
 
-// Rounding to whole nanometres adds up to 1, 2 and 4 nm to the first three differences.
+// Rounding to whole nanometres adds up to 1, 2 and 4 nm to the first three differences; `rounded`: of how
+// many such numbers a set point is the sum.
 inline LimitUse limit_use(const std::vector<Position>& samples,
                           Position start,
-                          const MachineLimits& limits)
+                          const MachineLimits& limits,
+                          int rounded = 1)
 {
     LimitUse use{};
     for (unsigned axis = 0; axis < 3; ++axis) {
         std::int64_t p[4] = {start[axis], start[axis], start[axis], start[axis]};
         for (const Position& sample : samples) {
             p[0] = p[1], p[1] = p[2], p[2] = p[3], p[3] = sample[axis];
-            const auto part = [](std::int64_t nm, int rounding, double scale, float limit) {
-                const double excess = std::fabs(static_cast<double>(nm)) - rounding;
+            const auto part = [rounded](std::int64_t nm, int rounding, double scale, float limit) {
+                const double excess = std::fabs(static_cast<double>(nm)) - rounding * rounded;
                 return excess * 1e-6 * scale / static_cast<double>(limit);
             };
             use.velocity[axis] =

@@ -101,7 +101,7 @@ APP = "firmware/app/app.hpp"
 FAULTS_OF_STOPS = {
     "bytes not seen by the tick": (APP, "        machine_.notice(byte);\n", ""),
     "outputs left to the main loop": (APP, "    if (cut) {\n", "    if (cut && false) {\n"),
-    "drives left to the main loop": (APP, "levels.drives_enabled && !drives_cut", "levels.drives_enabled"),
+    "drives left to the main loop": (APP, "    if (drives_cut) {", "    if (false) {"),
     "outputs on after an underrun": (APP, " || board_.pulse_player.underrun()", ""),
     "a door that cuts nothing": ("firmware/machine/stops.hpp", "kCutting = kHalting | kDoor", "kCutting = kHalting"),
     "a byte that cuts nothing": ("firmware/machine/stops.hpp", "byte_pending(cutting_byte_) ||", "false ||"),

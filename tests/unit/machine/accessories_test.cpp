@@ -8,6 +8,12 @@
 using namespace cusp::machine;
 using cusp::gcode::SpindleMode;
 
+namespace {
+
+constexpr cusp::AxisMask kAllAxes{7};
+
+}  // namespace
+
 TEST_GROUP(SpindleOutput)
 {
     Settings settings;
@@ -21,7 +27,7 @@ TEST_GROUP(SpindleOutput)
     unsigned pwm(float speed, unsigned percent = 100)
     {
         accessories.speed = speed;
-        return output_levels(accessories, percent, true, settings).spindle_pwm;
+        return output_levels(accessories, percent, kAllAxes, settings).spindle_pwm;
     }
 };
 
@@ -46,7 +52,7 @@ TEST(SpindleOutput, IsOffWhilePausedAndWhenOff)
 {
     accessories.spindle_paused = true;
     UNSIGNED_LONGS_EQUAL(0, pwm(6000));
-    CHECK_FALSE(output_levels(accessories, 100, true, settings).spindle_on);
+    CHECK_FALSE(output_levels(accessories, 100, kAllAxes, settings).spindle_on);
     accessories = Accessories{};
     UNSIGNED_LONGS_EQUAL(0, pwm(6000));
 }
@@ -65,7 +71,7 @@ TEST(SpindleOutput, LiesBetweenTheLeastAndTheGreatestDutyWhileItIsOn)
     UNSIGNED_LONGS_EQUAL(45000, pwm(20000));
     accessories.spindle = SpindleMode::kOff;
     UNSIGNED_LONGS_EQUAL(2500, pwm(6000));
-    UNSIGNED_LONGS_EQUAL(2500, output_levels(accessories, 100, true, settings).spindle_off_pwm);
+    UNSIGNED_LONGS_EQUAL(2500, output_levels(accessories, 100, kAllAxes, settings).spindle_off_pwm);
 }
 
 TEST(SpindleOutput, IsConstantWhereTheSettingsLeaveNoRange)
@@ -80,9 +86,9 @@ TEST(SpindleOutput, IsConstantWhereTheSettingsLeaveNoRange)
 
 TEST(SpindleOutput, HasTheRateOfItsSetting)
 {
-    UNSIGNED_LONGS_EQUAL(1000, output_levels(accessories, 100, true, settings).spindle_hz);
+    UNSIGNED_LONGS_EQUAL(1000, output_levels(accessories, 100, kAllAxes, settings).spindle_hz);
     CHECK(!settings.put(33, 20000));
-    UNSIGNED_LONGS_EQUAL(20000, output_levels(accessories, 100, true, settings).spindle_hz);
+    UNSIGNED_LONGS_EQUAL(20000, output_levels(accessories, 100, kAllAxes, settings).spindle_hz);
     CHECK(settings.put(33, 0) && settings.put(33, 100001) && settings.put(36, 100.5F));
 }
 
@@ -91,8 +97,8 @@ TEST(SpindleOutput, TellsTheBoardWhichLinesToInvert)
     CHECK(!settings.put(2, 1));
     CHECK(!settings.put(3, 6));
     CHECK(!settings.put(4, 1));
-    const cusp::OutputLevels levels = output_levels(accessories, 100, false, settings);
+    const cusp::OutputLevels levels = output_levels(accessories, 100, {}, settings);
     UNSIGNED_LONGS_EQUAL(0x31, levels.inverted_lines);
-    CHECK(levels.drives_enabled_inverted);
-    CHECK_FALSE(levels.drives_enabled);
+    CHECK(levels.drives_enable_inverted);
+    UNSIGNED_LONGS_EQUAL(0, levels.drives_on);
 }

@@ -90,7 +90,7 @@ struct DriveBench {
         run(ticks);
         return board.byte_link.take_answers();
     }
-    bool drives_on() const { return board.mill.outputs().drives_enabled; }
+    bool drives_on() const { return board.mill.outputs().drives_on != 0; }
     std::uint64_t steps() const { return board.mill.steps_taken()[0]; }
 
     BoardWithDrives board{hal::MillGeometry{}};

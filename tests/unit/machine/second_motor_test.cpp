@@ -257,7 +257,7 @@ TEST(SecondMotor, IsInvertedWithItsAxisAndTurnedRoundByASettingOfItsOwn)
         CHECK(!settings.put(2, steps));
         CHECK(!settings.put(3, directions));
         CHECK(!settings.put(8, second));
-        return machine::output_levels({}, 100, false, settings).inverted_lines;
+        return machine::output_levels({}, 100, {}, settings).inverted_lines;
     };
     UNSIGNED_LONGS_EQUAL(0, inverted(0, 0, 5));
     UNSIGNED_LONGS_EQUAL(0x42, inverted(2, 0, 0));

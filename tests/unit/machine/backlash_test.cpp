@@ -1,0 +1,240 @@
+// Backlash against a model of a screw with play: limits of the motors, lag of the slides; and the virtual mill.
+#include "firmware/machine/backlash.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/controller_bench.hpp"
+#include "tests/support/motion_rig.hpp"
+#include "tests/support/random_moves.hpp"
+
+using namespace cusp;
+using machine::Backlash;
+
+namespace {
+
+// The slide of an axis: it follows its motor once the play is used up, nm.
+class Screw {
+public:
+    Screw(std::int64_t play, std::int64_t slide) : play_{play}, slide_{slide} {}
+    std::int64_t follow(std::int64_t motor)
+    {
+        slide_ = std::clamp(slide_, motor, motor + play_);
+        return slide_;
+    }
+
+private:
+    std::int64_t play_;
+    std::int64_t slide_;
+};
+
+// 1 if the way goes towards plus at first, -1 towards minus, 0 if it stays.
+int first_side(const std::vector<Position>& way, unsigned axis)
+{
+    for (const Position& at : way) {
+        if (std::llabs(at[axis]) > Backlash::kTurn) {
+            return at[axis] > 0 ? 1 : -1;
+        }
+    }
+    return 0;
+}
+
+constexpr std::uint64_t kSeed = 20260716;
+
+struct Followed {
+    std::vector<Position> way;
+    std::vector<Position> motors;
+    Vec3f play;
+};
+
+Followed follow_program(std::uint64_t seed, Backlash& backlash)
+{
+    test::RandomMoves random{seed};
+    const auto moves = random.program();
+    const MachineLimits limits = test::random_limits(seed);
+    Followed followed;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        followed.play[axis] = axis == seed % 4 ? 0 : static_cast<float>(random.between(0.002, 0.4));
+    }
+    test::MotionRig rig{Backlash::left_of(limits, followed.play)};
+    rig.start_at({});
+    if (!moves.empty()) {
+        followed.way = rig.run_disturbed(moves, seed);
+    }
+    backlash.configure(followed.play, limits);
+    backlash.rest({});
+    for (const Position& way : followed.way) {
+        followed.motors.push_back(backlash.follow(way));
+    }
+    for (unsigned i = 0; i < 5000 && !backlash.idle(); ++i) {
+        followed.motors.push_back(backlash.follow(followed.way.back()));
+        followed.way.push_back(followed.way.back());
+    }
+    CHECK(backlash.idle());
+    return followed;
+}
+
+}  // namespace
+
+TEST_GROUP(Backlash){};
+
+TEST(Backlash, HoldsTheLimitsOfTheMotors)
+{
+    for (std::uint64_t seed = kSeed; seed < kSeed + 60; ++seed) {
+        Backlash backlash;
+        const Followed followed = follow_program(seed, backlash);
+        const test::LimitUse use =
+            test::limit_use(followed.motors, {}, test::random_limits(seed), 2);
+        const std::string which = "seed " + std::to_string(seed);
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            CHECK_TEXT(use.velocity[axis] <= 1, (which + ": velocity").c_str());
+            CHECK_TEXT(use.acceleration[axis] <= 1, (which + ": acceleration").c_str());
+            CHECK_TEXT(use.jerk[axis] <= 1, (which + ": jerk").c_str());
+        }
+    }
+}
+
+// Every slide is where the way is, but for the play while a turn is being taken up.
+TEST(Backlash, LeavesTheSlidesWhereTheWayIsButForTheTimeOfATurn)
+{
+    std::uint64_t turns = 0;
+    for (std::uint64_t seed = kSeed; seed < kSeed + 60; ++seed) {
+        Backlash backlash;
+        const Followed followed = follow_program(seed, backlash);
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            const std::int64_t play = std::lround(followed.play[axis] * 1e6F);
+            int side = first_side(followed.way, axis);
+            // It touches on that side already.
+            const std::int64_t offset = side < 0 ? play : 0;
+            Screw screw{play, offset};
+            std::int64_t extreme = 0;
+            std::size_t taken_up = 0;  // at this tick, what has turned so far
+            for (std::size_t i = 0; i < followed.way.size(); ++i) {
+                const std::int64_t way = followed.way[i][axis];
+                const std::int64_t slide = screw.follow(followed.motors[i][axis]);
+                if ((way - extreme) * side > 0) {
+                    extreme = way;
+                } else if ((way - extreme) * side < -Backlash::kTurn) {
+                    side = -side;
+                    extreme = way;
+                    // It waits for the one before.
+                    taken_up = std::max(i, taken_up) + backlash.take_up_ticks(axis);
+                    ++turns;
+                }
+                const std::int64_t lag = std::llabs(slide - offset - way);
+                CHECK(lag <= play + Backlash::kTurn + 2);
+                CHECK(i <= taken_up || lag <= Backlash::kTurn + 2);
+            }
+        }
+    }
+    CHECK(turns > 1000);
+}
+
+TEST(Backlash, StopsAtOnceAndTakesUpTheRestOnceTheWayGoesOn)
+{
+    Backlash backlash;
+    const MachineLimits limits;
+    backlash.configure({0.1F, 0, 0}, limits);
+    backlash.rest({});
+    (void)backlash.follow({1000, 0, 0});
+    Position last{};
+    const auto ticks = static_cast<unsigned>(backlash.take_up_ticks(0));
+    for (unsigned i = 0; i < ticks / 2; ++i) {
+        last = backlash.follow({-1000, 0, 0});
+        CHECK_FALSE(backlash.idle());
+    }
+    (void)backlash.follow({-1500, 0, 0});
+    const Position stopped = backlash.cut({-1000, 0, 0});
+    CHECK(stopped == last);
+    CHECK(backlash.idle());
+    for (unsigned i = 0; i < 10; ++i) {
+        CHECK(backlash.follow({-1000, 0, 0}) == stopped);
+    }
+    for (unsigned i = 0; i <= ticks; ++i) {
+        last = backlash.follow({-2000 - static_cast<std::int64_t>(i), 0, 0});
+    }
+    LONGS_EQUAL(-2000 - static_cast<std::int64_t>(ticks) - 100000, last.x);
+}
+
+namespace {
+
+struct MillWithPlay : ControllerBench {
+    MillWithPlay() : ControllerBench{geometry(), settings()} { (void)exchange("$X\n"); }
+    static hal::MillGeometry geometry()
+    {
+        hal::MillGeometry geometry;
+        geometry.play = {0.08, 0.05, 0.12};
+        geometry.start = {-20, -30, -10};
+        return geometry;
+    }
+    static machine::Settings settings()
+    {
+        machine::Settings settings;
+        CHECK(!settings.put(22, 1) && !settings.put(24, 100) && !settings.put(25, 3000));
+        CHECK(!settings.put(26, 5));
+        CHECK(!settings.put(160, 0.08F) && !settings.put(161, 0.05F) && !settings.put(162, 0.12F));
+        return settings;
+    }
+    std::string say(const std::string& text)
+    {
+        board.byte_link.send(text);
+        return finish();
+    }
+    void check_place(Vec3d offset = {})
+    {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            DOUBLES_EQUAL(position()[axis] + offset[axis], board.mill.place()[axis], kAccuracy);
+        }
+    }
+    static constexpr double kAccuracy = 1.5 / 800 + 100.0 / 60 / 1000;  // of a switch: a tick
+};
+
+}  // namespace
+
+TEST(Backlash, IsNotSeenAtTheSlidesOfAHomedMill)
+{
+    MillWithPlay mill;
+    CHECK(has_text(mill.say("$H\n"), "ok"));
+    mill.check_place();
+    for (const char* line : {"G53 G0 X-20 Y-30 Z-5\n", "G53 G1 X-10 F3000\n", "G53 G1 X-12 Y-20\n",
+                             "G53 G1 Z-8\n", "G53 G1 X-11 Y-30 Z-7.9\n", "G91 G2 I4 F2000\n"}) {
+        CHECK(has_text(mill.say(line), "ok"));
+        mill.check_place();
+    }
+    // Homed again from the other side: the same place.
+    (void)mill.say("G90 G53 G0 X-3 Y-3 Z-3\nG53 G0 X-2.9 Y-3.1 Z-2.9\n");
+    CHECK(has_text(mill.say("$H\n"), "ok"));
+    mill.check_place();
+}
+
+TEST(Backlash, IsSeenWithoutTheSetting)
+{
+    MillWithPlay mill;
+    (void)mill.say("$H\n");
+    (void)mill.exchange("$160=0\n", 400);
+    (void)mill.say("G53 G0 X-20\nG53 G0 X-10\n");
+    DOUBLES_EQUAL(-10.08, mill.board.mill.place().x, MillWithPlay::kAccuracy);
+}
+
+// No step comes after what a stop leaves over, whenever it comes; and the play is right again thereafter.
+TEST(Backlash, EndsWithAStop)
+{
+    for (unsigned after = 1; after < 90; after += 8) {
+        MillWithPlay mill;
+        (void)mill.say("$H\nG53 G0 X-20\nG53 G0 X-10\n");
+        (void)mill.exchange("G53 G1 X-10.3 F6000\n", after);
+        (void)mill.exchange("\x18", 8);
+        const std::uint64_t taken = mill.board.mill.steps_taken()[0];
+        mill.run(200);
+        LONGS_EQUAL(taken, mill.board.mill.steps_taken()[0]);
+        (void)mill.say("$X\nG53 G0 X-20\n");
+        mill.check_place();
+        (void)mill.say("G53 G0 X-15\n");
+        mill.check_place();
+    }
+}
