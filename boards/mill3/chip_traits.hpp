@@ -11,6 +11,8 @@
 //                       board without has neither
 //   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
 //                       their sense resistors; a board without has neither
+//   kSpindleWire, SpindlePort   hal/stm32f4/spindle_wire.hpp: of an RS-485 transceiver for a spindle's drive, and
+//                       the USART that it hangs on; a board without has neither
 //   Settings            hal/stm32f4/flash_settings.hpp: where they are kept; without it, behind the vectors
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
@@ -36,11 +38,29 @@
 #include "hal/stm32f4/peripheral_clocks.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/reset_reason.hpp"
+#include "hal/stm32f4/spindle_wire.hpp"
 #include "hal/stm32f4/usb_link.hpp"
 #include "hal/stm32f4/watchdog.hpp"
 
 namespace cusp::boards {
 namespace detail {
+
+// A table without a spindle's line has that of no port.
+struct NoSpindleWire {
+    static constexpr unsigned kInterrupt = 0;
+    static constexpr bool kOnFastBus = false;
+    static constexpr hal::stm32f4::PeripheralClocks kClocks{0, 0, 0};
+};
+template <class Table, class = void>
+struct SpindleLineOf {
+    template <class Chip>
+    using Port = NoSpindleWire;
+};
+template <class Table>
+struct SpindleLineOf<Table, std::void_t<decltype(Table::kSpindleWire)>> {
+    template <class Chip>
+    using Port = typename Table::template SpindlePort<Chip>;
+};
 
 template <class Table, class = void>
 struct SettingsOf {
@@ -80,6 +100,13 @@ struct ChipTraits {
     static constexpr float kSenseMilliohms = detail::sense_milliohms<Table>;
     using DriveWire = hal::stm32f4::DriveWire<Chip, Table>;
 
+    // The spindle's.
+    static constexpr const hal::stm32f4::SpindleWirePins& kSpindlePins =
+        detail::spindle_wire_pins<Table>;
+    static constexpr bool kSpindleWire = is_there(kSpindlePins.transmit);
+    using SpindlePort = typename detail::SpindleLineOf<Table>::template Port<Chip>;
+    using SpindleWire = hal::stm32f4::SpindleWire<Chip, SpindlePort, Table>;
+
     // Members that MillPanel needs.
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
@@ -103,6 +130,11 @@ struct ChipTraits {
     static constexpr unsigned drive_interrupt() noexcept
     {
         return kDriveWires != 0 ? DriveWire::kInterrupt : serial_interrupt();
+    }
+
+    static constexpr unsigned spindle_interrupt() noexcept
+    {
+        return kSpindleWire ? SpindlePort::kInterrupt : serial_interrupt();
     }
 
     // Outputs and lines at rest, as the settings invert them; left as they are where the store holds
@@ -147,6 +179,14 @@ struct ChipTraits {
         if constexpr (kDriveWires != 0) {
             board.drive_wire.start(kFastTimerHz);
             enable_interrupt<Chip>(drive_interrupt(), kSerialPriority);
+        }
+        if constexpr (kSpindleWire) {
+            for (const Pin pin : {kSpindlePins.transmit, kSpindlePins.receive}) {
+                set_pin_function(Chip::port(pin.port), pin.number, kUsartOnPin);
+            }
+            board.spindle_wire.start(SpindlePort::kOnFastBus ? Table::kClocks.fast_bus_hz()
+                                                             : Table::kClocks.slow_bus_hz());
+            enable_interrupt<Chip>(spindle_interrupt(), kSerialPriority);
         }
         if constexpr (kUsb) {
             // The chip's own oscillator is not accurate enough for it.
@@ -234,6 +274,9 @@ private:
         for (const Pin pin : kDrivePins) {
             ports |= clock_bit(pin);
         }
+        for (const Pin pin : {kSpindlePins.transmit, kSpindlePins.receive, kSpindlePins.sends}) {
+            ports |= clock_bit(pin);
+        }
         return ports;
     }
     static constexpr hal::stm32f4::PeripheralClocks clocks_of_drives() noexcept
@@ -245,7 +288,7 @@ private:
     {
         return hal::stm32f4::PeripheralClocks{clocks_of_ports() | 1U << 22U, 1U << 0U | 1U << 28U,
                                               1U << Pace::kClockBit} |
-               clocks_of(kPulses) | SerialPort::kClocks | clocks_of_drives();
+               clocks_of(kPulses) | SerialPort::kClocks | clocks_of_drives() | SpindlePort::kClocks;
     }
 
     static inline hal::stm32f4::ClockSource clock_source_{hal::stm32f4::ClockSource::kNone};

@@ -21,12 +21,21 @@ struct DrivePart<Traits, std::enable_if_t<Traits::kDriveWires != 0>> {
     typename Traits::DriveWire drive_wire;
 };
 
+// And only one with a line to a spindle's drive has that.
+template <class Traits, class = void>
+struct SpindlePart {
+};
+template <class Traits>
+struct SpindlePart<Traits, std::enable_if_t<Traits::kSpindleWire>> {
+    typename Traits::SpindleWire spindle_wire;
+};
+
 }  // namespace detail
 
 // Boards of this kind differ only in `Traits`; boards/mill3/chip_traits.hpp lists its
 // members.
 template <class Traits>
-struct MillBoard : detail::DrivePart<Traits> {
+struct MillBoard : detail::DrivePart<Traits>, detail::SpindlePart<Traits> {
     // Sets up clocks and pins before the application is constructed.
     MillBoard() noexcept { Traits::start(*this); }
     MillBoard(const MillBoard&) = delete;

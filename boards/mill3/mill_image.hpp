@@ -39,6 +39,9 @@ public:
         if constexpr (hal::has_drive_wire<Board>) {
             board_.drive_wire.on_interrupt();
         }
+        if constexpr (hal::has_spindle_wire<Board>) {
+            board_.spindle_wire.on_interrupt();
+        }
         finish_stores();
     }
     void usb_interrupt() noexcept
@@ -52,11 +55,12 @@ public:
 
     static constexpr hal::stm32f4::VectorTable vectors() noexcept
     {
-        const std::array<hal::stm32f4::InterruptEntry, 5> interrupts{{
+        const std::array<hal::stm32f4::InterruptEntry, 6> interrupts{{
             {Traits::player_interrupt(), cusp_player_interrupt},
             {Traits::serial_interrupt(), cusp_serial_interrupt},
             {Traits::send_interrupt(), cusp_serial_interrupt},
             {Traits::drive_interrupt(), cusp_serial_interrupt},
+            {Traits::spindle_interrupt(), cusp_serial_interrupt},
             {hal::stm32f4::kUsbInterrupt, Traits::kUsb ? cusp_usb_interrupt : cusp_exception},
         }};
         return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,

@@ -8,6 +8,7 @@
 #include "boards/mill3/mill_panel.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pins.hpp"
+#include "hal/stm32f4/spindle_wire.hpp"
 #include "hal/stm32f4/step_ports.hpp"
 #include "hal/stm32f4/usb_endpoints.hpp"
 
@@ -26,6 +27,12 @@ inline constexpr hal::stm32f4::DrivePins
     drive_pins<Table, std::void_t<decltype(Table::kDriveWires)>> = Table::kDriveWires;
 
 template <class Table, class = void>
+inline constexpr hal::stm32f4::SpindleWirePins spindle_wire_pins{};
+template <class Table>
+inline constexpr hal::stm32f4::SpindleWirePins
+    spindle_wire_pins<Table, std::void_t<decltype(Table::kSpindleWire)>> = Table::kSpindleWire;
+
+template <class Table, class = void>
 inline constexpr float sense_milliohms = 0;
 template <class Table>
 inline constexpr float sense_milliohms<Table, std::void_t<decltype(Table::kSenseMilliohms)>> =
@@ -38,7 +45,7 @@ constexpr bool exists(Pin pin) noexcept
 }
 
 // All that a table names, absent ones too.
-using AllPins = std::array<Pin, 8 + 12 + 10 + 4>;
+using AllPins = std::array<Pin, 8 + 12 + 10 + 4 + 3>;
 template <class Table>
 constexpr AllPins all_pins() noexcept
 {
@@ -54,6 +61,10 @@ constexpr AllPins all_pins() noexcept
         all[count++] = pin;
     }
     for (const Pin pin : drive_pins<Table>) {
+        all[count++] = pin;
+    }
+    for (const Pin pin : {spindle_wire_pins<Table>.transmit, spindle_wire_pins<Table>.receive,
+                          spindle_wire_pins<Table>.sends}) {
         all[count++] = pin;
     }
     return all;
@@ -132,6 +143,11 @@ struct PinRules {
     static_assert(hal::stm32f4::drive_wires(detail::drive_pins<Table>) == 0 ||
                       (Pace::kTimer != 1 && Table::kPanelPins.spindle_pulses.timer != 1),
                   "timer 1 is that of the drives' wires");
+    static_assert(is_there(detail::spindle_wire_pins<Table>.transmit) ==
+                          is_there(detail::spindle_wire_pins<Table>.receive) &&
+                      is_there(detail::spindle_wire_pins<Table>.transmit) ==
+                          is_there(detail::spindle_wire_pins<Table>.sends),
+                  "the spindle's line lacks a pin");
     static_assert(is_there(Table::kLines[6]) == is_there(Table::kLines[7]),
                   "the second motor has a step without a direction, or the other way round");
 

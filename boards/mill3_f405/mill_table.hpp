@@ -7,6 +7,7 @@
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
+#include "hal/stm32f4/spindle_wire.hpp"
 #include "hal/stm32f4/step_ports.hpp"
 #include "hal/stm32f4/usb_endpoints.hpp"
 
@@ -36,6 +37,11 @@ struct MillTable {
         pins.spindle_pulses = {{'A', 6}, 1};
         return pins;
     }();
+
+    // RS-485, to a spindle's drive.
+    static constexpr hal::stm32f4::SpindleWirePins kSpindleWire{{'A', 2}, {'A', 3}, {'A', 1}};
+    template <class Chip>
+    using SpindlePort = hal::stm32f4::Usart2Port<Chip>;
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

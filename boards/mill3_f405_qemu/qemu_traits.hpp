@@ -104,6 +104,7 @@ struct QemuTraits {
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
     static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }
     static constexpr unsigned drive_interrupt() noexcept { return serial_interrupt(); }
+    static constexpr unsigned spindle_interrupt() noexcept { return serial_interrupt(); }
     // QEMU's port sends without an interrupt: an entry of the table that is never raised.
     static constexpr unsigned send_interrupt() noexcept { return hal::stm32f4::dma2_interrupt(7); }
 

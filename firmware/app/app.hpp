@@ -72,7 +72,7 @@ private:
     static constexpr machine::BoardLimits board_limits() noexcept
     {
         machine::BoardLimits limits{Board::kMostStepsPerSecond, Board::kSecondMotor,
-                                    Board::kAtSpeedInput};
+                                    Board::kAtSpeedInput, hal::has_spindle_wire<Board>};
         if constexpr (hal::has_drive_wire<Board>) {
             limits.drive_wires = Board::kDriveWires;
             limits.sense_milliohms = Board::kSenseMilliohms;
@@ -81,6 +81,7 @@ private:
     }
     bool read_bytes() noexcept;
     void serve_drives() noexcept;
+    void serve_spindle() noexcept;
     bool write_bytes() noexcept;
     void store_settings() noexcept;
     void want_outputs(const OutputLevels& outputs) noexcept;
@@ -113,6 +114,7 @@ bool App<Board>::poll() noexcept
         machine_.frame_missed();
     }
     serve_drives();
+    serve_spindle();
     const bool worked = machine_.poll();
     const OutputLevels outputs = machine_.outputs();
     if (!(outputs == wanted_)) {
@@ -191,6 +193,30 @@ void App<Board>::serve_drives() noexcept
         }
         if (const std::optional<drives::DriveRequest> request = drives.next(tick)) {
             wire.begin(request->drive, request->bytes.span(), request->replies);
+        }
+    }
+}
+
+// As above, for the spindle's drive.
+template <class Board>
+void App<Board>::serve_spindle() noexcept
+{
+    if constexpr (hal::has_spindle_wire<Board>) {
+        auto& wire = board_.spindle_wire;
+        vfd::Vfd& vfd = machine_.told_vfd();
+        const std::uint32_t tick = machine_.motion().ticks();
+        if (vfd.waits()) {
+            constexpr std::size_t kMost = 16;
+            std::array<std::uint8_t, kMost> answer{};
+            const Span<const std::uint8_t> bytes =
+                Span<const std::uint8_t>{answer}.first(wire.heard(answer));
+            if (!vfd.is_over(bytes, tick)) {
+                return;
+            }
+            vfd.take(bytes, tick);
+        }
+        if (const std::optional<vfd::Message> message = vfd.next(tick)) {
+            wire.begin(message->span(), machine_.settings().vfd_baud());
         }
     }
 }
@@ -294,6 +320,11 @@ void App<Board>::store_settings() noexcept
         // An erase stalls the core. The store doesn't wait: a program takes the same time on every board.
         if (board_.drive_wire.let_go()) {
             machine_.drives().put_off(machine_.motion().ticks());
+        }
+    }
+    if constexpr (hal::has_spindle_wire<Board>) {
+        if (board_.spindle_wire.let_go()) {
+            machine_.told_vfd().put_off(machine_.motion().ticks());
         }
     }
     const machine::StoredState& stored = machine_.stored();

@@ -27,6 +27,7 @@ enum class Group : std::uint8_t {
     kToolChange = 9,
     kHoming = 11,
     kProbing = 12,
+    kModbus = 19,
     kStepper = 40,
     kAxis = 41,
     kFirstAxis = 42,
@@ -40,7 +41,7 @@ constexpr Group axis_group(unsigned axis) noexcept
 {
     return static_cast<Group>(static_cast<unsigned>(Group::kFirstAxis) + axis);
 }
-constexpr std::array<GroupName, 14> kGroups{{
+constexpr std::array<GroupName, 15> kGroups{{
     {Group::kGeneral, Group::kRoot, "General"},
     {Group::kControls, Group::kRoot, "Control signals"},
     {Group::kLimits, Group::kRoot, "Limits"},
@@ -50,6 +51,7 @@ constexpr std::array<GroupName, 14> kGroups{{
     {Group::kToolChange, Group::kRoot, "Tool change"},
     {Group::kHoming, Group::kRoot, "Homing"},
     {Group::kProbing, Group::kRoot, "Probing"},
+    {Group::kModbus, Group::kRoot, "ModBus"},
     {Group::kStepper, Group::kRoot, "Stepper"},
     {Group::kAxis, Group::kRoot, "Axis"},
     {axis_group(0), Group::kAxis, "X-axis"},
@@ -74,7 +76,7 @@ struct SettingName {
     std::string_view unit;
     std::string_view choices;  // of bits and choices, in order
 };
-constexpr std::array<SettingName, 68> kNames{{
+constexpr std::array<SettingName, 83> kNames{{
     {0, Group::kStepper, Type::kInteger, "Step pulse time", "us", ""},
     {1, Group::kStepper, Type::kInteger, "Step idle delay", "ms", ""},
     {2, Group::kStepper, Type::kAxes, "Step pulse invert", "", ""},
@@ -123,6 +125,7 @@ constexpr std::array<SettingName, 68> kNames{{
     {170, Group::kAxis, Type::kDecimal, "dual axis offset", "mm", ""},
     {210, Group::kAxis, Type::kInteger, "hold current", "percent", ""},
     {338, Group::kStepper, Type::kAxes, "Trinamic driver", "", ""},
+    {340, Group::kSpindle, Type::kInteger, "Spindle at speed tolerance", "percent", ""},
     {341, Group::kToolChange, Type::kChoice, "Tool change mode", "",
      "Normal,Manual touch off,Manual touch off @ G59.3,Automatic touch off @ G59.3,Ignore M6"},
     {342, Group::kToolChange, Type::kDecimal, "Tool change probing distance", "mm", ""},
@@ -131,7 +134,23 @@ constexpr std::array<SettingName, 68> kNames{{
     {347, Group::kSecondMotor, Type::kDecimal, "Dual axis length fail", "percent", ""},
     {348, Group::kSecondMotor, Type::kDecimal, "Dual axis length fail min", "mm", ""},
     {349, Group::kSecondMotor, Type::kDecimal, "Dual axis length fail max", "mm", ""},
+    {374, Group::kModbus, Type::kChoice, "ModBus baud rate", "",
+     "2400,4800,9600,19200,38400,115200"},
+    {375, Group::kModbus, Type::kInteger, "ModBus RX timeout", "ms", ""},
     {394, Group::kSpindle, Type::kDecimal, "Spindle on delay", "s", ""},
+    {395, Group::kSpindle, Type::kChoice, "Default spindle", "",
+     "PWM,Huanyang,Huanyang P2A,MODVFD"},
+    {460, Group::kModbus, Type::kInteger, "VFD ModBus address", "", ""},
+    {462, Group::kModbus, Type::kInteger, "Run/Stop register", "", ""},
+    {463, Group::kModbus, Type::kInteger, "Set frequency register", "", ""},
+    {464, Group::kModbus, Type::kInteger, "Get frequency register", "", ""},
+    {465, Group::kModbus, Type::kInteger, "Run CW command", "", ""},
+    {466, Group::kModbus, Type::kInteger, "Run CCW command", "", ""},
+    {467, Group::kModbus, Type::kInteger, "Stop command", "", ""},
+    {468, Group::kModbus, Type::kInteger, "RPM input multiplier", "", ""},
+    {469, Group::kModbus, Type::kInteger, "RPM input divider", "", ""},
+    {470, Group::kModbus, Type::kInteger, "RPM output multiplier", "", ""},
+    {471, Group::kModbus, Type::kInteger, "RPM output divider", "", ""},
     {481, Group::kGeneral, Type::kInteger, "Autoreport interval", "ms", ""},
     {790, Group::kLimits, Type::kInteger, "Input filter", "ms", ""},
     {791, Group::kGeneral, Type::kInteger, "Hold if the link is silent for", "ms", ""},
@@ -223,7 +242,7 @@ constexpr std::array<CodeText, 13> kAlarms{{
     text_for(Alarm::kHomingPullOff, "A switch stayed closed after the pull-off."),
     text_for(Alarm::kHomingApproach, "Homing found no switch."),
     text_for(Alarm::kEmergencyStop, "The emergency stop is pressed."),
-    text_for(Alarm::kSpindle, "The spindle did not come up in time."),
+    text_for(Alarm::kSpindle, "The spindle did not come up in time, or its drive does not answer."),
     text_for(Alarm::kSquaringApproach,
              "A switch of an axis with two motors did not close in time."),
     text_for(Alarm::kMotorFault, "A drive reports a fault."),

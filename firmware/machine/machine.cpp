@@ -27,6 +27,7 @@ void Machine::start(LogState loaded) noexcept
     const bool mended = stored_.settings.mend(factory_ != nullptr ? *factory_ : Settings{}, board_);
     motion_.configure(stored_.settings);
     configure_drives();
+    outputs_.configure();
     drives_.restart(motion_.ticks());
     interpreter_.set_parameters(stored_.parameters);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
@@ -273,6 +274,7 @@ void Machine::reset() noexcept
         drives_.restart(motion_.ticks());  // they may have been without power
     }
     reset_needed_ = false;
+    outputs_.vfd().restart();
     locked_ = false;
     lines_.forget_cancel();
     hold_wanted_ = false;

@@ -98,6 +98,13 @@ public:
     // The motors' drives, as far as the board has wires to them: whoever has the wires carries their
     // datagrams. Nothing moves before they are ready().
     drives::Drives& drives() noexcept { return drives_; }
+    // The spindle's drive, as far as the board has a line to one, in the same way; told what it shall do just
+    // now, which is to stop while a stop is pending.
+    vfd::Vfd& told_vfd() noexcept
+    {
+        outputs_.tell_vfd(cuts_outputs());
+        return outputs_.vfd();
+    }
 
     State state() const noexcept { return state_; }
     Alarm alarm() const noexcept { return alarm_; }
@@ -175,6 +182,7 @@ private:
     bool waits_for_drives() const noexcept;
     bool protect_drives() noexcept;
     void tell_drive_fault(const drives::DriveFault& fault) noexcept;
+    bool protect_spindle() noexcept;
 
     // machine_lines.cpp
     bool read_lines() noexcept;

@@ -72,6 +72,28 @@ bool Machine::protect_drives() noexcept
     return true;
 }
 
+// A spindle's drive that fails: motion is stopped softly, as before a soft limit, then the alarm is raised.
+bool Machine::protect_spindle() noexcept
+{
+    const std::optional<vfd::FaultKind> fault = outputs_.vfd().fault();
+    if (!fault) {
+        return false;
+    }
+    motion_.hold();
+    if (!motion_.at_rest()) {
+        return false;
+    }
+    outputs_.vfd().fault_heard();
+    if (state_ != State::kAlarm) {
+        raise(Alarm::kSpindle);
+    }
+    constexpr std::array<std::string_view, 3> kTexts{
+        "does not answer", "answers with a wrong checksum", "refuses what it is told"};
+    (void)replies_.text("[MSG:Spindle ").text(kTexts[static_cast<std::size_t>(*fault)]);
+    (void)replies_.text("]").end_line();
+    return true;
+}
+
 void Machine::tell_drive_fault(const drives::DriveFault& fault) noexcept
 {
     constexpr std::array<std::string_view, drives::kMostDrives> kNames{"X", "Y", "Z",

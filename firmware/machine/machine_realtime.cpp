@@ -71,7 +71,7 @@ bool Machine::handle_events() noexcept
         raise(Alarm::kHardLimit);
         return true;
     }
-    if (protect() || protect_drives()) {
+    if (protect() || protect_drives() || protect_spindle()) {
         return true;
     }
     if (frame_missed_) {

@@ -305,6 +305,7 @@ bool Machine::step_configure() noexcept
     }
     motion_.configure(stored_.settings);
     configure_drives();
+    outputs_.configure();
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
     reporter_.work_offset_changed();
     task_ = Task::kFinish;

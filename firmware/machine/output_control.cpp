@@ -43,8 +43,25 @@ bool OutputControl::follow() noexcept
     // Its drive needs a moment to take back what it said of the speed before.
     constexpr std::uint32_t kHeedless = 100;
     const bool heeds = motion_.ticks() - switched_at_ >= kHeedless;
-    coming_up_ = !heeds || (motion_.inputs().steady() & kAtSpeed) == 0;
+    coming_up_ = !heeds || !says_at_speed();
     return !coming_up_ || !time_is_over;
+}
+
+void OutputControl::tell_vfd(bool cut) noexcept
+{
+    const bool turns = accessories_.spindle_on() && !cut;
+    const bool clockwise = accessories_.spindle == gcode::SpindleMode::kClockwise;
+    vfd_.want(!turns      ? vfd::Turning::kOff
+              : clockwise ? vfd::Turning::kClockwise
+                          : vfd::Turning::kCounterClockwise,
+              machine::spindle_speed(accessories_, overrides_.spindle, settings_));
+}
+
+bool OutputControl::says_at_speed() const noexcept
+{
+    const bool by_input =
+        !settings_.on(Setting::kAtSpeedInput) || (motion_.inputs().steady() & kAtSpeed) != 0;
+    return by_input && vfd_.at_speed();
 }
 
 void OutputControl::override_by(RealtimeCommand command) noexcept
@@ -92,8 +109,11 @@ bool OutputControl::set_spindle(gcode::SpindleMode mode, float speed) noexcept
     accessories_.speed = speed;
     accessories_.spindle_paused = false;
     reporter_.overrides_changed();
-    const bool starts =
-        accessories_.spindle_starts_after(before) && !settings_.on(Setting::kLaserMode);
+    // A drive that is spoken to says whether it has another speed, too.
+    const bool other_speed =
+        settings_.has_vfd() && accessories_.spindle_on() && speed > 0 && speed != before.speed;
+    const bool starts = (accessories_.spindle_starts_after(before) || other_speed) &&
+                        !settings_.on(Setting::kLaserMode);
     if (starts) {
         wait_until_up(waits_for_spindle() ? restoring_ticks(accessories_, settings_)
                                           : spindle_ticks(settings_));

@@ -74,6 +74,11 @@ public:
 
     // Spindle or coolant; nothing moves meanwhile.
     bool coming_up() const noexcept { return coming_up_; }
+    // A spindle's drive that is spoken to, where there is one; told what it shall do. `cut`: nothing.
+    vfd::Vfd& vfd() noexcept { return vfd_; }
+    void tell_vfd(bool cut) noexcept;
+    void configure() noexcept { vfd_.configure(settings_.vfd(), settings_.vfd_times()); }
+
     // Servo tick at which that ends.
     std::uint32_t up_at() const noexcept { return up_at_; }
 
@@ -82,9 +87,10 @@ private:
     void wait_until_up(std::uint32_t ticks) noexcept;
     bool waits_for_spindle() const noexcept
     {
-        return settings_.on(Setting::kAtSpeedInput) && accessories_.spindle_on() &&
-               !settings_.on(Setting::kLaserMode);
+        return (settings_.on(Setting::kAtSpeedInput) || settings_.has_vfd()) &&
+               accessories_.spindle_on() && !settings_.on(Setting::kLaserMode);
     }
+    bool says_at_speed() const noexcept;
 
     Motion& motion_;
     gcode::Interpreter& interpreter_;
@@ -92,6 +98,7 @@ private:
     const Settings& settings_;
     Overrides overrides_;
     Accessories accessories_;
+    vfd::Vfd vfd_;
     std::uint32_t switched_at_{0};
     std::uint32_t up_at_{0};
     std::uint32_t still_since_{0};  // tick when motion settled last

@@ -81,6 +81,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {211, 0, 50, 5, 100, 8},
     {212, 0, 50, 5, 100, 8},
     {338, 0, 7, 0, 7, 8},
+    {340, 0, 5, 1, 50, 10},
     {341, 0, 0, 0, 4, 2},
     {342, 3, 30, kLeastPositive, 1000, 2},
     {343, 3, 25, kLeastPositive, kMostAny, 2},
@@ -88,7 +89,21 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {347, 3, 5, 0, 100, 3},
     {348, 3, 2.5F, kLeastPositive, 1000, 3},
     {349, 3, 25, kLeastPositive, 1000, 3},
+    {374, 0, 3, 0, 5, 10},
+    {375, 0, 50, 20, 1000, 10},
     {394, 3, 0, 0, 60, 5},
+    {395, 0, 0, 0, 3, 10},
+    {460, 0, 1, 1, 247, 10},
+    {462, 0, 8192, 0, 65535, 10},
+    {463, 0, 8193, 0, 65535, 10},
+    {464, 0, 8451, 0, 65535, 10},
+    {465, 0, 18, 0, 65535, 10},
+    {466, 0, 34, 0, 65535, 10},
+    {467, 0, 1, 0, 65535, 10},
+    {468, 0, 50, 1, 65535, 10},
+    {469, 0, 60, 1, 65535, 10},
+    {470, 0, 60, 1, 65535, 10},
+    {471, 0, 100, 1, 65535, 10},
     {481, 0, 0, 0, 1000, 7},
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
@@ -199,6 +214,10 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
         return SettingFault{Error::kSettingDisabled,
                             kTable[index_of(Setting::kAtSpeedInput)].number};
     }
+    if (on(Setting::kSpindleType) && !board.spindle_wire) {
+        return SettingFault{Error::kSettingDisabled,
+                            kTable[index_of(Setting::kSpindleType)].number};
+    }
     const auto most_rate = static_cast<float>(board.most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;
     const float least_spacing = 2.0F * value(Setting::kStepPulse);
@@ -280,7 +299,7 @@ bool Settings::mend(const Settings& standard, const BoardLimits& board) noexcept
         }
     };
     // A fault names two settings of an axis at most, and there are three kinds of an axis.
-    constexpr unsigned kMostFaults = 3 * kAxisCount + 3;
+    constexpr unsigned kMostFaults = 3 * kAxisCount + 4;
     for (unsigned i = 0; i < kMostFaults; ++i) {
         const std::optional<SettingFault> fault = find_fault(board);
         if (!fault) {
@@ -324,6 +343,35 @@ Vec3f Settings::backlash() const noexcept
 {
     return {value(Setting::kBacklash, 0), value(Setting::kBacklash, 1),
             value(Setting::kBacklash, 2)};
+}
+
+vfd::VfdSetup Settings::vfd() const noexcept
+{
+    const auto word = [this](Setting setting) {
+        return static_cast<std::uint16_t>(whole(setting));
+    };
+    vfd::VfdSetup setup;
+    setup.protocol =
+        has_vfd() ? static_cast<vfd::Protocol>(whole(Setting::kSpindleType)) : vfd::Protocol::kNone;
+    setup.address = static_cast<std::uint8_t>(whole(Setting::kVfdAddress));
+    setup.plain = {word(Setting::kVfdRunRegister),      word(Setting::kVfdSpeedRegister),
+                   word(Setting::kVfdReadRegister),     word(Setting::kVfdClockwise),
+                   word(Setting::kVfdCounterClockwise), word(Setting::kVfdStop),
+                   value(Setting::kVfdToMultiplier),    value(Setting::kVfdToDivisor),
+                   value(Setting::kVfdFromMultiplier),  value(Setting::kVfdFromDivisor)};
+    return setup;
+}
+
+vfd::VfdTimes Settings::vfd_times() const noexcept
+{
+    constexpr float kPercent = 0.01F;
+    return {whole(Setting::kVfdTimeout), value(Setting::kSpeedTolerance) * kPercent};
+}
+
+std::uint32_t Settings::vfd_baud() const noexcept
+{
+    constexpr std::array<std::uint32_t, 6> kBauds{2400, 4800, 9600, 19200, 38400, 115200};
+    return kBauds[whole(Setting::kVfdBaud)];
 }
 
 planner::InputShaper Settings::input_shaper() const noexcept

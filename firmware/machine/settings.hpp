@@ -1,7 +1,7 @@
 // Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $33 to $37, $44 to $46, $140 to $162, $170 to $172, $210 to $212, $338 to $349, $394 and $481 as in grblHAL, $790 and up) come after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $33 to $37, $44 to $46, $140 to $162, $170 to $172, $210 to $212, $338 to $349, $374 to $395, $460 to $481 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "firmware/base/span.hpp"
 #include "firmware/planner/input_shaper.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
+#include "firmware/vfd/vfd.hpp"
 
 namespace cusp::machine {
 
@@ -67,6 +68,7 @@ enum class Setting : std::uint8_t {
     kSquareOffset = kBacklash + 3,     // $170 mm: offset of the second motor towards plus
     kHoldCurrent = kSquareOffset + 3,  // $210 %: of $140, at rest
     kSetDrives = kHoldCurrent + 3,     // $338 mask: axes whose drives are set over their wires
+    kSpeedTolerance,                   // $340 %: by which a spindle's drive may be off at speed
     kToolChangeMode,                   // $341; see ToolChangeMode
     kToolSearch,                       // $342 mm: the longest way down to the tool setter
     kToolFeed,                         // $343 mm/min: the slow touch
@@ -74,7 +76,21 @@ enum class Setting : std::uint8_t {
     kSquarePercent,                    // $347 %: of the travel that one switch may close later, but
     kSquareLeast,                      // $348 mm: no less
     kSquareMost,                       // $349 mm: no more
+    kVfdBaud,                          // $374: 0 to 5 for 2400 to 38400 and 115200
+    kVfdTimeout,                       // $375 ms: of an answer of the spindle's drive
     kSpindleDelay,                     // $394 s: until the spindle is up; 0: see Accessories
+    kSpindleType,                      // $395: 0 outputs, vfd::Protocol otherwise
+    kVfdAddress,                       // $460
+    kVfdRunRegister,                   // $462, of a plain drive
+    kVfdSpeedRegister,                 // $463
+    kVfdReadRegister,                  // $464
+    kVfdClockwise,                     // $465: the word for M3
+    kVfdCounterClockwise,              // $466: for M4
+    kVfdStop,                          // $467: for M5
+    kVfdToMultiplier,                  // $468: a speed is sent as rpm x $468 / $469
+    kVfdToDivisor,                     // $469
+    kVfdFromMultiplier,                // $470: and read as word x $470 / $471
+    kVfdFromDivisor,                   // $471
     kReportInterval,                   // $481 ms, of status reports that nobody asks for; 0: none
     kLimitFilter,                      // $790 ms
     kLinkWatchdog,                     // $791 ms; 0: off
@@ -111,7 +127,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 9;
+inline constexpr std::uint8_t kSettingsLayout = 10;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -133,6 +149,7 @@ struct BoardLimits {
     std::uint32_t most_steps_per_second{1000000};
     bool second_motor{true};    // it has pins for one
     bool at_speed_input{true};  // it has a pin for the spindle's at-speed signal
+    bool spindle_wire{false};   // it has a line to a spindle's drive
     // Motors whose drives it has a wire to: a bit each, as drives::kMostDrives counts them.
     std::uint8_t drive_wires{0};
     float sense_milliohms{110};  // of these drives
@@ -171,7 +188,7 @@ public:
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms, or $810 to $832 for
     //                          shapers over planner::kMostShaperTicks together
     //   kSoftLimitError        soft limits without homing
-    //   kSettingDisabled       a second motor, or an at-speed signal, on a board without pins for it
+    //   kSettingDisabled       a second motor, an at-speed signal, or a spindle's drive, on a board without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
     // Every value is in its range.
@@ -220,6 +237,11 @@ public:
     }
     pulse::StepSettings steps() const noexcept;
     planner::InputShaper input_shaper() const noexcept;
+    vfd::VfdSetup vfd() const noexcept;
+    vfd::VfdTimes vfd_times() const noexcept;
+    std::uint32_t vfd_baud() const noexcept;
+    // The spindle is a drive's, and no laser.
+    bool has_vfd() const noexcept { return on(Setting::kSpindleType) && !on(Setting::kLaserMode); }
 
     // As they are stored, in the table's order.
     Span<std::uint8_t> bytes() noexcept;

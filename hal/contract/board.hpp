@@ -156,6 +156,29 @@ template <class Board>
 inline constexpr bool has_drive_wire<Board, std::void_t<decltype(Board::drive_wire)>> =
     is_drive_wire<decltype(Board::drive_wire)>();
 
+// SpindleWire carries messages to a spindle's drive and back over a line that both share (RS-485), one at a
+// time. Context: main loop; no call waits. Only a board with such a line has one, as its spindle_wire.
+//
+//   begin(bytes, baud)  sends at most 16 bytes, then listens. What came before is forgotten.
+//   heard(answer)       the bytes that have come since, at most 16, from the first on; how many.
+//   let_go()            before the core stands still, as in an erase: gives up what is being sent. Whether
+//                       something was.
+template <class T>
+constexpr bool is_spindle_wire()
+{
+    static_assert(std::is_same_v<decltype(&T::begin),
+                                 void (T::*)(Span<const std::uint8_t>, std::uint32_t) noexcept>);
+    static_assert(
+        std::is_same_v<decltype(&T::heard), std::size_t (T::*)(Span<std::uint8_t>) const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::let_go), bool (T::*)() noexcept>);
+    return true;
+}
+template <class Board, class = void>
+inline constexpr bool has_spindle_wire = false;
+template <class Board>
+inline constexpr bool has_spindle_wire<Board, std::void_t<decltype(Board::spindle_wire)>> =
+    is_spindle_wire<decltype(Board::spindle_wire)>();
+
 // A Board bundles the four: an object of each, named pulse_player, byte_link, panel,
 // settings_store; kMostStepsPerSecond, the steps that it plays on each axis while all three move;
 // kSecondMotor, whether it has pins for the second motor of an axis; and kAtSpeedInput, whether it has

@@ -54,7 +54,7 @@ def wiring(board):
 class Chip:
     """The image of a board from power-up on. A context manager: the end checks for violations."""
 
-    def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True):
+    def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True, spindle=None):
         chip, nominal, *more = CHIPS[board.removesuffix(BEHIND_LOADER)]
         if board.endswith(BEHIND_LOADER):
             loader = pathlib.Path(image).resolve().parents[1] / "test_loader.bin"
@@ -67,7 +67,8 @@ class Chip:
         self.process = subprocess.Popen(
             [str(cosim), chip, str(nominal if crystal is None else crystal), str(image), *more,
              *USARTS[self.pins["serial transmit"]],
-             *(word for drive in self.drives for word in ("drive", self.pins[drive]))],
+             *(word for drive in self.drives for word in ("drive", self.pins[drive])),
+             *(("spindle", str(spindle), self.pins["spindle sends"]) if spindle else ())],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         if quiet_inputs:
             for signal, pin in self.pins.items():

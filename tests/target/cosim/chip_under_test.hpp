@@ -10,6 +10,7 @@
 #include "tests/target/cosim/drive_model.hpp"
 #include "tests/target/cosim/flash_model.hpp"
 #include "tests/target/cosim/port_model.hpp"
+#include "tests/target/cosim/spindle_model.hpp"
 #include "tests/target/cosim/timer_model.hpp"
 #include "tests/target/cosim/usart_model.hpp"
 #include "tests/target/cosim/usb_host.hpp"
@@ -57,6 +58,9 @@ public:
     PortModel& port(char letter);
     // A drive whose single wire goes to this pin. They are told apart by their places.
     void add_drive(const std::string& name, char port, unsigned pin);
+    // A spindle's drive at USART2, whose transceiver has this pin.
+    void add_spindle(vfd::Protocol protocol, char port, unsigned pin);
+    SpindleModel& spindle() { return *spindle_; }
     DriveModel& drive(std::size_t place) { return *drives_.at(place); }
     std::size_t drives() const { return drives_.size(); }
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
@@ -133,6 +137,7 @@ private:
     std::unique_ptr<WatchdogModel> watchdog_;
     std::unique_ptr<DmaModel> dma1_, dma2_;
     std::array<std::unique_ptr<UsartModel>, 2> usarts_;
+    std::unique_ptr<SpindleModel> spindle_;
     std::unique_ptr<UsbModel> usb_;
     std::unique_ptr<UsbHost> host_;
     bool usb_is_line_{false};

@@ -1,8 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [loader FILE.bin SECTOR]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [spindle PROTOCOL PIN] [loader FILE.bin SECTOR]
 //
-// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
+// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at USART2, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -58,6 +59,7 @@ private:
     void power(std::istream& words);
     void golden(std::istream& words);
     void drive(std::istream& words);
+    void spindle(std::istream& words);
     void tell_drives();
     void tell_pins() const;
     void tell_changes() const;
@@ -197,6 +199,28 @@ void Console::drive(std::istream& words)
         drive.reset();
     } else {
         throw std::runtime_error{"no such drive command: " + what};
+    }
+}
+
+// spindle lose|garble|refuse COUNT | delay MS | baud BAUD | tell
+void Console::spindle(std::istream& words)
+{
+    std::string what;
+    unsigned number = 0;
+    words >> what >> number;
+    SpindleModel& spindle = chip_.spindle();
+    test::SpindleSlave& slave = spindle.slave();
+    if (what == "lose" || what == "garble" || what == "refuse") {
+        (what == "lose" ? slave.lose : what == "garble" ? slave.garble : slave.refuse) = number;
+    } else if (what == "delay") {
+        slave.delay = number;
+    } else if (what == "baud") {
+        spindle.set_baud(number);
+    } else if (what == "tell") {
+        std::cout << "direction " << slave.direction() << "\nrpm " << static_cast<long>(slave.rpm())
+                  << "\nrefused " << slave.refused() << "\n";
+    } else {
+        throw std::runtime_error{"no such spindle command: " + what};
     }
 }
 
@@ -346,6 +370,8 @@ void Console::perform(const std::string& line)
         chip_.flash().set_times(erase, milliseconds(words));
     } else if (command == "drive") {
         drive(words);
+    } else if (command == "spindle") {
+        spindle(words);
     } else if (command == "drives") {
         tell_drives();
     } else if (command == "pins") {
@@ -375,6 +401,7 @@ int run_commands(int count, char** arguments)
     std::vector<PinName> drives;
     std::vector<std::uint8_t> image = read_file(arguments[3]);
     unsigned settings = 1;  // their first sector
+    std::optional<std::pair<vfd::Protocol, PinName>> spindle;
     for (int i = 4; i < count; ++i) {
         const std::string word = arguments[i];
         if (word == "external") {
@@ -384,6 +411,10 @@ int run_commands(int count, char** arguments)
         } else if (word == "drive" && i + 1 < count) {
             ++i;
             drives.push_back(pin_name(arguments[i]));
+        } else if (word == "spindle" && i + 2 < count) {
+            spindle = {static_cast<vfd::Protocol>(std::stoi(arguments[i + 1])),
+                       pin_name(arguments[i + 2])};
+            i += 2;
         } else if (word == "loader" && i + 2 < count) {
             std::vector<std::uint8_t> loader = read_file(arguments[i + 1]);
             settings = static_cast<unsigned>(std::stoul(arguments[i + 2]));
@@ -401,6 +432,9 @@ int run_commands(int count, char** arguments)
     }
     for (const PinName& pin : drives) {
         chip.add_drive("drive " + std::to_string(chip.drives()), pin.port, pin.number);
+    }
+    if (spindle) {
+        chip.add_spindle(spindle->first, spindle->second.port, spindle->second.number);
     }
     // 1.3 cycles an instruction.
     chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);

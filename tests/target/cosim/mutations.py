@@ -151,6 +151,19 @@ FAULTS_OF_DRIVES = {
 }
 
 
+# Faults of the spindle's line; spindle_on_chip.py judges. `--spindle-faults` plants these, on a board with one.
+SPINDLE_WIRE = "hal/stm32f4/spindle_wire.hpp"
+FAULTS_OF_SPINDLE = {
+    "the transceiver left on": (SPINDLE_WIRE, "    talk(false);\n    run(receive", "    run(receive"),
+    "the transceiver never on": (SPINDLE_WIRE, "    talk(true);\n", ""),
+    "half the rate": (SPINDLE_WIRE, "/ baud);\n    port.cr3", "/ baud * 2);\n    port.cr3"),
+    "never hears": (SPINDLE_WIRE, "port.cr1.write(kPortEnable | kReceiver);", ""),
+    "an erase amid a message": (APP, "if (board_.spindle_wire.let_go()) {", "if (false) {"),
+    "a pending stop not told": ("firmware/machine/machine.hpp", "tell_vfd(cuts_outputs())", "tell_vfd(false)"),
+    "never spoken to": (APP, "    serve_spindle();\n", ""),
+}
+
+
 class Builder:
     """Compiles and links the board's image with a changed header."""
 
@@ -244,6 +257,7 @@ def main():
     parser.add_argument("--stops", action="store_true", help="the faults that delay a stop")
     parser.add_argument("--usb-faults", action="store_true", help="the faults of USB and of two links")
     parser.add_argument("--drive-faults", action="store_true", help="the faults of the drives' wires")
+    parser.add_argument("--spindle-faults", action="store_true", help="the faults of the spindle's line")
     parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -256,7 +270,7 @@ def main():
         options.most_ticks = 20000  # ten times what it takes
         missed = []
         script = "stops_on_chip.py" if options.stops else "usb_on_chip.py" if options.usb_faults else \
-            "drives_on_chip.py" if options.drive_faults else None
+            "drives_on_chip.py" if options.drive_faults else "spindle_on_chip.py" if options.spindle_faults else None
         look = functools.partial(find_by, script) if script else find
         try:
             builder = Builder(options.image, folder)
@@ -265,7 +279,7 @@ def main():
             missed += ["no fault"] if said else []
             faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
             faults = FAULTS_OF_STOPS if options.stops else FAULTS_OF_USB if options.usb_faults else \
-                FAULTS_OF_DRIVES if options.drive_faults else faults
+                FAULTS_OF_DRIVES if options.drive_faults else FAULTS_OF_SPINDLE if options.spindle_faults else faults
             faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
                 said = look(options, builder.make(file, old, new))
