@@ -7,17 +7,18 @@
 function(cusp_image)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "FIRMWARE_BIN" "NAME;SCRIPT" "SOURCES;DEPENDS")
   set(out ${PROJECT_BINARY_DIR}/bin)
-  set(script ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT})
+  set(tree ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
+  get_filename_component(script ${ARG_SCRIPT} ABSOLUTE)
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   set_target_properties(${ARG_NAME} PROPERTIES
     SUFFIX .elf RUNTIME_OUTPUT_DIRECTORY ${out}
-    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/stm32f4/sections.ld")
-  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
+    LINK_DEPENDS "${script};${tree}/hal/stm32f4/sections.ld")
+  target_include_directories(${ARG_NAME} PRIVATE ${tree})
   target_link_libraries(${ARG_NAME} PRIVATE cusp_freestanding ${ARG_DEPENDS})
   # As objects, since what the compiler calls on its own is known only at the end of the link.
   target_sources(${ARG_NAME} PRIVATE $<TARGET_OBJECTS:cusp_hal_freestanding>)
   target_link_options(${ARG_NAME} PRIVATE
-    -nostartfiles -nostdlib -T ${script} -L ${PROJECT_SOURCE_DIR}
+    -nostartfiles -nostdlib -T ${script} -L ${tree}
     -Wl,--gc-sections -Wl,--emit-relocs -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
   add_custom_command(TARGET ${ARG_NAME} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary --gap-fill 0xff $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin

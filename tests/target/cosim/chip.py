@@ -33,11 +33,26 @@ class CosimFailed(Exception):
     """The co-simulation could not go on."""
 
 
+def page_of(board):
+    """The board's README; of a board outside the tree, its page takes the place of its name."""
+    board = board.removesuffix(BEHIND_LOADER)
+    is_page = board.endswith(".md")
+    return (pathlib.Path(board) if is_page else ROOT / "boards" / WIRED_AS.get(board, board) / "README.md").read_text()
+
+
+def chip_of(board):
+    """As in CHIPS."""
+    if not board.endswith(".md"):
+        return CHIPS[board.removesuffix(BEHIND_LOADER)]
+    chip, source, megahertz = re.search(r"^An (STM32F\d+) at \d+ MHz with a (crystal|clock from outside) of (\d+) MHz",
+                                        page_of(board), re.M).groups()
+    return (chip.lower(), int(megahertz) * 1000000, *(() if source == "crystal" else ("external",)))
+
+
 def wiring(board):
     """signal -> pin, from the wiring table of the board's README."""
     pins = {}
-    board = board.removesuffix(BEHIND_LOADER)
-    text = (ROOT / "boards" / WIRED_AS.get(board, board) / "README.md").read_text()
+    text = page_of(board)
     for signals, names in re.findall(r"^\| ([^|]+) \| ((?:P[A-I]\d+)(?:, P[A-I]\d+)*) \|", text, re.M):
         words = [re.sub(r"\(.*?\)", "", word).strip() for word in signals.split(",")]
         names = names.split(", ")
@@ -55,7 +70,7 @@ class Chip:
     """The image of a board from power-up on. A context manager: the end checks for violations."""
 
     def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True, spindle=None):
-        chip, nominal, *more = CHIPS[board.removesuffix(BEHIND_LOADER)]
+        chip, nominal, *more = chip_of(board)
         if board.endswith(BEHIND_LOADER):
             loader = pathlib.Path(image).resolve().parents[1] / "test_loader.bin"
             more += ["loader", str(loader), str(SETTINGS_SECTOR[chip])]
