@@ -1,14 +1,20 @@
 #!/bin/sh
 # Installs what is missing, builds, cross-builds the images and runs the tests. See docs/testing.md.
-# usage: ./test.sh [--all]
-#   --all, or CI=true: also the long tests, the unit tests under ASan and UBSan, loops on several threads under
-#   ThreadSanitizer, bounded fuzzing, the packages, and the demo and the packages in bare roots
+# usage: ./test.sh [--all | --release]
+#   --all, or CI=true: also the long tests, with a third of the random cases, the unit tests under ASan and UBSan, loops on
+#   several threads under ThreadSanitizer, bounded fuzzing, the packages, and the demo and the packages in bare roots
+#   --release: all of that with all random cases, the tests labelled `release`, and programs beside LinuxCNC's rs274
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
 
 all=no
-{ [ "${1:-}" != --all ] && [ -z "${CI:-}" ]; } || all=yes
+release=no
+case "${1:-}" in
+    --release) all=yes release=yes ;;
+    --all) all=yes ;;
+    *) [ -z "${CI:-}" ] || all=yes ;;
+esac
 jobs=$(nproc)
 passed=0
 failed=0
@@ -21,6 +27,13 @@ if [ "$all" = yes ]; then
     preset=ci
     install_packages $package_packages $wasm_packages $(view_packages)
     view_tests=ON
+fi
+linuxcnc_tests=OFF
+if [ "$release" = yes ]; then
+    install_packages $release_packages
+    linuxcnc_tests=ON
+elif [ "$all" = yes ]; then
+    export CUSP_PROPERTY_SHARE=0.34
 fi
 
 # quietly LOG COMMAND...: the output goes to LOG and is shown where the command fails
@@ -76,7 +89,7 @@ leave_out() {
 mkdir -p build
 echo "building ($preset)"
 quietly build/configure-$preset.log cmake --preset $preset -DCUSP_TARGET_TESTS=ON -DCUSP_VIEW_TESTS=$view_tests \
-    -DCUSP_WASM=$view_tests
+    -DCUSP_WASM=$view_tests -DCUSP_LINUXCNC_TESTS=$linuxcnc_tests
 if [ "$all" = yes ]; then
     # What a build from nothing costs on any machine; a compiler cache would hide it.
     step "build cost" env -u CMAKE_CXX_COMPILER_LAUNCHER sh -c \
@@ -89,7 +102,7 @@ if [ "$all" = no ]; then
     run_tests dev -LE long
     leave_out
 else
-    run_tests ci
+    if [ "$release" = yes ]; then run_tests ci; else run_tests ci -LE release; fi
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz

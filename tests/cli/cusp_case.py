@@ -5,6 +5,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from property_cases import share_of  # noqa: E402, F401 (for the tests)
+
 CUSP = str(pathlib.Path(sys.argv[1]).resolve())
 
 

@@ -6,7 +6,6 @@ usage: solids_test.py CUSP [--without-cad]; CUSP_PROPERTY_CASES and CUSP_PROPERT
 A program is cut again by stock_walk.py: nothing may be lower than the solid, and what the tool reaches is at its height.
 """
 import json
-import os
 import pathlib
 import random
 import subprocess
@@ -14,14 +13,16 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "property/prismatic"))
+for folder in ("property/prismatic", "support"):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / folder))
+from property_cases import property_cases, property_seed  # noqa: E402
 from plate_mesh import PITCH, plate, stl  # noqa: E402
 from stock_walk import StockWalk, rapid_in_stock  # noqa: E402
 
 CUSP = str(pathlib.Path(sys.argv[1]).resolve())
 WITH_CAD = "--without-cad" not in sys.argv
-CASES = int(os.environ.get("CUSP_PROPERTY_CASES", 2))
-FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", 1))
+CASES = property_cases(2)
+FIRST = property_seed(1)
 BRACKET = pathlib.Path(__file__).resolve().parents[2] / "examples/bracket/bracket.step"
 
 

@@ -3,12 +3,13 @@
 
 usage: tabs_test.py CUSP
 """
+import itertools
 import json
 import re
 import sys
 import unittest
 
-from cusp_case import CuspCase
+from cusp_case import CuspCase, share_of
 
 JOB = """units = "mm"
 [[tool]]
@@ -39,14 +40,13 @@ class Tabs(CuspCase):
         return (self.folder / "p.ngc").read_text()
 
     def test_ends_beside_walls_are_of_their_tabs(self):
-        for radius, diameter, side in ((11.802790911, 8, "inside"), (12.3, 8, "inside"), (13.1, 6, "inside"),
-                                       (11.8, 8, "outside"), (12.7, 3, "outside")):
-            for lead in (0, 2, 5):
-                for more in ("", ', shape = "square"'):
-                    with self.subTest(radius=radius, diameter=diameter, side=side, lead=lead, more=more):
-                        self.plan(radius, diameter=diameter, side=side, depth=3.23, lead=lead, height=1.08, more=more)
-                        for pitch in ((), ("--grid", "0.12")):
-                            self.cusp(0, "verify", "job.toml", "p.ngc", *pitch)
+        discs = ((11.802790911, 8, "inside"), (12.3, 8, "inside"), (13.1, 6, "inside"), (11.8, 8, "outside"), (12.7, 3, "outside"))
+        shapes = ("", ', shape = "square"')
+        for (radius, diameter, side), lead, more in share_of(list(itertools.product(discs, (0, 2, 5), shapes))):
+            with self.subTest(radius=radius, diameter=diameter, side=side, lead=lead, more=more):
+                self.plan(radius, diameter=diameter, side=side, depth=3.23, lead=lead, height=1.08, more=more)
+                for pitch in ((), ("--grid", "0.12")):
+                    self.cusp(0, "verify", "job.toml", "p.ngc", *pitch)
 
     def test_stock_left_along_a_contour_is_no_tab(self):
         for count in (1, 3):

@@ -1,17 +1,21 @@
 // Number and first seed of the random cases of a property test.
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <string>
 
 namespace cusp::test {
 
-// CUSP_PROPERTY_CASES, or `usual`, the number for CI.
+// CUSP_PROPERTY_CASES, or the share CUSP_PROPERTY_SHARE (0 to 1, default 1) of `usual`, rounded up.
 inline int property_cases(int usual)
 {
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : usual;
+    if (const char* const cases = std::getenv("CUSP_PROPERTY_CASES")) {
+        return std::atoi(cases);
+    }
+    const char* const share = std::getenv("CUSP_PROPERTY_SHARE");
+    return share != nullptr ? static_cast<int>(std::ceil(std::atof(share) * usual)) : usual;
 }
 
 // CUSP_PROPERTY_FIRST, or `usual`, the first seed for CI.

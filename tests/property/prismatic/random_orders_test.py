@@ -7,7 +7,6 @@ usage: random_orders_test.py CUSP [CASES [FIRST_SEED]]
 
 CUSP_PROPERTY_CASES and CUSP_PROPERTY_FIRST count too. Jobs and programs of cases that fail are kept, and named.
 """
-import os
 import pathlib
 import random
 import re
@@ -16,11 +15,13 @@ import subprocess
 import sys
 import tempfile
 
-from stock_walk import StockWalk, rapid_in_stock
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+from property_cases import property_cases, property_seed  # noqa: E402
+from stock_walk import StockWalk, rapid_in_stock  # noqa: E402
 
 CUSP = pathlib.Path(sys.argv[1]).resolve()
-CASES = int(os.environ.get("CUSP_PROPERTY_CASES", sys.argv[2] if len(sys.argv) > 2 else 6))
-FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", sys.argv[3] if len(sys.argv) > 3 else 4100))
+CASES = property_cases(int(sys.argv[2]) if len(sys.argv) > 2 else 6)
+FIRST = property_seed(sys.argv[3] if len(sys.argv) > 3 else 4100)
 KNOWN = (5013, 5081)  # a drill whose axis stands between two bands of columns; a chamfer below standing stock
 X, Y, BOTTOM = (-25, 25), (-18, 18), -8
 

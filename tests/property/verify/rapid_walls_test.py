@@ -8,17 +8,16 @@ cusp plan warns of the wall exactly where the tool's circle reaches it. In a pro
 the wall between them: cusp verify says how deep, and in which line. The oracle is the wall's distance.
 """
 import math
-import os
 import pathlib
 import random
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from verdicts_test import entity, polyline, run, verify  # noqa: E402
+from verdicts_test import entity, polyline, property_cases, property_seed, run, verify  # noqa: E402
 
-CASES = int(os.environ.get("CUSP_PROPERTY_CASES", sys.argv[2] if len(sys.argv) > 2 else 8))
-FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", sys.argv[3] if len(sys.argv) > 3 else 1))
+CASES = property_cases(int(sys.argv[2]) if len(sys.argv) > 2 else 8)
+FIRST = property_seed(sys.argv[3] if len(sys.argv) > 3 else 1)
 SIZES = (50, 300, 1200, 2400)  # mm
 CLEAR = 0.05  # mm: nearer to the edge of the tool's circle nothing is asked
 

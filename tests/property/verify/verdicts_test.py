@@ -8,7 +8,6 @@ CUSP_PROPERTY_CASES and CUSP_PROPERTY_FIRST count too. Jobs and programs of case
 """
 import json
 import math
-import os
 import pathlib
 import random
 import re
@@ -17,9 +16,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+from property_cases import property_cases, property_seed  # noqa: E402
+
 CUSP = pathlib.Path(sys.argv[1]).resolve()
-CASES = int(os.environ.get("CUSP_PROPERTY_CASES", sys.argv[2] if len(sys.argv) > 2 else 10))
-FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", sys.argv[3] if len(sys.argv) > 3 else 7000))
+CASES = property_cases(int(sys.argv[2]) if len(sys.argv) > 2 else 10)
+FIRST = property_seed(sys.argv[3] if len(sys.argv) > 3 else 7000)
 LISTED = subprocess.run([str(CUSP), "plan", "--list-posts"], capture_output=True, text=True, check=True).stdout
 POSTS = re.findall(r"^(\w+):", LISTED, re.M)
 INCH = 25.4

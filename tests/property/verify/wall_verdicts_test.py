@@ -6,7 +6,6 @@ bull, ball ends and vees, in mm and inch, by all posts. A sound program holds. O
 usage: wall_verdicts_test.py CUSP [CASES [FIRST_SEED]]; CUSP_PROPERTY_CASES and CUSP_PROPERTY_FIRST count too
 """
 import math
-import os
 import pathlib
 import random
 import re
@@ -15,10 +14,10 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from verdicts_test import INCH, POSTS, entity, polyline, run, verify  # noqa: E402
+from verdicts_test import INCH, POSTS, entity, polyline, property_cases, property_seed, run, verify  # noqa: E402
 
-CASES = int(os.environ.get("CUSP_PROPERTY_CASES", sys.argv[2] if len(sys.argv) > 2 else 10))
-FIRST = int(os.environ.get("CUSP_PROPERTY_FIRST", sys.argv[3] if len(sys.argv) > 3 else 1))
+CASES = property_cases(int(sys.argv[2]) if len(sys.argv) > 2 else 10)
+FIRST = property_seed(sys.argv[3] if len(sys.argv) > 3 else 1)
 KINDS = ("islands", "open", "profile", "engrave", "v_carve", "on")
 TOLERANCE = 0.0205  # mm: plan_tolerance and the judge's own
 
