@@ -53,7 +53,7 @@ quietly() {
 run_tests() {
     preset=$1
     shift
-    results=$PWD/build/$preset/results.xml
+    results=$PWD/build/${preset%-release}/results.xml
     rm -f "$results"
     # Two more than cores: the tests of senders and of pages mostly wait.
     ctest --preset "$preset" -j $((jobs + 2)) --output-junit "$results" "$@" || true
@@ -102,7 +102,7 @@ if [ "$all" = no ]; then
     run_tests dev -LE long
     leave_out
 else
-    if [ "$release" = yes ]; then run_tests ci; else run_tests ci -LE release; fi
+    if [ "$release" = yes ]; then run_tests ci-release; else run_tests ci; fi
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz
