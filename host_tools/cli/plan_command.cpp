@@ -229,7 +229,7 @@ void add_plan_command(CLI::App& app, Work& work)
     auto options = std::make_shared<PlanArguments>();
     command->add_option("JOB", options->call.files,
                         "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf; "
-                        "drawings: .dxf, .svg");
+                        "drawings: .dxf, .svg, Gerber (.gbr), Excellon (.drl)");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
     command

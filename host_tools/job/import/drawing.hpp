@@ -2,7 +2,8 @@
 //
 //     const DrawnPaths drawn = read_drawn_paths("sign.svg", 1, "letters", &notes);
 //
-// path_ending.hpp says which files are drawings; dxf_curves.hpp and svg_drawing.hpp say what is read of each format.
+// path_ending.hpp says which files are drawings; dxf_curves.hpp, svg_drawing.hpp, gerber_drawing.hpp and
+// excellon_drawing.hpp say what is read of each format.
 #pragma once
 
 #include <string>

@@ -36,8 +36,8 @@ DrawingName parts_of(const std::string& name)
     const std::size_t mark = layer_mark(name);
     DrawingName parts{name.substr(0, mark), mark == std::string::npos ? "" : name.substr(mark + 1)};
     if (!is_drawing_file(parts.file) && path_ending(parts.file) != ".json") {
-        throw InputError(fmt::format("{}: drawings are read from .dxf and .svg, not from \"{}\"",
-                                     name, path_ending(parts.file)));
+        throw InputError(fmt::format("{}: drawings are read from {}, not from \"{}\"", name,
+                                     kDrawingEndings, path_ending(parts.file)));
     }
     return parts;
 }

@@ -183,8 +183,8 @@ std::vector<FileLoop> read_loops(const std::string& name,
     if (path_ending(name) == ".json") {
         return {{closed_loop(read_json_curves(name, millimetres), name), name}};
     }
-    throw InputError(fmt::format("{}: loops are read from .json, .dxf and .svg, not from \"{}\"",
-                                 name, path_ending(name)));
+    throw InputError(fmt::format("{}: loops are read from .json, {}, not from \"{}\"", name,
+                                 kDrawingEndings, path_ending(name)));
 }
 
 FileShapes read_shapes(const std::string& name,

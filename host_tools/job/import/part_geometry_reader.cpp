@@ -107,7 +107,7 @@ void take_drawing(PartGeometry& part,
                   double millimetres)
 {
     DrawnLayers drawing = read_drawn_layers(file, millimetres);
-    part.format = path_ending(file) == ".svg" ? "SVG" : "DXF";
+    part.format = drawing_format(file);
     part.unit = drawing.unit_name.empty()
                     ? unit_of(drawing.millimetres, true)
                     : PartUnit{short_name(drawing.unit_name), drawing.millimetres, false};
@@ -178,8 +178,8 @@ PartGeometry read_part_geometry(const std::string& name, double millimetres)
     } else if (is_cad_file(file)) {
         take_model(part, file);
     } else {
-        throw InputError(fmt::format("{}: parts are read from .dxf, .svg, {}, not from \"{}\"",
-                                     file, kPartEndings, ending));
+        throw InputError(fmt::format("{}: parts are read from {}, {}, not from \"{}\"", file,
+                                     kDrawingEndings, kPartEndings, ending));
     }
     return part;
 }

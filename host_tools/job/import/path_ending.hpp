@@ -9,7 +9,14 @@ namespace cusp::import {
 // With its dot, in lower case: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
-// True if it holds curves by layers: .dxf, .svg.
+// Of a drawing, by its ending: "DXF", "SVG", "Gerber" (.gbr, .ger, .gtl, .gbl, .gko, .gm1), "Excellon" (.drl, .xln);
+// else null.
+const char* drawing_format(const std::string& file);
+
+// Files that hold drawings, for messages.
+inline constexpr const char* kDrawingEndings = ".dxf, .svg, .gbr, .gtl, .gbl, .gko, .gm1, .ger, .drl and .xln";
+
+// True if it holds curves by layers.
 bool is_drawing_file(const std::string& file);
 
 // Place of "#layer" in the name of a drawing, or of "#region" in that of a part (part_regions.hpp): at the first # after its ending, since names of layers

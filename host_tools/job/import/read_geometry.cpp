@@ -133,11 +133,29 @@ std::vector<Surface> mesh_surfaces(const std::string& file,
 
 }  // namespace
 
-bool is_drawing_file(const std::string& file)
+const char* drawing_format(const std::string& file)
 {
+    static constexpr std::array<std::pair<const char*, const char*>, 10> kFormats{
+        {{".dxf", "DXF"},
+         {".svg", "SVG"},
+         {".gbr", "Gerber"},
+         {".ger", "Gerber"},
+         {".gtl", "Gerber"},
+         {".gbl", "Gerber"},
+         {".gko", "Gerber"},
+         {".gm1", "Gerber"},
+         {".drl", "Excellon"},
+         {".xln", "Excellon"}}};
     const std::string ending = path_ending(file);
-    return ending == ".dxf" || ending == ".svg";
+    for (const auto& [known, format] : kFormats) {
+        if (ending == known) {
+            return format;
+        }
+    }
+    return nullptr;
 }
+
+bool is_drawing_file(const std::string& file) { return drawing_format(file) != nullptr; }
 
 bool is_cad_file(const std::string& file)
 {
