@@ -55,6 +55,16 @@ public:
           depth_{*request.depth},
           drawings_{sheet_drawings(request, strategies, unit_, parts)}
     {
+        for (const SheetDrawing& drawing : drawings_) {
+            for (const SheetLayer& layer : drawing.named) {
+                if (layer.use.isolates && !isolating_) {
+                    isolating_ = tools_.isolating_place();
+                }
+            }
+        }
+        if (isolating_) {
+            tools_.keep_for_copper(*isolating_);
+        }
     }
 
     std::vector<SheetCut> cuts()
@@ -85,6 +95,7 @@ private:
                      const std::string& side,
                      double depth,
                      const std::vector<double>& except);
+    void add_isolation(const Place& place, const LayerUse& use);
     void add_lines(const Place& place,
                    const std::string& loops,
                    const std::string& what,
@@ -147,6 +158,7 @@ private:
     double depth_;  // in it
     std::vector<SheetDrawing> drawings_;
     std::vector<SheetCut> cuts_;
+    std::optional<std::size_t> isolating_;  // place of the tool that cuts around copper
 };
 
 void SheetSorter::add_layer(const SheetLayer& layer)
@@ -161,6 +173,8 @@ void SheetSorter::add_layer(const SheetLayer& layer)
         drill_fitting(place, "all", true, use.depth);
     } else if (use.region == Region::kGrooves) {
         add_lines(place, "all", "lines", use.depth);
+    } else if (use.isolates) {
+        add_isolation(place, use);
     } else if (use.region == Region::kOutline) {
         const std::string side = use.side.empty() ? side_of_request() : use.side;
         add_profile(side == "outside" ? kOutlines : kInner, place, "all", side,
@@ -196,6 +210,9 @@ void SheetSorter::add_holes(const Place& place, const std::string& loops, const 
 {
     std::vector<double> except = drill_fitting(place, loops, false, std::nullopt);
     const DrawingChoice rest{{}, loops, except};
+    if (chosen_loops(rest, place.shapes).empty()) {
+        return;
+    }
     const double across = tools_.last_mill().diameter;
     std::map<double, std::size_t> narrow;
     for (const job::Hole& hole : chosen_circles(rest, place.shapes)) {
@@ -272,6 +289,21 @@ void SheetSorter::add_profile(Rank rank,
                                is_part ? "outline" : "hole", is_part ? "hole" : "island"),
                     side == "on" ? "on the line" : side, tool_words(tool), deep(depth, step),
                     tabs));
+}
+
+// Once around copper, with the finest mill.
+void SheetSorter::add_isolation(const Place& place, const LayerUse& use)
+{
+    const double shallow = request_.inch ? 0.004 : 0.1;
+    const double depth = use.depth.value_or(std::min(shallow, depth_ / 2));
+    const std::size_t tool = *isolating_;
+    add(kLines, Region::kOutline, place,
+        fmt::format("side = \"outside\"\ntool = {}\ndepth = {}\noutput = \"{}\"\n", tool + 1, depth,
+                    request_.output) +
+            join_key(),
+        fmt::format("{}: profile outside, {}, {}{}",
+                    loop_words(place.shapes.loops, "copper island", "opening"), tool_words(tool),
+                    deep(depth, depth), use.depth ? "" : " (--layer NAME=outside:DEPTH)"));
 }
 
 void SheetSorter::add_lines(const Place& place,

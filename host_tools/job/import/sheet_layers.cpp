@@ -23,12 +23,16 @@ namespace {
 constexpr std::array<const char*, 3> kSides{"outside", "inside", "on"};
 constexpr const char* kLeftOut = "none";
 
+// Of circuit boards, whose copper is cut around.
+constexpr const char* kCopper = "copper";
+
 struct NamedUse {
     const char* word;  // in lower case, without the s of a plural
     std::optional<Region> region;
+    const char* side{""};
 };
 // Words in names of layers beside the names of strategies.
-constexpr std::array<NamedUse, 15> kWords{{{"hole", Region::kHoles},
+constexpr std::array<NamedUse, 20> kWords{{{"hole", Region::kHoles},
                                            {"drilling", Region::kHoles},
                                            {"engraving", Region::kGrooves},
                                            {"text", Region::kGrooves},
@@ -42,7 +46,12 @@ constexpr std::array<NamedUse, 15> kWords{{{"hole", Region::kHoles},
                                            {"construction", std::nullopt},
                                            {"guide", std::nullopt},
                                            {"note", std::nullopt},
-                                           {"title", std::nullopt}}};
+                                           {"title", std::nullopt},
+                                           {"mask", std::nullopt},
+                                           {"paste", std::nullopt},
+                                           {"legend", std::nullopt},
+                                           {"slot", Region::kOutline, "inside"},
+                                           {kCopper, Region::kOutline, "outside"}}};
 
 [[noreturn]] void refuse_layer(const std::string& text, const std::string& what)
 {
@@ -66,6 +75,13 @@ std::vector<std::string> words_in(const std::string& name)
     }
     words.pop_back();
     return words;
+}
+
+bool is_isolation(const LayerUse& use)
+{
+    const std::vector<std::string> words = words_in(use.layer);
+    return use.region == Region::kOutline && (use.side.empty() || use.side == "outside") &&
+           std::find(words.begin(), words.end(), kCopper) != words.end();
 }
 
 double depth_of(const std::string& text, const std::string& field)
@@ -152,6 +168,7 @@ LayerUse layer_use_of_text(const std::string& text, const job::Strategies& strat
     if (!use.region && use.depth) {
         refuse_layer(text, "a layer that is left out has no depth");
     }
+    use.isolates = is_isolation(use);
     return use;
 }
 
@@ -171,8 +188,10 @@ std::optional<LayerUse> layer_use_of_name(const std::string& layer,
         use.layer = layer;
         use.word = word;
         use.region = is_strategy ? strategy->traits.region : known->region;
+        use.side = is_strategy ? "" : known->side;
         use.only_fitting = true;
         use.by_name = true;
+        use.isolates = is_isolation(use);
         return use;
     }
     return std::nullopt;

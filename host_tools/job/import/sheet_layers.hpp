@@ -18,6 +18,7 @@ struct LayerUse {
     std::string side;                   // of a profile; "": as the request says
     std::optional<double> depth;        // of a chamfer its width
     bool by_name{};                     // not asked for
+    bool isolates{};                    // cuts around copper, no deeper than it is thick
 };
 
 // The strategy that cuts the region along a drawing; where there are several, the one that can take a part of it

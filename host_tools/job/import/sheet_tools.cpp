@@ -36,7 +36,19 @@ std::vector<std::size_t> SheetTools::mills() const
             places.push_back(k);
         }
     }
+    if (isolating_ && places.size() > 1) {
+        places.erase(std::remove(places.begin(), places.end(), *isolating_), places.end());
+    }
     return places;
+}
+
+std::size_t SheetTools::isolating_place() const
+{
+    first_mill_place();
+    const auto places = mills();
+    return *std::min_element(places.begin(), places.end(), [this](std::size_t a, std::size_t b) {
+        return tools_[a].diameter < tools_[b].diameter;
+    });
 }
 
 std::size_t SheetTools::first_mill_place() const

@@ -27,6 +27,9 @@ public:
     // Numbers of the mills before the last, from 1.
     std::vector<std::size_t> roughing_mills() const;
     std::size_t engraver_place() const;
+    // The thinnest mill cuts around copper, and nothing else if there is another.
+    std::size_t isolating_place() const;
+    void keep_for_copper(std::size_t place) { isolating_ = place; }
     std::size_t vee_place(const LayerUse& use) const;
 
     bool has_one_drill() const { return places_of(toolpath::ToolShape::kDrill).size() == 1; }
@@ -44,6 +47,7 @@ private:
 
     const OneLineRequest& request_;
     const std::vector<NamedTool>& tools_;
+    std::optional<std::size_t> isolating_;
 };
 
 struct SheetTabs {
