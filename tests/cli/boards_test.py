@@ -31,7 +31,7 @@ class Boards(CuspCase):
         said = self.cusp(0, *call, "-o", "b.ngc")
         for words in ("board-F_Cu.gbr#copper: 8 copper islands and 1 opening: profile outside, flat 0.2 mm, 0.1 mm deep",
                       "board.drl#holes: 12 holes of 0.8 mm: drill", "board.drl#holes: 5 holes of 1 mm: drill",
-                      "board.drl#slots: 1 hole: profile inside, flat 0.8 mm", "board-Edge_Cuts.gbr: 1 outline"):
+                      "board.drl#slot_holes: 1 hole: profile inside, flat 0.8 mm", "board-Edge_Cuts.gbr: 1 outline"):
             self.assertIn(words, said)
         self.assertNotIn("warning", said)
         self.cusp(0, "plan", "board.toml", "-o", "job.ngc")  # the example is what the call prints

@@ -75,6 +75,9 @@ private:
     void define_tool(std::string_view text);
     ExcellonWords words_of(std::string_view text) const;
     void read_words(const ExcellonWords& words);
+    void obey(int m);
+    bool is_slot(const ExcellonWords& words);
+    void add_place(const ExcellonWords& words, bool slot);
     double coordinate(const std::string& digits) const;
     Vec2d place_of(const ExcellonWords& words, Vec2d otherwise) const;
     double radius() const;
@@ -256,14 +259,26 @@ double ExcellonReader::radius() const
     return found->second / 2;
 }
 
-void ExcellonReader::read_words(const ExcellonWords& words)
+void ExcellonReader::obey(int m)
 {
-    if (words.t) {
+    if (m == 30 || m == 0) {
+        ended_ = true;
+    } else if (m == 15) {
+        down_ = true;
+    } else if (m == 16 || m == 17) {
         end_route();
-        tool_ = *words.t == 0 ? tool_ : *words.t;
+        down_ = false;
+    } else if (m == 71 || m == 72) {
+        set_unit(m == 72 ? "M72" : "M71");
+    } else {
+        refuse(fmt::format("M{:02d} is not read", m));
     }
+}
+
+// Obeys the G words.
+bool ExcellonReader::is_slot(const ExcellonWords& words)
+{
     bool slot = false;
-    bool zero = false;
     for (const int g : words.g) {
         if (g <= 3) {
             routing_ = true;
@@ -275,38 +290,33 @@ void ExcellonReader::read_words(const ExcellonWords& words)
             slot = true;
         } else if (g == 91) {
             refuse("incremental coordinates (G91) are not read: write absolute ones");
-        } else if (g == 93) {
-            zero = true;
         } else if (g != 90 && g != 40 && g != 41 && g != 42) {
             refuse(fmt::format("G{:02d} is not read", g));
         }
     }
+    return slot;
+}
+
+void ExcellonReader::read_words(const ExcellonWords& words)
+{
+    if (words.t) {
+        end_route();
+        tool_ = *words.t == 0 ? tool_ : *words.t;
+    }
+    const bool slot = is_slot(words);
     if (words.m) {
-        if (*words.m == 30 || *words.m == 0) {
-            ended_ = true;
-        } else if (*words.m == 15) {
-            down_ = true;
-        } else if (*words.m == 16 || *words.m == 17) {
-            end_route();
-            down_ = false;
-        } else if (*words.m == 71 || *words.m == 72) {
-            set_unit(*words.m == 72 ? "M72" : "M71");
-        } else if (*words.m == 97 || *words.m == 98 || *words.m == 2 || *words.m == 1) {
-            refuse(fmt::format("M{:02d} (text or pattern) is not read", *words.m));
-        }
+        obey(*words.m);
     }
-    if (words.of.empty() && !slot) {
-        return;
+    if (!words.of.empty() || slot) {
+        add_place(words, slot);
     }
+}
+
+void ExcellonReader::add_place(const ExcellonWords& words, bool slot)
+{
     const Vec2d to = place_of(words, point_);
     for (const auto& [letter, digits] : words.of) {
         without_point_ = without_point_ || digits.find('.') == std::string::npos;
-    }
-    if (zero) {
-        if (norm(to - point_) > 0 && norm(to) > 0) {
-            refuse("G93 moves the origin, which is not read");
-        }
-        return;
     }
     if (holes_.size() + slots_.size() + way_.contours.size() >= kMostPlaces) {
         refuse(fmt::format("more than {} holes", kMostPlaces));
@@ -378,7 +388,7 @@ DrawnLayers ExcellonReader::layers()
         drawn.layers.push_back({"holes", false, std::move(holes_), {}});
     }
     if (!slots_.empty()) {
-        drawn.layers.push_back({"slots", false, std::move(slots_), {}});
+        drawn.layers.push_back({"slot_holes", false, std::move(slots_), {}});
     }
     if (drawn.layers.empty()) {
         throw InputError(fmt::format("{}: nothing is drilled", file_));

@@ -1,6 +1,6 @@
 // Holes and slots of circuit boards from Excellon files (NC drill).
 //
-// Two layers: "holes", a circle each, and "slots", the borders of slots (G85) and of routed ways. Coordinates with a
+// Two layers: "holes", a circle each, and "slot_holes", the borders of slots (G85) and of routed ways. Coordinates with a
 // point, or digits by LZ, TZ and the format of the header or of `;FILE_FORMAT=`; inches or millimetres; absolute.
 #pragma once
 

@@ -2,7 +2,6 @@
 #include "host_tools/job/import/gerber_arc.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
@@ -33,7 +32,7 @@ std::optional<CircularWay> quarter_way(const GerberArc& arc)
 {
     constexpr double kSlack = 1e-3;  // radians
     std::optional<CircularWay> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kUnbounded;
     if (norm(arc.to - arc.from) < offset::kSamePoint) {
         return best;
     }

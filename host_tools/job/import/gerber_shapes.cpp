@@ -15,7 +15,7 @@ using offset::Region2d;
 
 namespace {
 
-constexpr double kQuarter = kPi / 2;
+constexpr double kQuarterTurn = kPi / 2;
 constexpr double kChord = 2e-4;  // mm
 
 Vec2d on_circle(Vec2d centre, double radius, double angle)
@@ -79,7 +79,7 @@ Region2d chord_capsules(const CircularWay& way, double radius)
 std::vector<Edge> arc_edges(const CircularWay& way)
 {
     const int count =
-        std::max(1, static_cast<int>(std::ceil(std::fabs(way.sweep) / kQuarter - 1e-9)));
+        std::max(1, static_cast<int>(std::ceil(std::fabs(way.sweep) / kQuarterTurn - 1e-9)));
     const int turn = way.sweep < 0 ? -1 : 1;
     const bool closed = std::fabs(way.sweep) > 2 * kPi - 1e-9;
     const Vec2d first = on_circle(way.centre, way.radius, way.start);

@@ -14,7 +14,8 @@ std::string path_ending(const std::string& file);
 const char* drawing_format(const std::string& file);
 
 // Files that hold drawings, for messages.
-inline constexpr const char* kDrawingEndings = ".dxf, .svg, .gbr, .gtl, .gbl, .gko, .gm1, .ger, .drl and .xln";
+inline constexpr const char* kDrawingEndings =
+    ".dxf, .svg, .gbr, .gtl, .gbl, .gko, .gm1, .ger, .drl and .xln";
 
 // True if it holds curves by layers.
 bool is_drawing_file(const std::string& file);

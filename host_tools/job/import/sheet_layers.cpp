@@ -29,10 +29,9 @@ constexpr const char* kCopper = "copper";
 struct NamedUse {
     const char* word;  // in lower case, without the s of a plural
     std::optional<Region> region;
-    const char* side{""};
 };
 // Words in names of layers beside the names of strategies.
-constexpr std::array<NamedUse, 20> kWords{{{"hole", Region::kHoles},
+constexpr std::array<NamedUse, 19> kWords{{{"hole", Region::kHoles},
                                            {"drilling", Region::kHoles},
                                            {"engraving", Region::kGrooves},
                                            {"text", Region::kGrooves},
@@ -50,8 +49,7 @@ constexpr std::array<NamedUse, 20> kWords{{{"hole", Region::kHoles},
                                            {"mask", std::nullopt},
                                            {"paste", std::nullopt},
                                            {"legend", std::nullopt},
-                                           {"slot", Region::kOutline, "inside"},
-                                           {kCopper, Region::kOutline, "outside"}}};
+                                           {kCopper, Region::kOutline}}};
 
 [[noreturn]] void refuse_layer(const std::string& text, const std::string& what)
 {
@@ -188,7 +186,6 @@ std::optional<LayerUse> layer_use_of_name(const std::string& layer,
         use.layer = layer;
         use.word = word;
         use.region = is_strategy ? strategy->traits.region : known->region;
-        use.side = is_strategy ? "" : known->side;
         use.only_fitting = true;
         use.by_name = true;
         use.isolates = is_isolation(use);
