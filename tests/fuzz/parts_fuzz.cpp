@@ -13,8 +13,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const cusp::test::TemporaryFolder folder;  // to the end of the process
-    static const std::array<const char*, 6> kNames{"s.json", "c.json", "c.dxf",
-                                                   "s.stl",  "j.toml", "c.svg"};
+    static const std::array<const char*, 8> kNames{"s.json", "c.json", "c.dxf", "s.stl",
+                                                   "j.toml", "c.svg",  "c.gbr", "c.drl"};
     if (size == 0) {
         return 0;
     }
