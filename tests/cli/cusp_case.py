@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from property_cases import share_of  # noqa: E402, F401 (for the tests)
+from property_cases import property_cases, share_of  # noqa: E402, F401 (for the tests)
 
 CUSP = str(pathlib.Path(sys.argv[1]).resolve())
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """cusp info as a machinist calls it: its text, its JSON and its errors.
 
-usage: info_test.py CUSP
+usage: info_test.py CUSP [--without-cad]
 """
 import json
 import pathlib
+import random
 import struct
 import subprocess
 import sys
@@ -12,7 +13,12 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
+import plate_mesh
+from cusp_case import property_cases
+
 CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+WITH_CAD = "--without-cad" not in sys.argv
+BRACKET = pathlib.Path(__file__).resolve().parents[2] / "examples/bracket/bracket.step"
 
 
 def line(layer, x0, y0, x1, y1):
@@ -56,6 +62,33 @@ def stl(count):
     return bytes(out)
 
 
+def pockets_of(heights):
+    """Height, area and openness of the pieces of squares below the top that have a wall beside them."""
+    wide, deep, top = len(heights), len(heights[0]), max(sum(heights, []))
+    cells = {(i, j): heights[i][j] for i in range(wide) for j in range(deep)}
+    around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
+
+    def flood(start, inside, steps):
+        found, todo = {start}, [start]
+        while todo:
+            i, j = todo.pop()
+            for near in ((i + a, j + b) for a, b in steps):
+                if near not in found and inside(near):
+                    found.add(near)
+                    todo.append(near)
+        return found
+
+    left = {cell for cell, z in cells.items() if z < top}
+    while left:
+        first = min(left)
+        piece = flood(first, lambda c: cells.get(c) == cells[first], [(1, 0), (-1, 0), (0, 1), (0, -1)])
+        left -= piece
+        outside = flood((-1, -1), lambda c: -1 <= c[0] <= wide and -1 <= c[1] <= deep and c not in piece, around)
+        beside = [cells.get((i + a, j + b), -1) for i, j in piece for a, b in around if (i + a, j + b) in outside]
+        if any(z > cells[first] for z in beside):
+            yield cells[first], plate_mesh.PITCH ** 2 * len(piece), any(z <= cells[first] for z in beside)
+
+
 class Info(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -82,6 +115,39 @@ class Info(unittest.TestCase):
         self.assertIn(words, result.stdout)
         self.assertEqual(1, result.stdout.count("\n"), result.stdout)
         self.assertEqual(before, sorted(self.folder.iterdir()))
+
+    def described(self, name):
+        self.said(name, "--stats", "info.json")
+        return json.loads((self.folder / "info.json").read_text())["files"][0]
+
+    @unittest.skipUnless(WITH_CAD, "reads STEP")
+    def test_levels_pockets_holes_and_corners_of_a_bracket(self):
+        found = self.described(str(BRACKET))
+        self.assertEqual([15, 10, 9], [level["z_mm"] for level in found["levels"]])
+        self.assertEqual([(9, [40, 20], [40, 25], False)],
+                         [(p["z_mm"], p["size_mm"], p["middle_mm"], p["open"]) for p in found["pockets"]])
+        small, bored = found["round_holes"]
+        self.assertEqual((6, 15, 15, True, 4), (small["diameter_mm"], small["top_mm"], small["depth_mm"], small["through"],
+                                                len(small["places_mm"])))
+        self.assertEqual((6.6, 10, 10, True), tuple(bored[key] for key in ("diameter_mm", "top_mm", "depth_mm", "through")))
+        self.assertEqual({"diameter_mm": 12, "depth_mm": 5, "angle_degrees": 0}, bored["mouth"])
+        self.assertEqual([{"radius_mm": 4, "count": 4}], found["inner_corners"])
+        self.assertIn("counterbored 12 mm, 5 mm deep", self.said(str(BRACKET)))
+
+    def test_levels_and_pockets_of_random_plates_are_those_of_their_squares(self):
+        for seed in range(1, 1 + property_cases(12)):
+            r = random.Random(seed)
+            heights = [[r.choice((7, 7, 7, 5, 3)) for _ in range(7)] for _ in range(6)]
+            heights[0][0] = 7
+            (self.folder / "plate.stl").write_text(plate_mesh.stl(plate_mesh.plate(heights)))
+            found = self.described("plate.stl")
+            areas = {}
+            for z in sum(heights, []):
+                areas[z] = areas.get(z, 0) + plate_mesh.PITCH ** 2
+            self.assertEqual(sorted(areas.items(), reverse=True),
+                             [(level["z_mm"], level["level_area_mm2"]) for level in found["levels"]], f"seed {seed}")
+            self.assertEqual(sorted(pockets_of(heights)),
+                             sorted((p["z_mm"], p["level_area_mm2"], p["open"]) for p in found["pockets"]), f"seed {seed}")
 
     def test_a_drawing_of_several_loops_is_listed(self):
         self.said("plate.dxf", "--stats", "stats.json")

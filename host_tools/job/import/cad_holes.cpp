@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
@@ -175,10 +176,40 @@ Hole hole_of(const Wall& wall, const std::vector<SampledFace>& faces, bool narro
         if (facing(face) > 0 && is_within(face, wall) && face.high <= wall.low + kSameHole &&
             face.low >= wall.low - kDeepestTip * wall.radius - kSameHole) {
             span.bottom = std::min(span.bottom, face.low);
+            span.tip = wall.low - span.bottom;
             span.through = false;
         }
     }
     return {wall.axis, 2 * wall.radius, span};
+}
+
+// The cone that begins where the wall ends, about its axis.
+std::optional<job::HoleMouth> cone_over(const Wall& wall, const std::vector<SampledFace>& faces)
+{
+    constexpr double kConical = 1e-3;  // mm
+    for (const SampledFace& face : faces) {
+        if (std::abs(face.low - wall.high) > kSameHole || face.high <= face.low + kSameHole ||
+            facing(face) <= 0) {
+            continue;
+        }
+        double widest = 0;
+        for (const Sample& sample : face.samples) {
+            widest = std::max(widest, norm(in_plan(sample.point) - wall.axis));
+        }
+        const double slope = (widest - wall.radius) / (face.high - face.low);
+        const bool conical =
+            slope > 0 &&
+            std::all_of(face.samples.begin(), face.samples.end(), [&](const Sample& sample) {
+                const double away = norm(in_plan(sample.point) - wall.axis);
+                return std::abs(away - wall.radius - slope * (sample.point.z - face.low)) <
+                       kConical;
+            });
+        if (conical) {
+            return job::HoleMouth{2 * widest, face.high - face.low,
+                                  2 * elementary::atan(slope) * 180 / kPi};
+        }
+    }
+    return std::nullopt;
 }
 
 bool is_closed_above(const Wall& wall, const std::vector<SampledFace>& faces)
@@ -222,6 +253,12 @@ CadHoles holes_of(const CadModel& model)
         }
     }
     CadHoles found;
+    std::vector<std::pair<Hole, std::optional<job::HoleMouth>>> open;
+    for (const std::vector<Wall>& walls : groups) {
+        if (!is_complete(walls)) {
+            found.corners.push_back(walls.front().radius);
+        }
+    }
     for (const Wall& hole : holes) {
         const bool narrower_below = std::any_of(holes.begin(), holes.end(), [&](const Wall& other) {
             return norm(other.axis - hole.axis) <= kSameHole && other.radius < hole.radius &&
@@ -230,12 +267,18 @@ CadHoles holes_of(const CadModel& model)
         if (is_closed_above(hole, faces)) {
             ++found.closed_above;
         } else {
-            found.holes.push_back(hole_of(hole, faces, narrower_below));
+            open.emplace_back(hole_of(hole, faces, narrower_below), cone_over(hole, faces));
         }
     }
-    std::sort(found.holes.begin(), found.holes.end(), [](const Hole& a, const Hole& b) {
+    std::sort(open.begin(), open.end(), [](const auto& one, const auto& other) {
+        const Hole& a = one.first;
+        const Hole& b = other.first;
         return std::tie(a.diameter, a.at.x, a.at.y) < std::tie(b.diameter, b.at.x, b.at.y);
     });
+    for (const auto& [hole, cone] : open) {
+        found.holes.push_back(hole);
+        found.cones.push_back(cone);
+    }
     return found;
 }
 

@@ -1,11 +1,13 @@
 // Holes of a CAD model: vertical cylinders with material around them, open above.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host_tools/job/import/cad_surfaces.hpp"
 #include "host_tools/job/import/similarity.hpp"
+#include "host_tools/job/job/part_geometry.hpp"
 #include "host_tools/job/job/prismatic_keys.hpp"
 
 namespace cusp::import {
@@ -13,7 +15,11 @@ namespace cusp::import {
 struct CadHoles {
     // By diameter, then by place. Cylinders of one axis and diameter are one hole.
     std::vector<job::Hole> holes;
+    // Of each hole the cone that widens its upper end; none: it begins square.
+    std::vector<std::optional<job::HoleMouth>> cones;
     std::size_t closed_above{};  // others, that begin below
+    std::vector<double>
+        corners;  // mm: radii of upright concave walls that do not close, one for each axis
 };
 
 // Round to 1e-4 of the radius, or 0.001 mm; complete but for a fiftieth of their side. A hole is

@@ -79,13 +79,31 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
     return notes;
 }
 
-std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file, const Similarity& placed)
+namespace {
+
+// Those that have an area.
+std::vector<std::array<Vec3d, 3>> sound_triangles(
+    const std::vector<std::array<Vec3d, 3>>& triangles)
 {
     Facets facets;
-    for (const auto& triangle : cad_model(file, placed, CadWanted::kFacets).triangles) {
-        add_facet(triangle, facets);  // none without area
+    for (const auto& triangle : triangles) {
+        add_facet(triangle, facets);
     }
     return std::move(facets.triangles);
+}
+
+}  // namespace
+
+std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file, const Similarity& placed)
+{
+    return sound_triangles(cad_model(file, placed, CadWanted::kFacets).triangles);
+}
+
+CadModel read_whole_cad_model(const std::string& file)
+{
+    CadModel model = cad_model(file, {}, CadWanted::kEverything);
+    model.triangles = sound_triangles(model.triangles);
+    return model;
 }
 
 CadModel read_cad_model(const std::string& file)

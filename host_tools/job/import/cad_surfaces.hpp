@@ -63,7 +63,7 @@ struct CadModel {
     FaceFault beside;      // edges beside their surface
     std::vector<nurbs::Surface> faces;  // all others, in mm
     // Of CadWanted::kUpward the triangles of all faces where these do not close, for the search for holes
-    // (mesh_holes.hpp); of kFacets all triangles.
+    // (mesh_holes.hpp); of kFacets and kEverything all triangles.
     std::vector<std::array<Vec3d, 3>> triangles;
     std::vector<double> outwards;  // of each face: +1 if du x dv points out of its solid, -1
                                    // if into it; 0: the face belongs to no solid
@@ -75,6 +75,9 @@ std::vector<std::string> notes_of(const CadModel& model, const std::string& file
 // As read_cad_surfaces(), but faces of solids without an upward normal are kept.
 CadModel read_cad_model(const std::string& file);
 
+// As read_cad_model(), with the triangles of read_cad_facets().
+CadModel read_whole_cad_model(const std::string& file);
+
 // Triangles of all faces, no farther than kFacetsOff from them, which meet at shared edges.
 //
 // Errors: as read_cad_surfaces().
@@ -82,8 +85,8 @@ inline constexpr double kFacetsOff = 1e-3;  // mm
 std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file,
                                                   const Similarity& placed);
 
-// What of a model is wanted: faces with an upward normal, all faces, or triangles alone.
-enum class CadWanted : std::uint8_t { kUpward, kAllFaces, kFacets };
+// What of a model is wanted: faces with an upward normal, all faces, triangles alone, or all faces and triangles.
+enum class CadWanted : std::uint8_t { kUpward, kAllFaces, kFacets, kEverything };
 
 // All three, by Open CASCADE.
 CadModel cad_model(const std::string& file, const Similarity& placed, CadWanted wanted);

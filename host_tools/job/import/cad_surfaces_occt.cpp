@@ -98,8 +98,10 @@ CadModel model_of(const std::string& file,
         model.triangles = triangles_of_faces(faces, kFacetsOff);
         return model;
     }
-    const bool all_faces = wanted == CadWanted::kAllFaces;
-    if (!all_faces) {
+    const bool all_faces = wanted != CadWanted::kUpward;
+    if (wanted == CadWanted::kEverything) {
+        model.triangles = triangles_of_faces(faces, kFacetsOff);
+    } else if (!all_faces) {
         model.triangles = triangles_of_open_faces(faces);
     }
     for (std::size_t i = 0; i < faces.size(); ++i) {

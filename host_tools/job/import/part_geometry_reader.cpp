@@ -12,6 +12,7 @@
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/mesh_holes.hpp"
 #include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/import/part_features.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 
 #include "fmt/format.h"
@@ -138,6 +139,7 @@ void take_mesh(PartGeometry& part, const std::string& file, double millimetres)
     part.unit = facets.unit.empty() ? unit_of(millimetres, true) : PartUnit{facets.unit, 0, false};
     part.triangles = std::move(facets.triangles);
     part.degenerate = facets.degenerate;
+    part.features = features_of_mesh(part.triangles);
     for (const MeshHole& hole : holes_from_above(part.triangles)) {
         part.holes_above.push_back({hole.middle, hole.size});
     }
@@ -147,7 +149,8 @@ void take_mesh(PartGeometry& part, const std::string& file, double millimetres)
 void take_model(PartGeometry& part, const std::string& file)
 {
     const std::string ending = path_ending(file);
-    CadModel model = read_cad_model(file);
+    CadModel model = read_whole_cad_model(file);
+    part.features = features_of_model(model);
     part.format = ending == ".step" || ending == ".stp"   ? "STEP"
                   : ending == ".iges" || ending == ".igs" ? "IGES"
                                                           : "BREP";

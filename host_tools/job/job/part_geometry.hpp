@@ -67,6 +67,54 @@ struct OpenHole {
     Vec3d size;
 };
 
+// Level ground that is seen from above; of the highest it is the top.
+struct PartLevel {
+    double z{};     // mm
+    double area{};  // mm^2
+};
+
+// A connected piece of level ground with walls beside it, mm.
+struct PartPocket {
+    double z{};
+    Vec2d middle;  // of its box
+    Vec2d size;
+    double area{};  // mm^2
+    bool open{};    // the part does not stand all around it
+};
+
+// A recess over a hole: level, or a cone.
+struct HoleMouth {
+    double diameter{};  // mm, the widest
+    double depth{};     // mm
+    double angle{};     // degrees between the flanks; 0: level
+};
+
+// Round holes of one kind, open above, vertical.
+struct PartHoles {
+    double diameter{};  // mm
+    double top{};       // z, mm: where the cylinder begins
+    double depth{};     // mm of the cylinder
+    double tip{};       // mm: of a cone or a ball below it; 0: level
+    bool through{};
+    std::optional<HoleMouth> mouth;
+    std::vector<Vec2d> places;  // by x, then y
+};
+
+// Upright concave walls of one radius that are no holes: the corners of pockets, ends of slots.
+struct PartCorners {
+    double radius{};  // mm
+    std::size_t count{};
+};
+
+// What a tool from above is chosen by.
+struct PartFeatures {
+    std::vector<PartLevel> levels;     // the highest first
+    std::vector<PartPocket> pockets;   // the highest first, the largest of a level first
+    std::vector<PartHoles> holes;      // the narrowest first
+    std::size_t closed_above{};        // holes that begin below
+    std::vector<PartCorners> corners;  // the smallest radius first
+};
+
 // One of `layers`, `surfaces` and `triangles` is filled.
 struct PartGeometry {
     std::string file;    // as given, "#layer" included
@@ -88,6 +136,8 @@ struct PartGeometry {
     std::vector<std::array<Vec3d, 3>> triangles;
     std::size_t degenerate{};           // facets without area, left out
     std::vector<OpenHole> holes_above;  // that planners close; the largest first
+
+    std::optional<PartFeatures> features;  // of models and meshes
 };
 
 }  // namespace cusp::job

@@ -51,6 +51,7 @@ struct Hole {
         double top;
         double bottom;
         bool through;
+        double tip{};  // mm: height of a cone or a ball at the bottom
     };
     std::optional<Span> span{};
 };

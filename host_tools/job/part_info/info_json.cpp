@@ -142,6 +142,51 @@ void add_ball(const PartInfo& info, Json& out)
     out["places"] = ball.places;
 }
 
+Json holes_json(const job::PartHoles& holes)
+{
+    Json out{{"diameter_mm", rounded(holes.diameter)},
+             {"top_mm", rounded(holes.top)},
+             {"depth_mm", rounded(holes.depth)},
+             {"tip_mm", rounded(holes.tip)},
+             {"through", holes.through},
+             {"places_mm", Json::array()}};
+    for (const Vec2d& at : holes.places) {
+        out["places_mm"].push_back(point(at));
+    }
+    if (holes.mouth) {
+        out["mouth"] = {{"diameter_mm", rounded(holes.mouth->diameter)},
+                        {"depth_mm", rounded(holes.mouth->depth)},
+                        {"angle_degrees", rounded(holes.mouth->angle)}};
+    }
+    return out;
+}
+
+void add_features(const job::PartFeatures& features, Json& out)
+{
+    for (const char* const list : {"levels", "pockets", "round_holes", "inner_corners"}) {
+        out[list] = Json::array();
+    }
+    for (const job::PartLevel& level : features.levels) {
+        out["levels"].push_back(
+            {{"z_mm", rounded(level.z)}, {"level_area_mm2", rounded(level.area)}});
+    }
+    for (const job::PartPocket& pocket : features.pockets) {
+        out["pockets"].push_back({{"z_mm", rounded(pocket.z)},
+                                  {"middle_mm", point(pocket.middle)},
+                                  {"size_mm", point(pocket.size)},
+                                  {"level_area_mm2", rounded(pocket.area)},
+                                  {"open", pocket.open}});
+    }
+    for (const job::PartHoles& holes : features.holes) {
+        out["round_holes"].push_back(holes_json(holes));
+    }
+    out["closed_above"] = features.closed_above;
+    for (const job::PartCorners& corners : features.corners) {
+        out["inner_corners"].push_back(
+            {{"radius_mm", rounded(corners.radius)}, {"count", corners.count}});
+    }
+}
+
 Json part_json(const PartInfo& info)
 {
     Json out{{"file", info.part.file}, {"format", info.part.format}, {"unit", info.part.unit.name}};
@@ -162,6 +207,9 @@ Json part_json(const PartInfo& info)
         out["solids"] = info.part.solids;
         out["unread_faces"] = info.part.unread_faces;
         out["notes"] = info.part.notes;
+    }
+    if (info.part.features) {
+        add_features(*info.part.features, out);
     }
     if (info.ground) {
         add_ground(*info.ground, out);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "firmware/base/inch.hpp"
+#include "host_tools/job/part_info/feature_lines.hpp"
 #include "host_tools/job/part_info/part_info.hpp"
 
 #include "fmt/format.h"
@@ -16,17 +17,6 @@ using job::PartLayer;
 namespace {
 
 constexpr std::size_t kMostListed = 40;  // loops or chains of a layer
-
-// With up to `digits` decimals, and no zeros at the end.
-std::string number(double value, int digits = 4)
-{
-    std::string text = fmt::format("{:.{}f}", value, digits);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') {
-        text.pop_back();
-    }
-    return text == "-0" ? "0" : text;
-}
 
 std::string place(Vec3d p)
 {
@@ -265,6 +255,11 @@ std::string text_of(const PartInfo& info)
     }
     for (const std::string& note : info.part.notes) {
         lines.add("note", note);
+    }
+    if (info.part.features) {
+        for (const auto& [label, value] : feature_lines(*info.part.features)) {
+            lines.add(label.c_str(), value);
+        }
     }
     if (info.ground) {
         add_ground(info, lines);

@@ -127,6 +127,35 @@ TEST(CadHoles, OfACounterboreBothDiametersAreHoles)
     DOUBLES_EQUAL(-6, found.holes[1].span->bottom, 1e-6);
 }
 
+TEST(CadHoles, ACountersinkIsTheConeOverItsHole)
+{
+    const TopoDS_Shape drilled = without(plate(), cylinder(30, 20, -25, 5, 2.5));
+    // 90 degrees, from a diameter of 5 mm to 10 mm at the top
+    const CadHoles found =
+        holes(without(drilled, BRepPrimAPI_MakeCone(upright(30, 20, -2.5), 2.5, 5.5, 3).Shape()));
+    LONGS_EQUAL(1, found.holes.size());
+    DOUBLES_EQUAL(-2.5, found.holes[0].span->top, 1e-6);
+    CHECK(found.cones[0].has_value());
+    DOUBLES_EQUAL(10, found.cones[0]->diameter, 1e-6);
+    DOUBLES_EQUAL(2.5, found.cones[0]->depth, 1e-6);
+    DOUBLES_EQUAL(90, found.cones[0]->angle, 1e-6);
+    CHECK_FALSE(holes(drilled).cones[0].has_value());
+}
+
+TEST(CadHoles, CornersOfPocketsAreCountedByTheirRadius)
+{
+    const TopoDS_Shape pocket = BRepPrimAPI_MakeBox(gp_Pnt(20, 10, -5), gp_Pnt(60, 40, 5)).Shape();
+    LONGS_EQUAL(0, holes(without(plate(), pocket)).corners.size());
+    // a slot's two ends
+    const TopoDS_Shape ends =
+        without(without(plate(), cylinder(20, 25, -5, 5, 4)), cylinder(60, 25, -5, 5, 4));
+    const CadHoles found =
+        holes(without(ends, BRepPrimAPI_MakeBox(gp_Pnt(20, 21, -5), gp_Pnt(60, 29, 5)).Shape()));
+    LONGS_EQUAL(2, found.corners.size());
+    DOUBLES_EQUAL(4, found.corners[0], 1e-6);
+    LONGS_EQUAL(0, found.holes.size());
+}
+
 TEST(CadHoles, OpenBelowHorizontalAndSolidCylindersAreNone)
 {
     const CadHoles below = holes(without(plate(), cylinder(30, 20, -25, -12, 2.5)));
