@@ -9,6 +9,7 @@
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
+#include "hal/stm32f4/spindle_wire.hpp"
 #include "hal/stm32f4/step_ports.hpp"
 #include "hal/stm32f4/usb_endpoints.hpp"
 
@@ -42,6 +43,11 @@ struct OctopusTable {
     // Of TMC2209 modules of the maker.
     static constexpr hal::stm32f4::DrivePins kDriveWires{{{'C', 4}, {'D', 11}, {'C', 6}, {'F', 2}}};
     static constexpr float kSenseMilliohms = 110;
+
+    // RS-485, to a spindle's drive: the WIFI header.
+    static constexpr hal::stm32f4::SpindleWirePins kSpindleWire{{'D', 8}, {'D', 9}, {'D', 7}};
+    template <class Chip>
+    using SpindlePort = hal::stm32f4::Usart3Port<Chip>;
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

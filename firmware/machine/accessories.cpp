@@ -92,17 +92,20 @@ OutputLevels output_levels(const Accessories& accessories,
     levels.flood = accessories.flood_on();
     levels.mist = accessories.mist_on();
     constexpr unsigned kAxes = 7;
-    levels.drives_on = drives.bits & kAxes;
+    // A drive that no axis has goes with all of them.
+    const std::optional<unsigned> doubled = settings.second_motor_axis();
+    const bool second = doubled ? drives.contains(*doubled) : drives.bits == kAxes;
+    constexpr unsigned kSecondDrive = 1U << kAxisCount;
+    levels.drives_on =
+        static_cast<std::uint8_t>((drives.bits & kAxes) | (second ? kSecondDrive : 0U));
     const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
     const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
     levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
-    if (const std::optional<unsigned> axis = settings.second_motor_axis()) {
+    if (const std::optional<unsigned> axis = doubled) {
         const unsigned turned = settings.whole(Setting::kSecondInvert) ^ directions;
         levels.inverted_lines |=
             static_cast<PulseLines>((steps >> *axis & 1U) * kSecondStepLine |
                                     (turned >> *axis & 1U) * kSecondDirectionLine);
-        constexpr unsigned kSecondDrive = 1U << kAxisCount;
-        levels.drives_on |= static_cast<std::uint8_t>(drives.contains(*axis) ? kSecondDrive : 0U);
     }
     levels.drives_enable_inverted = settings.on(Setting::kEnableInvert);
     const unsigned coolant = settings.whole(Setting::kCoolantInvert) & (kFloodOutput | kMistOutput);

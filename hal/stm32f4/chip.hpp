@@ -39,6 +39,7 @@ struct Chip {
     static Timer<Word>& timer12() noexcept { return block_at<Timer<Word>>(0x40001800); }
     static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
     static Usart<Word>& usart2() noexcept { return block_at<Usart<Word>>(0x40004400); }
+    static Usart<Word>& usart3() noexcept { return block_at<Usart<Word>>(0x40004800); }
     static UsbCore<Word>& usb() noexcept { return block_at<UsbCore<Word>>(0x50000000); }
     static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
     static Debug<Word>& debug() noexcept { return block_at<Debug<Word>>(0xE0042000); }

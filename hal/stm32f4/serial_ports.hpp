@@ -1,4 +1,4 @@
-// The USARTs that may be a board's serial line, with their streams, interrupts and pins.
+// The USARTs that may be a board's serial line, or its spindle's, with their streams, interrupts and pins.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cusp::hal::stm32f4 {
 
-// RM0090 tables 42 and 43: both ports by channel 4.
+// RM0090 tables 42 and 43: all by channel 4.
 template <class Chip>
 struct Usart1Port {
     static auto& usart() noexcept { return Chip::usart1(); }
@@ -35,6 +35,19 @@ struct Usart2Port {
     static constexpr Pin kTransmit{'A', 2};
     static constexpr Pin kReceive{'A', 3};
     static constexpr PeripheralClocks kClocks{1U << 21U, 1U << 17U, 0};
+    static constexpr bool kOnFastBus = false;
+};
+template <class Chip>
+struct Usart3Port {
+    static auto& usart() noexcept { return Chip::usart3(); }
+    static auto& dma() noexcept { return Chip::dma1(); }
+    static constexpr unsigned kReceiveStream = 1;
+    static constexpr unsigned kSendStream = 3;
+    static constexpr unsigned kInterrupt = 39;
+    static constexpr unsigned kSendInterrupt = 14;  // DMA1 stream 3
+    static constexpr Pin kTransmit{'D', 8};
+    static constexpr Pin kReceive{'D', 9};
+    static constexpr PeripheralClocks kClocks{1U << 21U, 1U << 18U, 0};
     static constexpr bool kOnFastBus = false;
 };
 

@@ -21,6 +21,7 @@ WIRED_AS = {"skr2_f429": "skr2_f407", "octopus_f429": "octopus_f446"}
 WITHOUT_CORE = ("driven from outside and from inside", "the wire is driven from both ends")
 # Which USART has the pin as its transmitter.
 USARTS = {"PA9": (), "PA2": ("usart2",)}
+USART_OF_SPINDLE = {"PA2": "2", "PD8": "3"}
 # Contacts to ground that are closed where nothing is tripped.
 CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")
 # A drive in the wiring table whose module is in its socket.
@@ -83,7 +84,8 @@ class Chip:
             [str(cosim), chip, str(nominal if crystal is None else crystal), str(image), *more,
              *USARTS[self.pins["serial transmit"]],
              *(word for drive in self.drives for word in ("drive", self.pins[drive])),
-             *(("spindle", str(spindle), self.pins["spindle sends"]) if spindle else ())],
+             *(("spindle", str(spindle), USART_OF_SPINDLE[self.pins["spindle transmit"]], self.pins["spindle sends"])
+               if spindle else ())],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         if quiet_inputs:
             for signal, pin in self.pins.items():

@@ -79,11 +79,11 @@ void ChipUnderTest::add_drive(const std::string& name, char letter, unsigned pin
     active_.push_back(drives_.back().get());
 }
 
-void ChipUnderTest::add_spindle(vfd::Protocol protocol, char letter, unsigned pin)
+void ChipUnderTest::add_spindle(vfd::Protocol protocol, unsigned usart, char letter, unsigned pin)
 {
     constexpr std::uint32_t kBaud = 19200;
-    spindle_ = std::make_unique<SpindleModel>(circuit_, *usarts_.at(1), port(letter), pin, protocol,
-                                              kBaud);
+    spindle_ = std::make_unique<SpindleModel>(circuit_, *usarts_.at(usart - 1), port(letter), pin,
+                                              protocol, kBaud);
     active_.push_back(spindle_.get());
 }
 

@@ -58,8 +58,8 @@ public:
     PortModel& port(char letter);
     // A drive whose single wire goes to this pin. They are told apart by their places.
     void add_drive(const std::string& name, char port, unsigned pin);
-    // A spindle's drive at USART2, whose transceiver has this pin.
-    void add_spindle(vfd::Protocol protocol, char port, unsigned pin);
+    // A spindle's drive at a USART, whose transceiver has this pin.
+    void add_spindle(vfd::Protocol protocol, unsigned usart, char port, unsigned pin);
     SpindleModel& spindle() { return *spindle_; }
     DriveModel& drive(std::size_t place) { return *drives_.at(place); }
     std::size_t drives() const { return drives_.size(); }
@@ -136,7 +136,7 @@ private:
     std::unique_ptr<Model> power_;
     std::unique_ptr<WatchdogModel> watchdog_;
     std::unique_ptr<DmaModel> dma1_, dma2_;
-    std::array<std::unique_ptr<UsartModel>, 2> usarts_;
+    std::array<std::unique_ptr<UsartModel>, 3> usarts_;
     std::unique_ptr<SpindleModel> spindle_;
     std::unique_ptr<UsbModel> usb_;
     std::unique_ptr<UsbHost> host_;

@@ -184,7 +184,8 @@ struct ChipUnderTest::SerialWiring {
     std::vector<unsigned> send_streams;
     std::function<std::uint32_t()> bus_hz;
     std::function<bool()> clocked;
-    unsigned first_pin;  // of port A: transmit, then receive
+    char port;
+    unsigned first_pin;  // transmit, then receive
     unsigned interrupt;
 };
 
@@ -202,13 +203,11 @@ void ChipUnderTest::add_serial(const SerialWiring& wiring)
     usart = std::make_unique<UsartModel>(
         circuit_, name,
         UsartModel::Wiring{wiring.bus_hz, ask(wiring.receive_streams), ask(wiring.send_streams),
-                           [this, first = wiring.first_pin] {
-                               const PortModel& a = *ports_.at('A');
-                               return a.mode(first) == 2 && a.function(first) == 7 &&
-                                      a.mode(first + 1) == 2 && a.function(first + 1) == 7;
+                           [&port = port(wiring.port), first = wiring.first_pin] {
+                               return port.mode(first) == 2 && port.function(first) == 7 &&
+                                      port.mode(first + 1) == 2 && port.function(first + 1) == 7;
                            },
                            wiring.interrupt});
-    dma->set_start_listener([port = usart.get()] { port->stream_ready(); });
     add(wiring.address, name, *usart, wiring.clocked);
     active_.push_back(usart.get());
 }
@@ -222,6 +221,7 @@ void ChipUnderTest::make_serial()
                 {7},
                 [this] { return clocks_->fast_bus_hz(); },
                 [this] { return clocks_->apb2_on(4); },
+                'A',
                 9,
                 37});
     add_serial({2,
@@ -231,8 +231,24 @@ void ChipUnderTest::make_serial()
                 {6},
                 [this] { return clocks_->slow_bus_hz(); },
                 [this] { return clocks_->apb1_on(17); },
+                'A',
                 2,
                 38});
+    add_serial({3,
+                0x40004800,
+                *dma1_,
+                {1},
+                {3},
+                [this] { return clocks_->slow_bus_hz(); },
+                [this] { return clocks_->apb1_on(18); },
+                'D',
+                8,
+                39});
+    dma2_->set_start_listener([this] { usarts_[0]->stream_ready(); });
+    dma1_->set_start_listener([this] {
+        usarts_[1]->stream_ready();
+        usarts_[2]->stream_ready();
+    });
 }
 
 // RM0090 section 34 and table 62; the pins by alternate function 10.

@@ -1,8 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [spindle PROTOCOL PIN] [loader FILE.bin SECTOR]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [spindle PROTOCOL USART PIN] [loader FILE.bin SECTOR]
 //
-// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at USART2, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
+// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at this USART, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -401,7 +401,12 @@ int run_commands(int count, char** arguments)
     std::vector<PinName> drives;
     std::vector<std::uint8_t> image = read_file(arguments[3]);
     unsigned settings = 1;  // their first sector
-    std::optional<std::pair<vfd::Protocol, PinName>> spindle;
+    struct Spindle {
+        vfd::Protocol protocol;
+        unsigned usart;
+        PinName pin;
+    };
+    std::optional<Spindle> spindle;
     for (int i = 4; i < count; ++i) {
         const std::string word = arguments[i];
         if (word == "external") {
@@ -411,10 +416,11 @@ int run_commands(int count, char** arguments)
         } else if (word == "drive" && i + 1 < count) {
             ++i;
             drives.push_back(pin_name(arguments[i]));
-        } else if (word == "spindle" && i + 2 < count) {
+        } else if (word == "spindle" && i + 3 < count) {
             spindle = {static_cast<vfd::Protocol>(std::stoi(arguments[i + 1])),
-                       pin_name(arguments[i + 2])};
-            i += 2;
+                       static_cast<unsigned>(std::stoul(arguments[i + 2])),
+                       pin_name(arguments[i + 3])};
+            i += 3;
         } else if (word == "loader" && i + 2 < count) {
             std::vector<std::uint8_t> loader = read_file(arguments[i + 1]);
             settings = static_cast<unsigned>(std::stoul(arguments[i + 2]));
@@ -434,7 +440,7 @@ int run_commands(int count, char** arguments)
         chip.add_drive("drive " + std::to_string(chip.drives()), pin.port, pin.number);
     }
     if (spindle) {
-        chip.add_spindle(spindle->first, spindle->second.port, spindle->second.number);
+        chip.add_spindle(spindle->protocol, spindle->usart, spindle->pin.port, spindle->pin.number);
     }
     // 1.3 cycles an instruction.
     chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);

@@ -92,6 +92,8 @@ def run_random(options, seed):
         options.settings = folder / f"random_{seed}.settings"
         settings = random_programs.random_settings(chance)
         settings += f"$2={chance.randint(0, 7)}\n$3={chance.randint(0, 7)}\n"
+        if seed % 3 == 0:
+            settings += "$160=0.05\n$161=0.3\n$162=0.008\n"
         options.settings.write_text(settings)
         options.as_it_is = seed % 2 == 0
         options.script = folder / f"random_{seed}.script" if chance.random() < 0.7 else None

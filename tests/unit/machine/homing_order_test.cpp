@@ -111,7 +111,7 @@ TEST(KeptDrives, StayOnWhateverTheIdleLockSays)
     (void)bench.exchange("$37=4\n", 400);
     UNSIGNED_LONGS_EQUAL(4, bench.board.mill.outputs().drives_on);
     (void)bench.exchange("G1 X-1 F600\n", 60);
-    UNSIGNED_LONGS_EQUAL(7, bench.board.mill.outputs().drives_on);
+    UNSIGNED_LONGS_EQUAL(15, bench.board.mill.outputs().drives_on);
     (void)bench.finish();
     bench.run(50);
     UNSIGNED_LONGS_EQUAL(4, bench.board.mill.outputs().drives_on);
