@@ -29,6 +29,10 @@ inline float dot(WideVec a, WideVec b) noexcept
     return products[0] + products[1] + products[2];
 }
 
+// Of the three numbers.
+inline float sum(WideVec a) noexcept { return a.lanes[0] + a.lanes[1] + a.lanes[2]; }
+inline float sum(Vec3f a) noexcept { return a.x + a.y + a.z; }
+
 inline float norm(WideVec a) noexcept { return std::sqrt(dot(a, a)); }
 
 inline WideVec magnitude(WideVec a) noexcept
@@ -74,6 +78,19 @@ inline float least(float most, WideVec a) noexcept
     return least(most, a.lanes[0], a.lanes[1], a.lanes[2]);
 }
 inline float least(float most, Vec3f a) noexcept { return least(most, a.x, a.y, a.z); }
+
+// The greatest of a number and the three of a vector.
+inline float greatest(float most, float x, float y, float z) noexcept
+{
+    most = most < x ? x : most;
+    most = most < y ? y : most;
+    return most < z ? z : most;
+}
+inline float greatest(float most, WideVec a) noexcept
+{
+    return greatest(most, a.lanes[0], a.lanes[1], a.lanes[2]);
+}
+inline float greatest(float most, Vec3f a) noexcept { return greatest(most, a.x, a.y, a.z); }
 
 // Cores of 64 bits have such registers, or a compiler that does without.
 using LaneVec = std::conditional_t<sizeof(std::size_t) == 8, WideVec, Vec3f>;

@@ -1,6 +1,7 @@
 // Sine, cosine and arc tangent: argument reduction and polynomials, all in plain arithmetic.
 #include "firmware/base/math.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -124,6 +125,21 @@ double atan2(double y, double x) noexcept
         angle = kPi - angle;
     }
     return y < 0 ? -angle : angle;
+}
+
+// Newton's steps on v^3 = q, from a start with v^3 >= q.
+float cube_root(float q) noexcept
+{
+    float v = std::max(1.0F, q);
+    v = std::min(v, std::sqrt(q) + 1.0F);
+    for (int i = 0; i < 48; ++i) {
+        const float next = (2.0F * v + q / (v * v)) / 3.0F;
+        if (next >= v) {
+            break;
+        }
+        v = next;
+    }
+    return v;
 }
 
 }  // namespace cusp

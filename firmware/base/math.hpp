@@ -34,4 +34,7 @@ inline SinCos<float> sin_cos_near_zero(float x) noexcept
 // The angle of the vector (x, y) in (-pi, pi]; 0 for (0, 0). Absolute error at most 5e-16.
 double atan2(double y, double x) noexcept;
 
+// Cube root, relative error at most 1e-6. Precondition: 1e-18 <= q <= 1e18.
+float cube_root(float q) noexcept;
+
 }  // namespace cusp

@@ -68,13 +68,23 @@ float radians_per_mm(const ArcBlock& arc) noexcept
     return arc.angle_per_unit * kPathUnitsPerMillimetre;
 }
 
-EndGeometry arc_geometry(const ArcBlock& arc, float angle) noexcept
+// By arc length, with signs. By the angle the frame turns as T' = N, N' = -T.
+LaneDerivatives arc_state(const ArcBlock& arc, float angle) noexcept
 {
     const ArcFrame frame = frame_at(arc, angle);
     const float rate = radians_per_mm(arc);
     const float radius = arc.radius + arc.spread * angle;
-    return {(frame.tangent * radius - frame.normal * arc.spread + arc.axial) * rate,
-            (frame.normal * radius + frame.tangent * (2.0F * arc.spread)) * (rate * rate)};
+    const Vec3f first = frame.tangent * radius - frame.normal * arc.spread + arc.axial;
+    const Vec3f second = frame.normal * radius + frame.tangent * (2.0F * arc.spread);
+    const Vec3f third = frame.normal * (3.0F * arc.spread) - frame.tangent * radius;
+    return {to_lanes(first * rate), to_lanes(second * (rate * rate)),
+            to_lanes(third * (rate * rate * rate))};
+}
+
+EndGeometry arc_geometry(const ArcBlock& arc, float angle) noexcept
+{
+    const LaneDerivatives state = arc_state(arc, angle);
+    return {to_vec(state.first), to_vec(state.second)};
 }
 
 // Largest |a cos h + b sin h| over h between two angles at most pi/2 apart.
@@ -314,6 +324,26 @@ EndGeometry end_geometry(const Block& block) noexcept
             break;
     }
     return start_geometry(block);
+}
+
+LaneDerivatives derivatives_at(const Block& block, float s) noexcept
+{
+    switch (block.shape) {
+        case BlockShape::kArc:
+            return arc_state(block.arc, s * radians_per_mm(block.arc));
+        case BlockShape::kCurve: {
+            std::uint8_t interval = block.curve->table.size / 2U;
+            return curve_state(*block.curve, nurbs::parameter_at(block.curve->table, s, interval));
+        }
+        case BlockShape::kQuintic: {
+            const QuinticFrame frame = quintic_frame(block);
+            return quintic_state(frame, s * frame.inverse);
+        }
+        case BlockShape::kLine:
+            break;
+    }
+    const LaneVec none = all_lanes(0.0F);
+    return {to_lanes(displacement_mm(block) / length_mm(block)), none, none};
 }
 
 unsigned stretch_count(const Block& block) noexcept

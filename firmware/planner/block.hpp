@@ -114,6 +114,10 @@ struct EndGeometry {
 EndGeometry start_geometry(const Block& block) noexcept;
 EndGeometry end_geometry(const Block& block) noexcept;
 
+// The first three derivatives of the place by arc length, with signs, at `s` mm from the start.
+// Precondition: 0 <= s <= the length. Context: main loop.
+LaneDerivatives derivatives_at(const Block& block, float s) noexcept;
+
 // A block is cut into stretches of nearly constant direction and curvature.
 unsigned stretch_count(const Block& block) noexcept;
 

@@ -4,26 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::planner {
 namespace {
 
 constexpr float kTiny = 1e-20F;
-
-// Largest v with k v^3 <= j, by bisection on the exponent-free form: v = (j/k)^(1/3).
-float cube_root(float q) noexcept
-{
-    // Newton from above on v^3 = q converges from a start with v^3 >= q; q in [1e-12, 1e18].
-    float v = std::max(1.0F, q);
-    v = std::min(v, std::sqrt(q) + 1.0F);
-    for (int i = 0; i < 24; ++i) {
-        const float next = (2.0F * v + q / (v * v)) / 3.0F;
-        if (next >= v) {
-            break;
-        }
-        v = next;
-    }
-    return v;
-}
 
 // The least of the cube roots. Rounding aside a root rises with its cube: of all floats below 1e15
 // none has a root below that of one smaller by more than 7e-8 of it.

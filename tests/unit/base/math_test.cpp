@@ -45,3 +45,13 @@ TEST(Math, Atan2IsWithinItsBoundInAllQuadrants)
     DOUBLES_EQUAL(0, cusp::atan2(0, 0), 0);
     DOUBLES_EQUAL(cusp::kPi, cusp::atan2(0, -1), 0);
 }
+
+TEST(Math, CubeRootIsNearlyExact)
+{
+    std::uniform_real_distribution<double> exponents{-18, 18};
+    for (int i = 0; i < kCases; ++i) {
+        const auto q = static_cast<float>(std::pow(10.0, exponents(random)));
+        const double root = std::cbrt(static_cast<double>(q));
+        DOUBLES_EQUAL(1, static_cast<double>(cusp::cube_root(q)) / root, 1e-6);
+    }
+}

@@ -171,3 +171,48 @@ TEST(Stretches, AreTheSameReadInOrderAndAlone)
         UNSIGNED_LONGS_EQUAL(16'000'000, stretch(block, count - 1).end);
     }
 }
+
+// Each derivative is the difference of the one before, over a step as long as float allows.
+TEST(Stretches, DerivativesAreThoseOfTheOnesBefore)
+{
+    std::mt19937_64 random{7302};
+    std::uniform_real_distribution<float> coordinate{-1, 1};
+    for (int k = 0; k < 400; ++k) {
+        CurveBlock curve{};
+        Block block{};
+        if (k % 2 == 0) {
+            curve.piece = stretch_test_piece(random);
+            if (!nurbs::make_arc_length_table(curve.piece, curve.table)) {
+                continue;
+            }
+            block.shape = BlockShape::kCurve;
+            block.curve = &curve;
+            set_length(block,
+                       static_cast<std::uint32_t>(curve.table.length() * kPathUnitsPerMillimetre));
+        } else {
+            // A helix whose radius changes a little.
+            const float radius = 1.5F + coordinate(random);
+            block.shape = BlockShape::kArc;
+            block.arc = {{1, 0, 0},
+                         {0, 1, 0},
+                         {0, 0, 0.2F * radius * coordinate(random)},
+                         radius,
+                         1e-3F * coordinate(random),
+                         0.9F / (radius * kPathUnitsPerMillimetre)};
+            set_length(block, static_cast<std::uint32_t>(radius * kPathUnitsPerMillimetre));
+        }
+        const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+        const float step = 0.01F * length;
+        const LaneDerivatives a = derivatives_at(block, 0.4F * length);
+        const LaneDerivatives m = derivatives_at(block, 0.4F * length + step);
+        const LaneDerivatives b = derivatives_at(block, 0.4F * length + 2.0F * step);
+        const float scale = 0.5F / step;
+        const float second_off = norm((b.first - a.first) * scale - m.second);
+        const float third_off = norm((b.second - a.second) * scale - m.third);
+        // Of the next derivative over the step, and rounding.
+        const float bound = norm(m.third) + norm(b.third - a.third) + 1.0F;
+        CHECK_TEXT(second_off < 0.02F * bound * length + 1e-4F / step, std::to_string(k).c_str());
+        CHECK_TEXT(third_off < norm(b.third - a.third) + 1e-3F * bound / step,
+                   std::to_string(k).c_str());
+    }
+}
