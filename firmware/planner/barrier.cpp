@@ -1,0 +1,416 @@
+// Gradient, Hessian and the longest step, cell by cell.
+#include "firmware/planner/barrier.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/assert.hpp"
+#include "firmware/planner/law_rows.hpp"
+
+namespace cusp::planner {
+namespace {
+
+constexpr float kPartOfSlack = 0.97F;  // that a step may take
+// Added to the diagonal: rounding leaves it positive.
+constexpr float kRelativeDamping = 1e-6F;
+constexpr float kDamping = 1e-6F;
+constexpr std::uint32_t kMostLocal = kMostWindow + 4;  // two coefficients more on either side
+
+// x at the places of a cell is linear in three coefficients: their parts, one for each.
+struct Parts {
+    std::array<float, 3> value;
+    std::array<float, 3> slope;
+    std::array<float, 3> bend;
+};
+
+float sum_of(const std::array<float, 3>& a) noexcept { return a[0] + a[1] + a[2]; }
+
+SquaredSpeed sum_of(const Parts& parts) noexcept
+{
+    return {sum_of(parts.value), sum_of(parts.slope), sum_of(parts.bend)};
+}
+
+// Shape of a cell: how its three coefficients make x.
+struct CellShape {
+    CellShape(const LawSpline& spline, std::uint32_t k) noexcept : length{spline.station(k).length}
+    {
+        const float before = spline.length_before(k);
+        const float after = spline.station(k + 1).length;
+        inverse = 1.0F / length;
+        const float to_left = 1.0F / (before + length);
+        const float to_right = 1.0F / (length + after);
+        left = length * to_left;
+        left_slope = 2.0F * to_left;
+        right = after * to_right;
+        right_slope = 2.0F * to_right;
+    }
+
+    // Parts of the coefficients a, b and c at the start.
+    Parts at_start(float a, float b, float c) const noexcept
+    {
+        const float fall = left_slope * a;
+        const float rise = right_slope * c;
+        const float middle = left_slope * b;
+        return {{left * a, b - left * b, 0.0F},
+                {-fall, middle, 0.0F},
+                {fall * inverse, (-right_slope * b - middle) * inverse, rise * inverse}};
+    }
+
+    float length;
+    float inverse;
+    float left;  // weight of the first coefficient at the start, of the second at the end
+    float left_slope;
+    float right;
+    float right_slope;
+};
+
+Parts advanced(const Parts& at, float travel) noexcept
+{
+    Parts to = at;
+    for (unsigned i = 0; i < 3; ++i) {
+        to.value[i] += travel * (at.slope[i] + 0.5F * travel * at.bend[i]);
+        to.slope[i] += travel * at.bend[i];
+    }
+    return to;
+}
+
+// Gradient and Hessian by x, x' and x'' at one place.
+struct PlaceSums {
+    std::array<float, 3> gradient;
+    float vv, vs, vb, ss, sb, bb;
+};
+
+// The sums over all rows at a place, an axis a lane.
+struct RowSums {
+    // -log of both slacks, left - value and left + value.
+    void add(const LawRow& row, const LaneVec& moving) noexcept
+    {
+        const LaneVec above = row.left - row.value;
+        const LaneVec below = row.left + row.value;
+        const LaneVec inverse = quotient(moving, product(above, below));
+        const LaneVec plus = product(below, inverse);
+        const LaneVec minus = product(above, inverse);
+        const LaneVec both = plus + minus;
+        const LaneVec twist = plus - minus;
+        const LaneVec squares = product(plus, plus) + product(minus, minus);
+        const LaneVec skew = product(both, twist);
+        const LaneVec& fall = row.fall;
+        value = value + product(both, fall) + product(twist, row.by_value);
+        slope = slope + product(twist, row.by_slope);
+        bend = bend + product(twist, row.by_bend);
+        const LaneVec by_value = product(squares, row.by_value) + product(skew, fall);
+        vv = vv + product(by_value, row.by_value) +
+             product(product(squares, fall) + product(skew, row.by_value), fall);
+        vs = vs + product(by_value, row.by_slope);
+        vb = vb + product(by_value, row.by_bend);
+        const LaneVec by_slope = product(squares, row.by_slope);
+        ss = ss + product(by_slope, row.by_slope);
+        sb = sb + product(by_slope, row.by_bend);
+        bb = bb + product(product(squares, row.by_bend), row.by_bend);
+    }
+    PlaceSums of_axes() const noexcept
+    {
+        return {{sum(value), sum(slope), sum(bend)},
+                sum(vv),
+                sum(vs),
+                sum(vb),
+                sum(ss),
+                sum(sb),
+                sum(bb)};
+    }
+
+    LaneVec value = all_lanes(0.0F);
+    LaneVec slope = value;
+    LaneVec bend = value;
+    LaneVec vv = value;
+    LaneVec vs = value;
+    LaneVec vb = value;
+    LaneVec ss = value;
+    LaneVec sb = value;
+    LaneVec bb = value;
+};
+
+// The parts at the start of a cell of what its coefficients add.
+Parts start_of(const LawSpline& spline, std::uint32_t k) noexcept
+{
+    const CellShape shape{spline, k};
+    return shape.at_start(spline.coefficient(k), spline.coefficient(k + 1),
+                          spline.coefficient(k + 2));
+}
+
+// Calls `begin` with the parts at each place of the cell, then `take` with each row there.
+template <class Begin, class Take>
+void for_rows(const LawSpline& spline, std::uint32_t k, Begin begin, Take take) noexcept
+{
+    const Station& station = spline.station(k);
+    const Parts start = start_of(spline, k);
+    for (unsigned i = 0; i < kPlacesOfCell; ++i) {
+        const Parts parts = advanced(start, 0.5F * static_cast<float>(i) * station.length);
+        const SquaredSpeed x = sum_of(parts);
+        const float root = std::sqrt(x.value);
+        begin(parts);
+        take(jerk_row(station.places[i], station.kept, x, root));
+        if (i + 1 < kPlacesOfCell || station.acceleration_at_end) {
+            take(acceleration_row(station.places[i], station.kept, spline.ratio, x, root));
+        }
+    }
+}
+
+// The pentadiagonal system of a window, by relative changes of the coefficients.
+class NewtonSystem {
+public:
+    explicit NewtonSystem(const LawWindow& window) noexcept
+        : window_{window}, base_{window.first_cell()}
+    {
+    }
+
+    void add_cell(const LawSpline& spline, std::uint32_t k, float weight) noexcept;
+    void add_coefficient(const LawSpline& spline,
+                         std::uint32_t j,
+                         const BarrierWeight& weight) noexcept;
+    void solve() noexcept;
+    // The longest part of the step that leaves of each slack what a step leaves.
+    float longest(const LawSpline& spline) const noexcept;
+    void apply(LawSpline& spline, float part) const noexcept;
+
+private:
+    struct Line {
+        float gradient{0};
+        float diagonal{0};
+        float next{0};    // coupling with the next line
+        float second{0};  // and with the one after it
+        float change{0};
+    };
+    Line& line(std::uint32_t j) noexcept { return lines_[j - base_]; }
+    const Line& line(std::uint32_t j) const noexcept { return lines_[j - base_]; }
+    void add_place(std::uint32_t k, const Parts& parts, const PlaceSums& sums, float mu) noexcept;
+    void tie_ends() noexcept;
+
+    LawWindow window_;
+    std::uint32_t base_;
+    std::array<Line, kMostLocal> lines_{};
+};
+
+void NewtonSystem::add_place(std::uint32_t k, const Parts& p, const PlaceSums& s, float mu) noexcept
+{
+    std::array<float, 3> by_value;
+    std::array<float, 3> by_slope;
+    std::array<float, 3> by_bend;
+    for (unsigned i = 0; i < 3; ++i) {
+        line(k + i).gradient += mu * (s.gradient[0] * p.value[i] + s.gradient[1] * p.slope[i] +
+                                      s.gradient[2] * p.bend[i]);
+        by_value[i] = mu * (s.vv * p.value[i] + s.vs * p.slope[i] + s.vb * p.bend[i]);
+        by_slope[i] = mu * (s.vs * p.value[i] + s.ss * p.slope[i] + s.sb * p.bend[i]);
+        by_bend[i] = mu * (s.vb * p.value[i] + s.sb * p.slope[i] + s.bb * p.bend[i]);
+    }
+    const auto pair = [&](unsigned a, unsigned b) {
+        return by_value[a] * p.value[b] + by_slope[a] * p.slope[b] + by_bend[a] * p.bend[b];
+    };
+    for (unsigned i = 0; i < 3; ++i) {
+        line(k + i).diagonal += pair(i, i);
+    }
+    line(k).next += pair(0, 1);
+    line(k + 1).next += pair(1, 2);
+    line(k).second += pair(0, 2);
+}
+
+void NewtonSystem::add_cell(const LawSpline& spline, std::uint32_t k, float weight) noexcept
+{
+    Parts at{};
+    RowSums rows;
+    unsigned places = 0;
+    for_rows(
+        spline, k,
+        [&](const Parts& parts) {
+            if (places > 0) {
+                add_place(k, at, rows.of_axes(), weight);
+            }
+            ++places;
+            at = parts;
+            rows = RowSums{};
+        },
+        [&](const LawRow& row) { rows.add(row, spline.station(k).moving); });
+    add_place(k, at, rows.of_axes(), weight);
+}
+
+// A slack as small as rounding counts as that.
+float part_of_cap(const LawSpline& spline, std::uint32_t j) noexcept
+{
+    constexpr float kLeastSlack = 1e-6F;
+    return std::min(spline.coefficient(j) / spline.cap(j), 1.0F - kLeastSlack);
+}
+
+// The time that a coefficient stands for is a third of its support over its root.
+void NewtonSystem::add_coefficient(const LawSpline& spline,
+                                   std::uint32_t j,
+                                   const BarrierWeight& weight) noexcept
+{
+    const float middle = spline.length_before(j);
+    const float before = j < 2 ? middle : spline.station(j - 2).length;
+    const float after = spline.station(j).length;
+    const float c = spline.coefficient(j);
+    const float time = weight.time * (before + middle + after) / (3.0F * std::sqrt(c));
+    const float part = part_of_cap(spline, j);
+    const float push = part / (1.0F - part);
+    Line& own = line(j);
+    own.gradient += weight.speed * push - 0.5F * time;
+    own.diagonal += weight.speed * push * push + 0.75F * weight.time_hessian * time;
+}
+
+// Coefficients beyond the ends change by the same part as their neighbours.
+void NewtonSystem::tie_ends() noexcept
+{
+    if (window_.start_factor > 0) {
+        const Line& beyond = line(0);
+        Line& first = line(1);
+        first.gradient += beyond.gradient;
+        first.diagonal += beyond.diagonal + 2.0F * beyond.next;
+        first.next += beyond.second;
+    }
+    if (window_.end_factor > 0) {
+        const Line& beyond = line(window_.end);
+        Line& last = line(window_.end - 1);
+        last.gradient += beyond.gradient;
+        last.diagonal += beyond.diagonal + 2.0F * last.next;
+        line(window_.end - 2).next += line(window_.end - 2).second;
+    }
+}
+
+// L D L^T without pivots: the matrix is positive definite.
+void NewtonSystem::solve() noexcept
+{
+    tie_ends();
+    // Of the last two lines: their couplings with those after them, in the matrix and in L.
+    struct Passed {
+        float next{0}, second{0};
+        float next_of_l{0}, second_of_l{0};
+        float change{0};
+    };
+    Passed one;
+    Passed two;
+    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+        Line& own = line(j);
+        const float diagonal = own.diagonal * (1.0F + kRelativeDamping) + kDamping -
+                               one.next * one.next_of_l - two.second * two.second_of_l;
+        const float inverse = 1.0F / std::max(diagonal, kDamping);
+        Passed now;
+        now.next = own.next - one.next_of_l * one.second;
+        now.second = own.second;
+        now.next_of_l = now.next * inverse;
+        now.second_of_l = now.second * inverse;
+        now.change = -own.gradient - one.next_of_l * one.change - two.second_of_l * two.change;
+        own = {own.gradient, inverse, now.next_of_l, now.second_of_l, now.change};
+        two = one;
+        one = now;
+    }
+    for (std::uint32_t j = window_.end; j-- > window_.begin;) {
+        Line& own = line(j);
+        own.change *= own.diagonal;
+        own.change -= j + 1 < window_.end ? own.next * line(j + 1).change : 0.0F;
+        own.change -= j + 2 < window_.end ? own.second * line(j + 2).change : 0.0F;
+    }
+    for (std::uint32_t j = base_; j < window_.begin; ++j) {
+        line(j).change = window_.start_factor > 0 ? line(window_.begin).change : 0.0F;
+    }
+    line(window_.end).change = window_.end_factor > 0 ? line(window_.end - 1).change : 0.0F;
+    if (window_.end_factor <= 0) {
+        line(window_.end + 1).change = 0.0F;
+    }
+}
+
+// Greatest -dg/g of a row's slacks for the changes of x.
+LaneVec approach(const LawRow& row, const SquaredSpeed& change) noexcept
+{
+    const LaneVec turn =
+        row.by_value * change.value + row.by_slope * change.slope + row.by_bend * change.bend;
+    const LaneVec fall = row.fall * change.value;
+    return larger(quotient(fall + turn, row.left - row.value),
+                  quotient(fall - turn, row.left + row.value));
+}
+
+float NewtonSystem::longest(const LawSpline& spline) const noexcept
+{
+    LaneVec worst = all_lanes(0.0F);
+    for (std::uint32_t k = base_; k < window_.end_cell(); ++k) {
+        SquaredSpeed change{};
+        for_rows(
+            spline, k,
+            [&](const Parts& parts) {
+                change = {};
+                for (unsigned i = 0; i < 3; ++i) {
+                    const float z = line(k + i).change;
+                    change.value += parts.value[i] * z;
+                    change.slope += parts.slope[i] * z;
+                    change.bend += parts.bend[i] * z;
+                }
+            },
+            [&](const LawRow& row) {
+                worst = larger(worst, product(approach(row, change), spline.station(k).moving));
+            });
+    }
+    float most = greatest(kPartOfSlack, worst);
+    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+        const float z = line(j).change;
+        const float part = part_of_cap(spline, j);
+        most = std::max(most, std::max(-z, z * part / (1.0F - part)));
+    }
+    return kPartOfSlack / most;
+}
+
+void NewtonSystem::apply(LawSpline& spline, float part) const noexcept
+{
+    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+        spline.coefficient(j) *= 1.0F + part * line(j).change;
+    }
+    cusp::planner::tie_ends(spline, window_);
+}
+
+}  // namespace
+
+SquaredSpeed LawSpline::at_start(std::uint32_t k) const noexcept
+{
+    return sum_of(start_of(*this, k));
+}
+
+void tie_ends(LawSpline& spline, const LawWindow& window) noexcept
+{
+    if (window.start_factor > 0) {
+        spline.coefficient(0) = window.start_factor * spline.coefficient(1);
+    }
+    if (window.end_factor > 0) {
+        spline.coefficient(window.end) = window.end_factor * spline.coefficient(window.end - 1);
+    }
+}
+
+float newton_step(LawSpline& spline, const LawWindow& window, const BarrierWeight& weight) noexcept
+{
+    CUSP_ASSERT(window.end - window.begin <= kMostWindow);
+    NewtonSystem system{window};
+    for (std::uint32_t k = window.first_cell(); k < window.end_cell(); ++k) {
+        system.add_cell(spline, k, weight.rows);
+    }
+    for (std::uint32_t j = window.begin; j < window.end; ++j) {
+        system.add_coefficient(spline, j, weight);
+    }
+    system.solve();
+    const float part = system.longest(spline);
+    system.apply(spline, part);
+    return part;
+}
+
+float greatest_use(const LawSpline& spline, const LawWindow& window) noexcept
+{
+    float most = 0;
+    for (std::uint32_t k = window.first_cell(); k < window.end_cell(); ++k) {
+        for_rows(
+            spline, k, [](const Parts&) {},
+            [&most](const LawRow& row) { most = std::max(most, use(row)); });
+    }
+    for (std::uint32_t j = window.begin; j < window.end; ++j) {
+        // A slack of speed may be as small as rounding.
+        most = spline.coefficient(j) > spline.cap(j) ? std::max(most, 2.0F) : most;
+    }
+    return most;
+}
+
+}  // namespace cusp::planner

@@ -1,0 +1,73 @@
+// Stations from the path: rows at three places of a cell, and what is kept for all between.
+#pragma once
+
+#include "firmware/base/machine_limits.hpp"
+#include "firmware/base/span.hpp"
+#include "firmware/planner/law_path.hpp"
+#include "firmware/planner/station.hpp"
+
+namespace cusp::planner {
+
+// A joint of two blocks, or several, as the axis filters feel it: shares of the axes' limits.
+struct LawJoint {
+    std::int64_t first;         // path units from the start of the stretch
+    std::int64_t at;            // the last of them
+    LaneVec always;             // of the jerk
+    LaneVec jump;               // of the jerk, times v^2
+    LaneVec turn;               // of the jerk, times v
+    LaneVec turn_acceleration;  // of the acceleration, times v
+    LaneVec change;             // of the jerk, times v^3: not through the filters
+    float window;               // s, of the axis filters
+};
+
+// How a stretch starts or ends: at a corner that overlaps in time both sides may share the jerk.
+struct StopChoice {
+    float time;   // s, of the element at most
+    float share;  // of the axes' jerk, in (0, 1]
+};
+
+inline constexpr float kLongestElement = 0.5F;  // mm
+
+// Context: main loop.
+class StationMaker {
+public:
+    void set_limits(const MachineLimits& limits) noexcept;
+
+    // The joint at the end of a block that another follows.
+    LawJoint joint(const LawPath& path, const PathCursor& before) const noexcept;
+
+    // The cell between two places, path units from the start of the stretch.
+    //
+    //   cursor  near `from`; then at `to`.
+    //   joints  those within reach of the filters.
+    //   speed   mm/s, the most that is expected there.
+    Station make(const LawPath& path,
+                 PathCursor& cursor,
+                 std::int64_t from,
+                 std::int64_t to,
+                 Span<const LawJoint> joints,
+                 float speed) const noexcept;
+
+    // The element that starts or ends at a place of rest, up to the first joint that counts.
+    //
+    //   cursor  its block.
+    //   at_end  it ends at the end of the block, else it starts at its start.
+    //   most    mm, that it may be long.
+    StopElement element(const LawPath& path,
+                        PathCursor cursor,
+                        bool at_end,
+                        const StopChoice& choice,
+                        float most) const noexcept;
+
+private:
+    float smooth_length(const LawPath& path,
+                        PathCursor cursor,
+                        bool at_end,
+                        float speed,
+                        float most) const noexcept;
+    MachineLimits limits_{};
+    LaneVec inverse_jerk_{};
+    LaneVec inverse_acceleration_{};
+};
+
+}  // namespace cusp::planner

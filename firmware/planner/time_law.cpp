@@ -1,0 +1,322 @@
+// Windows: what is planned, what becomes final, and where each plan starts from.
+#include "firmware/planner/time_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/assert.hpp"
+#include "firmware/base/math.hpp"
+#include "firmware/planner/law_rows.hpp"
+
+namespace cusp::planner {
+namespace {
+
+constexpr float kFirstMu = 0.1F;
+constexpr float kLastMu = 0.002F;
+constexpr float kMuRatio = 0.7007F;         // eleven steps from the first to the last
+constexpr float kSpeedWeight = 0.2F;        // of mu, in the last steps
+constexpr float kTimeHessian = 0.15F;       // in the first steps: x may grow by 1.67 a step
+constexpr float kTimeHessianUntil = 5.0F;   // times the last mu
+constexpr std::uint8_t kSteps = 18;         // of a window
+constexpr float kShortestStation = 0.003F;  // s
+constexpr float kLongestStation = 0.02F;
+constexpr float kCrawlUse = 0.3F;         // greatest use of a limit in the crawl
+constexpr float kCrawlOfEnd = 0.5F;       // of the caps at the ends
+constexpr float kCrawlOfElement = 0.15F;  // of a stop element's speeds, where it goes on inwards
+constexpr std::uint32_t kLeastWindow = 24;
+constexpr float kEndFromCrawl = 0.4F;    // mm, that the way from a crawl to a stop may take
+constexpr float kStillHolds = 0.99999F;  // use of a limit from which a step can start
+constexpr int kMostHalvings = 60;
+constexpr float kSlower = 0.6F;  // from one attempt at a crawl to the next
+constexpr std::uint8_t kMostFirstAttempts = 40;
+constexpr std::uint8_t kMostAttempts = 8;
+constexpr std::uint8_t kMostRetreats = 4;
+constexpr float kHeavier = 4.0F;  // the barrier after a retreat
+// Time of the stop elements' jerk beside a/j: docs/numerics.md.
+constexpr float kElementTime = 0.8F;
+
+// x' = 4/3 x/d at the inner end of an element of length d: the coefficient beyond a cell of length h
+// is this times that before it.
+float factor_beyond(const StopElement& element, float h) noexcept
+{
+    const float part = 2.0F * h / (3.0F * element.length);
+    return (1.0F - part) / (1.0F + part);
+}
+
+}  // namespace
+
+void TimeLaw::set_limits(const MachineLimits& limits) noexcept
+{
+    float longest = 0;
+    float least_jerk = kUnlimited;
+    for (unsigned i = 0; i < 3; ++i) {
+        longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
+        least_jerk = std::min(least_jerk, limits.jerk[i]);
+    }
+    spline_.ratio = quotient(to_lanes(limits.jerk), to_lanes(limits.acceleration));
+    station_time_ = std::clamp(0.25F * longest, kShortestStation, kLongestStation);
+    // From v the stop of two phases takes v^1.5 j^-1/2; no faster than at the end of an element.
+    const float stop = cube_root(kCrawlStop * kCrawlStop * least_jerk);
+    const float time = kElementTime * longest;
+    const float element = 0.5F * least_jerk * time * time;
+    const float speed = std::min(stop, element);
+    greatest_crawl_ = kCrawlOfEnd * speed * speed;
+    steps_ = 0;
+}
+
+void TimeLaw::begin(const StopElement& start) noexcept
+{
+    window_ = {1, 1, 0.0F, 0.0F};
+    start_ = start;
+    end_factor_ = 0;
+    stations_ = 0;
+    planned_ = 0;
+    final_ = 0;
+    taken_ = 0;
+    ended_ = false;
+    extended_ = false;
+    attempts_ = 0;
+    crawl_ = greatest_crawl_;
+    state_ = State::kWaits;
+}
+
+void TimeLaw::restrict_crawl(const Station& station) noexcept
+{
+    crawl_ = std::min(crawl_, kCrawlUse * station.cap);
+    KeptShares kept = station.kept;
+    kept.always = all_lanes(0.0F);  // whatever the speed
+    for (const LaneDerivatives& place : station.places) {
+        for (int i = 0; i < kMostHalvings; ++i) {
+            const SquaredSpeed x{crawl_, 0.0F, 0.0F};
+            const float root = std::sqrt(crawl_);
+            const float most = std::max(use(jerk_row(place, kept, x, root)),
+                                        use(acceleration_row(place, kept, spline_.ratio, x, root)));
+            if (most <= kCrawlUse) {
+                break;
+            }
+            crawl_ *= 0.5F;
+        }
+    }
+}
+
+void TimeLaw::add(const Station& station) noexcept
+{
+    CUSP_ASSERT(has_room());
+    const std::uint32_t k = stations_;
+    spline_.station(k) = station;
+    // The coefficients k to k + 2 act on the cell.
+    if (k == 0) {
+        start_factor_ = factor_beyond(start_, station.length);
+        // At knot 0 x is the mean of the first two coefficients.
+        const float start_cap = 2.0F * start_.cap / (1.0F + start_factor_);
+        spline_.cap(0) = station.cap;
+        spline_.cap(1) = std::min(station.cap, start_cap);
+        crawl_ = std::min(crawl_, kCrawlOfEnd * start_cap);
+    } else {
+        spline_.cap(k) = std::min(spline_.cap(k), station.cap);
+        spline_.cap(k + 1) = std::min(spline_.cap(k + 1), station.cap);
+    }
+    spline_.cap(k + 2) = station.cap;
+    restrict_crawl(station);
+    ++stations_;
+}
+
+void TimeLaw::end(const StopElement& stop) noexcept
+{
+    CUSP_ASSERT(stations_ > 0 && !ended_);
+    const std::uint32_t n = stations_;
+    const float last = spline_.station(n - 1).length;
+    spline_.station(n).length = last;
+    stop_ = stop;
+    end_factor_ = factor_beyond(stop, last);
+    spline_.cap(n) = std::min(spline_.cap(n), 2.0F * stop.cap / (1.0F + end_factor_));
+    ended_ = true;
+}
+
+// True if the next window needs more stations.
+bool TimeLaw::waits() const noexcept
+{
+    const std::uint32_t end = window_.begin + kMostWindow;
+    return !ended_ &&
+           (stations_ < end + kLawAdvance || (has_room() && length_behind(end) < kEndFromCrawl));
+}
+
+void TimeLaw::work() noexcept
+{
+    if (state_ == State::kWaits && !waits()) {
+        begin_window();
+    }
+    if (state_ != State::kWorks) {
+        return;
+    }
+    if (!extended_) {
+        extend();
+        return;
+    }
+    (void)newton_step(spline_, window_, weight());
+    mu_ = std::max(mu_ * kMuRatio, last_mu_);
+    ++steps_;
+    ++step_;
+    if (step_ == kSteps) {
+        state_ = State::kChecks;
+    }
+}
+
+void TimeLaw::begin_window() noexcept
+{
+    const std::uint32_t whole = stations_ + 1;
+    window_.end = window_.begin + kMostWindow;
+    if (window_.end < whole) {
+        make_room_behind();
+    }
+    window_.start_factor = window_.begin == 1 ? start_factor_ : 0.0F;
+    if (ended_ && window_.end >= whole) {
+        window_.end = whole;
+        window_.end_factor = end_factor_;
+    }
+    extended_ = false;
+    attempts_ = 0;
+    retreats_ = 0;
+    last_mu_ = kLastMu;
+    restart();
+}
+
+// What is left behind a window has room for the way from its crawl to the stop: the window ends
+// earlier, or more of the last plan becomes final and it reaches the end.
+void TimeLaw::make_room_behind() noexcept
+{
+    const std::uint32_t whole = stations_ + 1;
+    const auto is_narrow = [&](std::uint32_t end) {
+        return end + kLawAdvance > whole || length_behind(end) < kEndFromCrawl;
+    };
+    while (window_.end > window_.begin + kLeastWindow && is_narrow(window_.end)) {
+        --window_.end;
+    }
+    if (ended_ && is_narrow(window_.end) && whole < planned_ + kMostWindow) {
+        window_.begin = whole - kMostWindow;
+        window_.end = whole;
+    }
+}
+
+// mm from knot k to the stop element at the end.
+float TimeLaw::length_behind(std::uint32_t k) const noexcept
+{
+    float length = 0;
+    for (; k < stations_ && length < kEndFromCrawl; ++k) {
+        length += spline_.station(k).length;
+    }
+    return length;
+}
+
+// Gives the new coefficients values from which the steps can start: the crawl that the plan ended
+// in goes on, slower if it must be, and near the end after the stop element.
+void TimeLaw::extend() noexcept
+{
+    const bool to_the_end = window_.end_factor > 0;
+    const std::uint32_t end = window_.end + (to_the_end ? 1 : 2);
+    const bool is_first = window_.begin == 1;
+    float goal = crawl_;
+    float rise = kCrawlOfElement;
+    for (int i = 0; i < attempts_; ++i) {
+        goal *= is_first || i > 0 ? kSlower : 1.0F;
+        rise *= kSlower;
+    }
+    const std::uint32_t from = std::max(planned_, 1U);
+    for (std::uint32_t j = planned_; j < end; ++j) {
+        spline_.coefficient(j) = goal;
+    }
+    if (!is_first && attempts_ > 0) {
+        ramp(from, window_.end, goal);
+    }
+    if (to_the_end) {
+        // Twice the distance of the coefficient's middle from the end.
+        float twice = 2.0F * stop_.length;
+        for (std::uint32_t j = stations_; j >= from; --j) {
+            twice += spline_.length_before(j);
+            const float root = cube_root(0.5F * twice / stop_.length);
+            const float most = rise * stop_.cap * (root * root) * (root * root);
+            spline_.coefficient(j) = std::min(spline_.coefficient(j), most);
+            twice += spline_.length_before(j);
+        }
+    }
+    tie_ends(spline_, window_);
+    if (greatest_use(spline_, window_) < kStillHolds) {
+        crawl_ = std::min(crawl_, goal);
+        planned_ = end;
+        extended_ = true;
+        for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+            before_[j - window_.begin] = spline_.coefficient(j);
+        }
+        return;
+    }
+    ++attempts_;
+    if (attempts_ == (is_first ? kMostFirstAttempts : kMostAttempts)) {
+        state_ = State::kBlocked;
+    }
+}
+
+// Coefficients [from, to) go in equal steps from that before them to `goal`.
+void TimeLaw::ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept
+{
+    float value = spline_.coefficient(from - 1);
+    for (std::uint32_t j = from; j < to; ++j) {
+        value += (goal - value) / static_cast<float>(to - j);
+        spline_.coefficient(j) = value;
+    }
+}
+
+BarrierWeight TimeLaw::weight() const noexcept
+{
+    const bool is_last = mu_ <= last_mu_;
+    return {mu_, is_last ? kSpeedWeight * mu_ : mu_,
+            mu_ > kTimeHessianUntil * last_mu_ ? kTimeHessian : 1.0F, 1.0F / station_time_};
+}
+
+void TimeLaw::accept() noexcept
+{
+    CUSP_ASSERT(state_ == State::kChecks);
+    if (window_.end_factor > 0) {
+        final_ = planned_;
+        state_ = State::kDone;
+        return;
+    }
+    window_.begin += kLawAdvance;
+    final_ = window_.begin;
+    state_ = State::kWaits;
+}
+
+void TimeLaw::retreat() noexcept
+{
+    CUSP_ASSERT(state_ == State::kChecks);
+    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+        spline_.coefficient(j) = before_[j - window_.begin];
+    }
+    tie_ends(spline_, window_);
+    ++retreats_;
+    if (retreats_ == kMostRetreats) {
+        accept();
+        return;
+    }
+    last_mu_ *= kHeavier;
+    restart();
+}
+
+void TimeLaw::restart() noexcept
+{
+    step_ = 0;
+    mu_ = kFirstMu;
+    state_ = State::kWorks;
+}
+
+bool TimeLaw::take(LawCell& cell) noexcept
+{
+    const std::uint32_t k = taken_;
+    if (k + 3 > final_ || k >= stations_) {
+        return false;
+    }
+    cell = this->cell(k);
+    ++taken_;
+    return true;
+}
+
+}  // namespace cusp::planner

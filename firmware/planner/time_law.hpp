@@ -1,0 +1,125 @@
+// TimeLaw: the fastest speeds along a stretch of path from stop to stop, window by window.
+//
+// Stations come in order while the path becomes known; a window of them is planned by a fixed
+// number of Newton steps and its first part becomes final. Each plan ends in a crawl, from which the
+// tool can stop within kCrawlStop at any place that the stations behind the window describe, so a
+// plan may be played to its end if no other comes.
+//
+//   add() ... add() end()      stations, as long as there is room
+//   work()                     one Newton step a call, until nothing is left to do
+//   take()                     cells whose speeds are final
+//
+// Source: docs/numerics.md, "The time law". Held by tests/unit/planner/time_law_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "firmware/base/machine_limits.hpp"
+#include "firmware/planner/barrier.hpp"
+
+namespace cusp::planner {
+
+inline constexpr float kCrawlStop = 0.1F;         // mm
+inline constexpr std::uint32_t kLawAdvance = 16;  // coefficients that a window makes final
+
+// Context: main loop.
+class TimeLaw {
+public:
+    // Of the motion before the axis filters, less what rounding takes.
+    void set_limits(const MachineLimits& limits) noexcept;
+
+    // Time in which a station is to be passed, s: a quarter of the longest a/j.
+    float station_time() const noexcept { return station_time_; }
+
+    // The next stretch starts from rest.
+    void begin(const StopElement& start) noexcept;
+
+    bool has_room() const noexcept
+    {
+        const std::uint32_t oldest = std::min(taken_, window_.first_cell());
+        return !ended_ && stations_ + 4 < oldest + kStations;
+    }
+
+    // The next station; the first is shorter than 1.4 times the element. Precondition: has_room().
+    void add(const Station& station) noexcept;
+
+    // The last station is the last of the stretch, and shorter than 1.4 times the element.
+    // Precondition: some were added.
+    void end(const StopElement& stop) noexcept;
+
+    enum class State : std::uint8_t {
+        kWaits,    // for stations
+        kWorks,    // a window is on its way
+        kChecks,   // a window is planned: to be judged by accept() or retreat()
+        kBlocked,  // the plan so far can't be continued: the path stops at its end
+        kDone,     // all cells are final
+    };
+    State state() const noexcept { return state_; }
+
+    // One Newton step of the window, or the next window where stations suffice.
+    void work() noexcept;
+
+    // Cells of the window that is to be judged.
+    std::uint32_t first_cell() const noexcept { return window_.first_cell(); }
+    std::uint32_t end_cell() const noexcept { return window_.end_cell(); }
+    LawCell cell(std::uint32_t k) const noexcept
+    {
+        return {spline_.at_start(k), spline_.station(k).travel, LawPiece::kCell};
+    }
+
+    const Station& station(std::uint32_t k) const noexcept { return spline_.station(k); }
+
+    // Precondition: state() == kChecks. The window holds every limit: its first part becomes final.
+    void accept() noexcept;
+    // It does not: the window is planned again by a heavier barrier, which keeps farther from every
+    // limit. The fourth time it stays as the plan before it was.
+    void retreat() noexcept;
+
+    // The next final cell. False: there is none.
+    bool take(LawCell& cell) noexcept;
+
+    // Squared speed of the crawl, mm^2/s^2.
+    float crawl() const noexcept { return crawl_; }
+
+    // Newton steps since set_limits(), for budgets.
+    std::uint32_t steps() const noexcept { return steps_; }
+
+private:
+    bool waits() const noexcept;
+    void begin_window() noexcept;
+    void make_room_behind() noexcept;
+    float length_behind(std::uint32_t k) const noexcept;
+    void restart() noexcept;
+    void extend() noexcept;
+    void ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept;
+    void restrict_crawl(const Station& station) noexcept;
+    BarrierWeight weight() const noexcept;
+
+    LawSpline spline_;
+    std::array<float, kMostWindow> before_{};  // the window's coefficients before its first step
+    LawWindow window_{1, 1, 0.0F, 0.0F};
+    State state_{State::kDone};
+    bool ended_{false};
+    bool extended_{false};      // the window has values to start from
+    std::uint8_t attempts_{0};  // at such values
+    std::uint8_t step_{0};      // of the window
+    std::uint8_t retreats_{0};
+    std::uint32_t stations_{0};  // added
+    std::uint32_t planned_{0};   // coefficients that have a value
+    std::uint32_t final_{0};     // coefficients that keep theirs
+    std::uint32_t taken_{0};     // cells
+    std::uint32_t steps_{0};
+    float mu_{0};
+    float last_mu_{0};  // of the window
+    float crawl_{0};
+    float greatest_crawl_{0};
+    StopElement start_{};
+    StopElement stop_{};
+    float start_factor_{0};  // of the coefficient beyond the start to its neighbour
+    float end_factor_{0};
+    float station_time_{0};
+};
+
+}  // namespace cusp::planner

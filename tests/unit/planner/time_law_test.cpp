@@ -1,0 +1,211 @@
+// Windows of the time law: final cells hold every limit however the stations come, and a line from
+// stop to stop takes hardly longer than the closed form.
+#include "firmware/planner/time_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/law_judge.hpp"
+#include "tests/support/random_stations.hpp"
+
+using namespace cusp;
+using namespace cusp::planner;
+using namespace cusp::test;
+
+namespace {
+
+constexpr std::uint64_t kLawSeed = 6260;
+constexpr int kLawCases = 120;
+
+// Half the slope of v^2 that the element starts with, times its length: 2/3 x.
+StopElement element_for(const Station& station, float cap) { return {station.length / 0.55F, cap}; }
+
+// A stretch of random stations with an element at either end.
+struct Stretch {
+    std::vector<Station> stations;
+    StopElement start;
+    StopElement stop;
+};
+
+Stretch any_stretch(RandomStations& random)
+{
+    Stretch made;
+    const std::size_t count = 8 + random.number() % 200;
+    for (std::size_t k = 0; k < count; ++k) {
+        made.stations.push_back(random.next());
+        made.stations.back().travel = static_cast<std::uint32_t>(k);
+    }
+    made.start = element_for(made.stations.front(), static_cast<float>(random.between(0.1, 30)));
+    made.stop = element_for(made.stations.back(), static_cast<float>(random.between(0.1, 30)));
+    return made;
+}
+
+// Plays all stations through a law; some plans are thrown away. Final cells in order, none where the
+// law is blocked.
+std::vector<LawCell> plan(TimeLaw& law,
+                          const Stretch& stretch,
+                          RandomStations& random,
+                          std::uint64_t refused_of_eight)
+{
+    std::vector<LawCell> cells;
+    std::size_t next = 0;
+    bool ended = false;
+    law.begin(stretch.start);
+    while (law.state() != TimeLaw::State::kDone && law.state() != TimeLaw::State::kBlocked) {
+        while (next < stretch.stations.size() && law.has_room() && random.number() % 8 != 0) {
+            law.add(stretch.stations[next]);
+            ++next;
+        }
+        if (next == stretch.stations.size() && !ended) {
+            law.end(stretch.stop);
+            ended = true;
+        }
+        law.work();
+        if (law.state() == TimeLaw::State::kChecks) {
+            const bool refused = random.number() % 8 < refused_of_eight;
+            while (refused && law.state() == TimeLaw::State::kChecks) {
+                law.retreat();
+            }
+            if (!refused) {
+                law.accept();
+            }
+        }
+        LawCell cell;
+        while (law.take(cell)) {
+            cells.push_back(cell);
+        }
+    }
+    return cells;
+}
+
+double time_of(const std::vector<LawCell>& cells, const Stretch& stretch)
+{
+    constexpr int kParts = 64;
+    const auto at_ends = [](const StopElement& element, float x) {
+        return 3.0 * static_cast<double>(element.length) / std::sqrt(static_cast<double>(x));
+    };
+    const float h = stretch.stations.back().length;
+    double time = at_ends(stretch.start, cells.front().start.value) +
+                  at_ends(stretch.stop, advanced(cells.back().start, h).value);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const float length = stretch.stations[k].length;
+        for (int i = 0; i < kParts; ++i) {
+            const float s = length * (static_cast<float>(i) + 0.5F) / kParts;
+            time += static_cast<double>(length) / kParts /
+                    std::sqrt(static_cast<double>(advanced(cells[k].start, s).value));
+        }
+    }
+    return time;
+}
+
+// A line along X, stations of `dt` at the feed and closer near the ends.
+Stretch line(const MachineLimits& limits, float length, float feed, float dt)
+{
+    const float time = 0.8F * limits.acceleration.x / limits.jerk.x;
+    const float element = std::min(limits.jerk.x * time * time * time / 6.0F, length / 12.0F);
+    const float cap = std::pow(4.5F * limits.jerk.x * element * element, 2.0F / 3.0F);
+    Stretch made{{}, {element, cap}, {element, cap}};
+    std::vector<float> rising;
+    float at = element;
+    for (;;) {
+        const float h = std::min(0.55F * element + 0.2F * (at - element), dt * feed);
+        if (at + h > 0.5F * length) {
+            break;
+        }
+        rising.push_back(h);
+        at += h;
+    }
+    std::vector<float> cells = rising;
+    const float left = length - 2.0F * at;
+    cells.push_back(0.5F * left);
+    cells.push_back(0.5F * left);
+    cells.insert(cells.end(), rising.rbegin(), rising.rend());
+    for (const float h : cells) {
+        Station station{};
+        for (LaneDerivatives& place : station.places) {
+            place.first = to_lanes(Vec3f{1.0F / limits.jerk.x, 0.0F, 0.0F});
+        }
+        station.moving = to_lanes(Vec3f{1.0F, 0.0F, 0.0F});
+        station.length = h;
+        station.cap = feed * feed;
+        made.stations.push_back(station);
+    }
+    made.stations.back().acceleration_at_end = true;
+    return made;
+}
+
+}  // namespace
+
+TEST_GROUP(TimeLaw){};
+
+TEST(TimeLaw, final_cells_hold_every_limit_and_meet)
+{
+    int blocked = 0;
+    for (int n = 0; n < kLawCases; ++n) {
+        const std::uint64_t seed = kLawSeed + static_cast<std::uint64_t>(n);
+        const std::string which = "seed " + std::to_string(seed);
+        RandomStations random{seed};
+        const Stretch stretch = any_stretch(random);
+        TimeLaw law;
+        law.set_limits(random.limits);
+        const std::vector<LawCell> cells = plan(law, stretch, random, 1);
+        blocked += law.state() == TimeLaw::State::kBlocked ? 1 : 0;
+        const LaneVec ratio =
+            quotient(to_lanes(random.limits.jerk), to_lanes(random.limits.acceleration));
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            const Station& station = stretch.stations[k];
+            const SquaredSpeed& start = cells[k].start;
+            for (unsigned p = 0; p < kPlacesOfCell; ++p) {
+                const SquaredSpeed x =
+                    advanced(start, 0.5F * static_cast<float>(p) * station.length);
+                const ExactSpeed exact{static_cast<long double>(x.value),
+                                       static_cast<long double>(x.slope),
+                                       static_cast<long double>(x.bend)};
+                const long double use = use_at(station.places[p], station.kept, ratio, exact,
+                                               p < 2 || station.acceleration_at_end);
+                CHECK_TEXT(use < 1.0001L, which.c_str());
+                CHECK_TEXT(x.value > 0 && x.value <= 1.00001F * station.cap, which.c_str());
+            }
+            if (k > 0) {
+                const SquaredSpeed before =
+                    advanced(cells[k - 1].start, stretch.stations[k - 1].length);
+                DOUBLES_EQUAL(1.0, static_cast<double>(before.value / start.value), 1e-4);
+            }
+        }
+        CHECK_TEXT(
+            law.state() == TimeLaw::State::kBlocked || cells.size() == stretch.stations.size(),
+            which.c_str());
+    }
+    CHECK_TEXT(blocked * 20 < kLawCases, std::to_string(blocked).c_str());
+}
+
+TEST(TimeLaw, a_line_takes_hardly_longer_than_the_closed_form)
+{
+    struct Machine {
+        MachineLimits limits;
+        float feed;
+    };
+    const Machine machines[] = {
+        {MachineLimits{}, 100.0F},
+        {{{50, 50, 25}, {200, 200, 100}, {2000, 2000, 1000}}, 50.0F},
+        {{{500, 500, 250}, {5000, 5000, 2500}, {5e5F, 5e5F, 2.5e5F}}, 500.0F}};
+    for (const Machine& machine : machines) {
+        const float length = 200.0F;
+        TimeLaw law;
+        law.set_limits(machine.limits);
+        const Stretch stretch = line(machine.limits, length, machine.feed, law.station_time());
+        RandomStations order{kLawSeed};
+        const std::vector<LawCell> cells = plan(law, stretch, order, 0);
+        CHECK(law.state() == TimeLaw::State::kDone);
+        const double closed = static_cast<double>(
+            length / machine.feed + machine.feed / machine.limits.acceleration.x +
+            machine.limits.acceleration.x / machine.limits.jerk.x);
+        const double time = time_of(cells, stretch);
+        CHECK_TEXT(time > closed, std::to_string(time / closed).c_str());
+        CHECK_TEXT(time < 1.01 * closed, std::to_string(time / closed).c_str());
+    }
+}
