@@ -1,0 +1,29 @@
+// Random programs by the time law: no axis over a limit in any tick, every end exact.
+#include <string>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/law_rig.hpp"
+#include "tests/support/motion_limits.hpp"
+#include "tests/support/random_moves.hpp"
+
+using namespace cusp;
+using namespace cusp::test;
+
+TEST_GROUP(LawLimits){};
+
+TEST(LawLimits, random_moves_keep_every_limit)
+{
+    const std::uint64_t first = first_motion_seed(88000);
+    const std::uint64_t count = motion_program_count(100);
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const std::vector<path::Move> moves = RandomMoves{seed}.program();
+        if (moves.empty()) {
+            continue;
+        }
+        const MachineLimits limits = random_limits(seed);
+        LawRig rig{limits};
+        check_motion(rig.run(moves), moves.back().end, limits, seed);
+        CHECK_TEXT(rig.blocked == 0, ("seed " + std::to_string(seed) + ": blocked").c_str());
+    }
+}

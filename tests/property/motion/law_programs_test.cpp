@@ -1,0 +1,163 @@
+// Whole programs by the time law: limits, ends, and times that must not rise.
+//
+// CUSP_LAW_PROGRAM=FILE adds a program, CUSP_LAW_FEED=MM_A_MINUTE replaces all feeds of it,
+// CUSP_LAW_SAMPLES=FOLDER writes every run's set points as FOLDER/PROGRAM-MACHINE.csv, and
+// CUSP_LAW_TABLE prints the times.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "firmware/gcode/interpreter.hpp"
+#include "tests/support/law_rig.hpp"
+#include "tests/support/motion_limits.hpp"
+
+using namespace cusp;
+using namespace cusp::test;
+
+namespace {
+
+constexpr float kTolerance = 0.01F;  // mm
+
+struct Machine {
+    const char* name;
+    MachineLimits limits;
+    float feed;  // mm/s, of all feed moves; 0: the program's
+};
+
+const std::vector<Machine>& machines()
+{
+    static const std::vector<Machine> all{
+        {"default", {}, 0},
+        {"slow", {{50, 50, 25}, {200, 200, 100}, {2000, 2000, 1000}}, 0},
+        {"fast", {{500, 500, 250}, {5000, 5000, 2500}, {5e5F, 5e5F, 2.5e5F}}, 500}};
+    return all;
+}
+
+const char* option(const char* name)
+{
+    const char* text = std::getenv(name);
+    return text != nullptr ? text : "";
+}
+
+std::vector<path::Move> read_program(const std::string& file, float feed)
+{
+    std::ifstream in{file};
+    gcode::Interpreter interpreter;
+    interpreter.set_default_tolerance(kTolerance);
+    std::vector<path::Move> moves;
+    std::string line;
+    std::uint32_t number = 0;
+    while (std::getline(in, line)) {
+        while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) {
+            line.pop_back();
+        }
+        if (line != "%") {
+            (void)interpreter.execute(line, ++number);
+        }
+        gcode::Action action;
+        while (interpreter.next(action)) {
+            if (const auto* move = std::get_if<path::Move>(&action)) {
+                moves.push_back(*move);
+                const bool is_feed = move->kind == path::MoveKind::kFeed;
+                moves.back().feed = is_feed && feed > 0 ? feed : move->feed;
+            }
+        }
+    }
+    return moves;
+}
+
+void write_samples(const std::string& file, const std::vector<Position>& samples)
+{
+    std::FILE* out = std::fopen(file.c_str(), "w");
+    CHECK(out != nullptr);
+    std::fprintf(out, "t_us,x_nm,y_nm,z_nm\n");
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        std::fprintf(out, "%zu,%lld,%lld,%lld\n", (i + 1) * 1000,
+                     static_cast<long long>(samples[i].x), static_cast<long long>(samples[i].y),
+                     static_cast<long long>(samples[i].z));
+    }
+    std::fclose(out);
+}
+
+// From the first to the last moving tick, s.
+double duration(const std::vector<Position>& samples, Position at)
+{
+    std::size_t first = samples.size();
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i] != at) {
+            first = std::min(first, i);
+            last = i;
+        }
+        at = samples[i];
+    }
+    return 1e-3 * static_cast<double>(last + 1 - first);
+}
+
+// The time of a program on a machine, s; its limits and its end are checked.
+double time_of_program(const std::string& file, const Machine& machine)
+{
+    const std::vector<path::Move> moves = read_program(file, machine.feed);
+    CHECK(!moves.empty());
+    LawRig rig{machine.limits};
+    const std::vector<Position> samples = rig.run(moves);
+    const Position start = moves.front().start;
+    const LimitUse use = limit_use(samples, start, machine.limits);
+    const std::string name = file.substr(file.rfind('/') + 1) + "-" + machine.name;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        CHECK_TEXT(use.velocity[axis] <= 1, name.c_str());
+        CHECK_TEXT(use.acceleration[axis] <= 1, name.c_str());
+        CHECK_TEXT(use.jerk[axis] <= 1, name.c_str());
+    }
+    CHECK_TEXT(samples.back() == moves.back().end, name.c_str());
+    CHECK_TEXT(rig.blocked == 0, name.c_str());
+    const double time = duration(samples, start);
+    if (*option("CUSP_LAW_TABLE") != '\0') {
+        std::printf("%-40s %8.3f s, %u stations, %.1f steps each, %u of %u plans refused\n",
+                    name.c_str(), time, rig.stations,
+                    static_cast<double>(rig.station_steps / static_cast<float>(rig.stations)),
+                    rig.retreats, rig.windows);
+    }
+    if (*option("CUSP_LAW_SAMPLES") != '\0') {
+        write_samples(option("CUSP_LAW_SAMPLES") + ("/" + name) + ".csv", samples);
+    }
+    return time;
+}
+
+}  // namespace
+
+TEST_GROUP(LawPrograms){};
+
+TEST(LawPrograms, hold_the_limits_within_their_times)
+{
+    struct Row {
+        const char* program;
+        double most[3];  // s, on each machine
+    };
+    constexpr Row kRows[] = {
+        {"circle", {1.29, 2.74, 0.475}}, {"liss", {9.33, 17.08, 2.51}},
+        {"rsq", {3.99, 8.64, 1.208}},    {"sine3dec_0p03", {1.2, 2.38, 0.447}},
+        {"spiral", {9.5, 18.38, 3.0}},
+    };
+    for (const Row& row : kRows) {
+        const std::string file =
+            std::string{CUSP_SOURCE_DIR} + "/tests/programs/" + row.program + ".ngc";
+        for (std::size_t i = 0; i < machines().size(); ++i) {
+            const double time = time_of_program(file, machines()[i]);
+            const std::string which = row.program + (" " + std::to_string(time));
+            CHECK_TEXT(time <= row.most[i], which.c_str());
+        }
+    }
+    if (*option("CUSP_LAW_PROGRAM") != '\0') {
+        for (Machine machine : machines()) {
+            const float feed = std::strtof(option("CUSP_LAW_FEED"), nullptr) / 60.0F;
+            machine.feed = feed > 0 && machine.feed <= 0 ? feed : machine.feed;
+            (void)time_of_program(option("CUSP_LAW_PROGRAM"), machine);
+        }
+    }
+}
