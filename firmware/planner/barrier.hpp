@@ -14,7 +14,7 @@
 namespace cusp::planner {
 
 inline constexpr std::uint32_t kStations = 64;    // that a law keeps at once
-inline constexpr std::uint32_t kMostWindow = 40;  // coefficients that one step changes
+inline constexpr std::uint32_t kMostWindow = 56;  // coefficients that one step changes
 
 // A quadratic spline over stations. Cell k lies between the knots k and k + 1; the coefficients
 // k, k + 1 and k + 2 act on it. Counters run freely: places are modulo kStations.

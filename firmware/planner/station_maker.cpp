@@ -21,15 +21,40 @@ constexpr float kReach = 1.1F;                // of the filters' window in trave
 constexpr float kElementAcceleration = 0.8F;  // of what the axes allow
 constexpr unsigned kElementBlocks = 16;       // that it may span
 constexpr float kMostAlways = 0.5F;           // of the jerk
-constexpr float kFeltJoint = 0.01F;           // share of the jerk
-constexpr unsigned kElementPlaces = 4;        // of an element that are judged
-constexpr float kReachTicks = 3.0F;           // on top of it
+constexpr unsigned kShortenings = 30;
+constexpr float kShorter = 0.8F;
+constexpr float kFeltJoint = 0.01F;      // share of the jerk
+constexpr unsigned kElementPlaces = 40;  // of an element that are judged, closer near rest
+constexpr float kNearerRest = 0.9F;      // from one to the next
+constexpr unsigned kReachTicks = 3;      // on top of it
 
 // Greatest |f| between three places: a parabola exceeds them by an eighth of their second difference.
 LaneVec largest_near(const LaneVec& a, const LaneVec& m, const LaneVec& b) noexcept
 {
     return larger(larger(magnitude(a), magnitude(m)), magnitude(b)) +
            magnitude(a - m * 2.0F + b) * 0.125F;
+}
+
+using CellPlaces = std::array<LaneDerivatives, kPlaces>;
+
+// By how much the derivatives leave the chord of both ends.
+struct Kinks {
+    LaneVec second;
+    LaneVec third;
+};
+
+Kinks kinks_of(const CellPlaces& q) noexcept
+{
+    Kinks kinks{all_lanes(0.0F), all_lanes(0.0F)};
+    for (unsigned i = 1; i + 1 < kPlaces; ++i) {
+        const float part = static_cast<float>(i) / (kPlaces - 1);
+        const auto left = [part](const LaneVec& a, const LaneVec& m, const LaneVec& b) {
+            return magnitude(m - (a * (1.0F - part) + b * part));
+        };
+        kinks.second = larger(kinks.second, left(q[0].second, q[i].second, q[kPlaces - 1].second));
+        kinks.third = larger(kinks.third, left(q[0].third, q[i].third, q[kPlaces - 1].third));
+    }
+    return kinks;
 }
 
 }  // namespace
@@ -76,7 +101,10 @@ Station StationMaker::make(const LawPath& path,
                            float speed) const noexcept
 {
     Station station{};
-    std::array<LaneDerivatives, kPlaces> q;
+    station.begin = from;
+    station.travel = static_cast<std::uint32_t>(to - from);
+    station.length = to_mm(to - from);
+    CellPlaces q;
     float cap = kUnlimited;
     for (unsigned i = 0; i < kPlaces; ++i) {
         const std::int64_t at = from + (to - from) * i / (kPlaces - 1);
@@ -87,44 +115,19 @@ Station StationMaker::make(const LawPath& path,
         cap = std::min(cap, std::min(block.feed, block.centripetal / bend));
     }
     LaneVec first = all_lanes(1e-9F);
-    LaneVec second_left = all_lanes(0.0F);
-    LaneVec third_left = second_left;
     for (unsigned i = 1; i < kPlaces; i += 2) {
         first = larger(first, largest_near(q[i - 1].first, q[i].first, q[i + 1].first));
     }
-    for (unsigned i = 1; i + 1 < kPlaces; ++i) {
-        const float part = static_cast<float>(i) / (kPlaces - 1);
-        const auto left = [part](const LaneVec& a, const LaneVec& m, const LaneVec& b) {
-            return magnitude(m - (a * (1.0F - part) + b * part));
-        };
-        second_left = larger(second_left, left(q[0].second, q[i].second, q[kPlaces - 1].second));
-        third_left = larger(third_left, left(q[0].third, q[i].third, q[kPlaces - 1].third));
-    }
     const LaneVec ratio = quotient(to_lanes(limits_.velocity), first);
     station.cap = least(cap, product(ratio, ratio));
+    station.kept = kept_at(station, joints, speed);
+    const Kinks kinks = kinks_of(q);
     station.kept.bend_acceleration =
-        product(second_left, inverse_acceleration_) * kKeptAcceleration;
-    station.kept.bend = product(third_left, inverse_jerk_) * kKeptJerk;
-    const LaneVec none = all_lanes(0.0F);
-    station.kept.always = none;
-    station.kept.jump = none;
-    station.kept.turn = none;
-    station.kept.turn_acceleration = none;
-    station.travel = static_cast<std::uint32_t>(to - from);
-    station.begin = from;
-    station.length = to_mm(to - from);
+        product(kinks.second, inverse_acceleration_) * kKeptAcceleration;
+    station.kept.bend = product(kinks.third, inverse_jerk_) * kKeptJerk;
     for (const LawJoint& joint : joints) {
-        const float reach =
-            kReach * speed * (joint.window + kReachTicks * kServoTick) + station.length;
-        if (distance(to, joint.first) > reach || distance(joint.at, from) > reach) {
-            continue;
-        }
-        station.kept.always = smaller(station.kept.always + joint.always, all_lanes(kMostAlways));
-        station.kept.jump = station.kept.jump + joint.jump;
-        station.kept.turn = station.kept.turn + joint.turn;
-        station.kept.turn_acceleration = station.kept.turn_acceleration + joint.turn_acceleration;
-        const bool at_end = joint.at <= to && joint.at > from;
-        station.acceleration_at_end = station.acceleration_at_end || at_end;
+        station.acceleration_at_end =
+            station.acceleration_at_end || (joint.at <= to && joint.at > from);
     }
     Vec3f moving{};
     const Vec3f used = to_vec(first);
@@ -142,23 +145,58 @@ Station StationMaker::make(const LawPath& path,
     return station;
 }
 
-// mm from rest at an end of the stretch to the first joint that the filters would feel at `speed`.
-float StationMaker::smooth_length(
-    const LawPath& path, PathCursor cursor, bool at_end, float speed, float most) const noexcept
+// The shares of joints within reach of the filters; none for bends.
+KeptShares StationMaker::kept_at(const Station& station,
+                                 Span<const LawJoint> joints,
+                                 float speed) const noexcept
 {
+    const LaneVec none = all_lanes(0.0F);
+    KeptShares kept{none, none, none, none, none, none};
+    const std::int64_t to = station.begin + station.travel;
+    for (const LawJoint& joint : joints) {
+        const float window = joint.window + static_cast<float>(kReachTicks) * kServoTick;
+        const float reach = kReach * speed * window + station.length;
+        if (distance(to, joint.first) > reach || distance(joint.at, station.begin) > reach) {
+            continue;
+        }
+        kept.always = smaller(kept.always + joint.always, all_lanes(kMostAlways));
+        kept.jump = kept.jump + joint.jump;
+        kept.turn = kept.turn + joint.turn;
+        kept.turn_acceleration = kept.turn_acceleration + joint.turn_acceleration;
+    }
+    return kept;
+}
+
+// The longest element from rest at an end of the stretch that the filters do not let feel a joint,
+// mm, at most `most`; its jerk is at most `jerk`, along the path.
+float StationMaker::smooth_length(
+    const LawPath& path, PathCursor cursor, bool at_end, float jerk, float most) const noexcept
+{
+    const auto speed_at = [jerk](float s) {
+        return cube_root(4.5F * jerk * s * s);
+    };
+    const float speed = speed_at(most);
     float length = 0;
     for (unsigned i = 0; i < kElementBlocks; ++i) {
-        length += to_mm(path[cursor.block].block->length);
+        const Block& block = *path[cursor.block].block;
+        length += to_mm(block.length);
         const bool is_last =
             at_end ? cursor.block == path.begin().block : cursor.block + 1 == path.end();
-        if (length > most || is_last) {
-            break;
+        const float window =
+            kReach * static_cast<float>(block.filter.first + block.filter.second + kReachTicks) *
+            kServoTick;
+        if (length > most + speed * window || is_last) {
+            return std::min(length, most);
         }
         const PathCursor before{at_end ? cursor.block - 1 : cursor.block, 0};
         const LawJoint between = joint(path, before);
         if (greatest(0.0F, between.always + between.turn * speed + between.jump * (speed * speed)) >
             kFeltJoint) {
-            break;
+            float d = std::min(length, most);
+            for (unsigned k = 0; k < kShortenings && d + speed_at(d) * window > length; ++k) {
+                d *= kShorter;
+            }
+            return d;
         }
         cursor.block = at_end ? cursor.block - 1 : cursor.block + 1;
     }
@@ -188,14 +226,14 @@ StopElement StationMaker::element(const LawPath& path,
     const float time = std::min(
         choice.time, std::min(kElementAcceleration * acceleration / jerk, std::sqrt(speed / jerk)));
     const float wanted = jerk * time * time * time * (1.0F / 6.0F);
-    const float d = smooth_length(path, cursor, at_end, 0.5F * jerk * time * time,
+    const float d = smooth_length(path, cursor, at_end, jerk,
                                   std::min(std::min(wanted, kLongestElement), most));
     // A whole number of path units.
     StopElement element{
         std::max(std::floor(d * kPathUnitsPerMillimetre), 1.0F) / kPathUnitsPerMillimetre, 0.0F};
     // s from rest: v^3 = 9/2 w s^2, v u = 3 w s, u^3 = 6 w^2 s.
-    for (unsigned i = 1; i <= kElementPlaces; ++i) {
-        const float s = element.length * static_cast<float>(i) / kElementPlaces;
+    float s = element.length;
+    for (unsigned i = 0; i < kElementPlaces; ++i, s *= kNearerRest) {
         LaneDerivatives q = at(s);
         q.second = q.second * (at_end ? -1.0F : 1.0F);
         const LaneVec by_jerk =

@@ -60,11 +60,11 @@ public:
                         float most) const noexcept;
 
 private:
-    float smooth_length(const LawPath& path,
-                        PathCursor cursor,
-                        bool at_end,
-                        float speed,
-                        float most) const noexcept;
+    KeptShares kept_at(const Station& station,
+                       Span<const LawJoint> joints,
+                       float speed) const noexcept;
+    float smooth_length(
+        const LawPath& path, PathCursor cursor, bool at_end, float jerk, float most) const noexcept;
     MachineLimits limits_{};
     LaneVec inverse_jerk_{};
     LaneVec inverse_acceleration_{};

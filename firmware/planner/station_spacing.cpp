@@ -15,6 +15,8 @@ constexpr float kExpectedCentripetal = 0.9F;  // of the acceleration
 constexpr float kExpectedJerk = 0.7F;         // of the jerk, by the path's third derivative
 constexpr float kLeastBraking = 0.15F;        // of the acceleration that a bend leaves
 constexpr float kGrowth = 0.25F;              // of a cell beside its neighbour
+constexpr float kFineGrowth = 0.5F;           // where cells are short
+constexpr float kFineCell = 0.002F;           // mm
 constexpr float kFirstCell = 0.55F;           // of the stop element's length
 constexpr float kShortestSpan = 0.002F;       // s
 constexpr float kLongestSpan = 0.02F;         // s
@@ -32,6 +34,9 @@ std::int64_t to_units(float mm) noexcept
 {
     return static_cast<std::int64_t>(mm * kPathUnitsPerMillimetre + 0.5F);
 }
+
+// Of a cell beside one of length h. At the shortest elements the law is far below its limits.
+float growth_of(float h) noexcept { return h < kFineCell ? kFineGrowth : kGrowth; }
 
 }  // namespace
 
@@ -285,7 +290,7 @@ bool StationSpacing::start(StopElement& element) noexcept
 std::int64_t StationSpacing::choose_end() const noexcept
 {
     float h = wanted_at(at_);
-    h = std::min(h, last_ > 0 ? (1.0F + kGrowth) * last_ : kFirstCell * start_.length);
+    h = std::min(h, last_ > 0 ? (1.0F + growth_of(last_)) * last_ : kFirstCell * start_.length);
     for (const float ahead : {0.5F, 1.0F, 1.5F, 2.0F, 3.0F}) {
         const float s = ahead * h;
         h = std::min(h, wanted_at(at_ + to_units(s)) + kGrowth * s);
@@ -294,7 +299,8 @@ std::int64_t StationSpacing::choose_end() const noexcept
     if (stop_settled_) {
         mark = inner_end_;
         const float left = std::max(distance(at_, mark), 0.0F);
-        h = std::min(h, (kFirstCell * stop_.length + kGrowth * left) / (1.0F + kGrowth));
+        const float growth = growth_of(left);
+        h = std::min(h, (kFirstCell * stop_.length + growth * left) / (1.0F + growth));
     }
     const std::int64_t near = at_ + to_units(kNearMark * h);
     for (std::uint32_t i = span_begin_; i != span_end_ && span(i).begin < mark; ++i) {

@@ -17,6 +17,7 @@ constexpr float kMuRatio = 0.7007F;         // eleven steps from the first to th
 constexpr float kSpeedWeight = 0.2F;        // of mu, in the last steps
 constexpr float kTimeHessian = 0.15F;       // in the first steps: x may grow by 1.67 a step
 constexpr float kTimeHessianUntil = 5.0F;   // times the last mu
+constexpr std::uint32_t kWindow = 40;       // coefficients, but for the last of a stretch
 constexpr std::uint8_t kSteps = 18;         // of a window
 constexpr float kShortestStation = 0.003F;  // s
 constexpr float kLongestStation = 0.02F;
@@ -24,8 +25,9 @@ constexpr float kCrawlUse = 0.3F;         // greatest use of a limit in the craw
 constexpr float kCrawlOfEnd = 0.5F;       // of the caps at the ends
 constexpr float kCrawlOfElement = 0.15F;  // of a stop element's speeds, where it goes on inwards
 constexpr std::uint32_t kLeastWindow = 24;
-constexpr float kEndFromCrawl = 0.4F;    // mm, that the way from a crawl to a stop may take
-constexpr float kStillHolds = 0.99999F;  // use of a limit from which a step can start
+constexpr float kEndFromCrawl = 0.4F;     // mm, that the way from a crawl to a stop may take
+constexpr float kStillHolds = 0.999999F;  // use of a limit from which a step can start
+constexpr float kPartForCrawl = 0.25F;    // of the way left
 constexpr int kMostHalvings = 60;
 constexpr float kSlower = 0.6F;  // from one attempt at a crawl to the next
 constexpr std::uint8_t kMostFirstAttempts = 40;
@@ -48,19 +50,17 @@ float factor_beyond(const StopElement& element, float h) noexcept
 void TimeLaw::set_limits(const MachineLimits& limits) noexcept
 {
     float longest = 0;
-    float least_jerk = kUnlimited;
+    least_jerk_ = kUnlimited;
     for (unsigned i = 0; i < 3; ++i) {
         longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
-        least_jerk = std::min(least_jerk, limits.jerk[i]);
+        least_jerk_ = std::min(least_jerk_, limits.jerk[i]);
     }
     spline_.ratio = quotient(to_lanes(limits.jerk), to_lanes(limits.acceleration));
     station_time_ = std::clamp(0.25F * longest, kShortestStation, kLongestStation);
-    // From v the stop of two phases takes v^1.5 j^-1/2; no faster than at the end of an element.
-    const float stop = cube_root(kCrawlStop * kCrawlStop * least_jerk);
+    // No faster than at the end of an element.
     const float time = kElementTime * longest;
-    const float element = 0.5F * least_jerk * time * time;
-    const float speed = std::min(stop, element);
-    greatest_crawl_ = kCrawlOfEnd * speed * speed;
+    const float element = 0.5F * least_jerk_ * time * time;
+    greatest_crawl_ = std::min(crawl_within(kCrawlStop), kCrawlOfEnd * element * element);
     steps_ = 0;
 }
 
@@ -136,7 +136,7 @@ void TimeLaw::end(const StopElement& stop) noexcept
 // True if the next window needs more stations.
 bool TimeLaw::waits() const noexcept
 {
-    const std::uint32_t end = window_.begin + kMostWindow;
+    const std::uint32_t end = window_.begin + kWindow;
     return !ended_ &&
            (stations_ < end + kLawAdvance || (has_room() && length_behind(end) < kEndFromCrawl));
 }
@@ -165,7 +165,7 @@ void TimeLaw::work() noexcept
 void TimeLaw::begin_window() noexcept
 {
     const std::uint32_t whole = stations_ + 1;
-    window_.end = window_.begin + kMostWindow;
+    window_.end = window_.begin + kWindow;
     if (window_.end < whole) {
         make_room_behind();
     }
@@ -182,7 +182,7 @@ void TimeLaw::begin_window() noexcept
 }
 
 // What is left behind a window has room for the way from its crawl to the stop: the window ends
-// earlier, or more of the last plan becomes final and it reaches the end.
+// earlier; or it reaches the end, though it be long, or more of the last plan becomes final.
 void TimeLaw::make_room_behind() noexcept
 {
     const std::uint32_t whole = stations_ + 1;
@@ -192,10 +192,22 @@ void TimeLaw::make_room_behind() noexcept
     while (window_.end > window_.begin + kLeastWindow && is_narrow(window_.end)) {
         --window_.end;
     }
-    if (ended_ && is_narrow(window_.end) && whole < planned_ + kMostWindow) {
-        window_.begin = whole - kMostWindow;
-        window_.end = whole;
+    if (!is_narrow(window_.end)) {
+        return;
     }
+    if (!ended_ || whole >= planned_ + kMostWindow) {
+        crawl_ = std::min(crawl_, crawl_within(kPartForCrawl * length_behind(window_.end)));
+        return;
+    }
+    window_.begin = std::max(window_.begin + kMostWindow, whole) - kMostWindow;
+    window_.end = whole;
+}
+
+// Squared speed from which a stop of two phases takes a distance, mm: v^1.5 j^-1/2.
+float TimeLaw::crawl_within(float distance) const noexcept
+{
+    const float speed = cube_root(distance * distance * least_jerk_);
+    return kCrawlOfEnd * speed * speed;
 }
 
 // mm from knot k to the stop element at the end.

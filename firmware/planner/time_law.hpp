@@ -90,6 +90,7 @@ private:
     bool waits() const noexcept;
     void begin_window() noexcept;
     void make_room_behind() noexcept;
+    float crawl_within(float distance) const noexcept;
     float length_behind(std::uint32_t k) const noexcept;
     void restart() noexcept;
     void extend() noexcept;
@@ -114,6 +115,7 @@ private:
     float mu_{0};
     float last_mu_{0};  // of the window
     float crawl_{0};
+    float least_jerk_{1};  // mm/s^3, of any axis
     float greatest_crawl_{0};
     StopElement start_{};
     StopElement stop_{};

@@ -274,7 +274,7 @@ private:
         std::size_t idle = 0;
         std::size_t next = 0;
         Track track;
-        planner::AxisFilter filter{};
+        planner::AxisFilter filter{0, 0};  // none yet
         interpolator::RunningSum<PathOffset, 32> first;
         interpolator::RunningSum<PathOffset, 32> second;
         std::array<interpolator::ExactDivision, 3> division;
