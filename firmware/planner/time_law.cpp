@@ -233,7 +233,7 @@ void TimeLaw::extend() noexcept
         goal *= is_first || i > 0 ? kSlower : 1.0F;
         rise *= kSlower;
     }
-    const std::uint32_t from = std::max(planned_, 1U);
+    const std::uint32_t from = std::max<std::uint32_t>(planned_, 1);
     for (std::uint32_t j = planned_; j < end; ++j) {
         spline_.coefficient(j) = goal;
     }
