@@ -7,8 +7,8 @@ _cusp_commands() { cusp --help 2>/dev/null | sed -n '/^Subcommands:/,/^$/s/^  \(
 # What the files are that an argument of COMMAND may name, as a pattern of endings.
 _cusp_endings() {
     case $1 in
-    plan) echo 'toml|json|step|stp|iges|igs|stl|STEP|STP|IGES|IGS|STL' ;;
-    info) echo 'json|step|stp|iges|igs|stl|dxf|svg|STEP|STP|IGES|IGS|STL|DXF|SVG' ;;
+    plan) echo 'toml|json|step|stp|iges|igs|brep|brp|stl|obj|3mf|dxf|svg|gbr|ger|gtl|gbl|gko|gm1|drl|xln|STEP|STP|IGES|IGS|STL|DXF|SVG' ;;
+    info) echo 'json|step|stp|iges|igs|brep|brp|stl|obj|3mf|dxf|svg|gbr|ger|gtl|gbl|gko|gm1|drl|xln|STEP|STP|IGES|IGS|STL|DXF|SVG' ;;
     verify | view) echo 'toml|ngc|nc|gcode|tap' ;;
     sim | fit | stream) echo 'ngc|nc|gcode|tap' ;;
     *) echo '.*' ;;
