@@ -15,8 +15,6 @@ constexpr unsigned kRowEach = (kPlaces - 1) / (kPlacesOfCell - 1);  // every thi
 // Part of what the path leaves the chord of two rows by that is kept of the limits.
 constexpr float kKeptAcceleration = 0.3F;
 constexpr float kKeptJerk = 0.1F;
-// Part of the acceleration that may jump from one cell to the next without a row of its own.
-constexpr float kSeenJump = 1e-3F;
 constexpr float kReach = 1.1F;                // of the filters' window in travel
 constexpr float kElementAcceleration = 0.8F;  // of what the axes allow
 constexpr unsigned kElementBlocks = 16;       // that it may span
