@@ -46,10 +46,11 @@ void LawPlayer::play(const planner::LawCell& cell) noexcept
     gone_ = 0;
     elapsed_ = 0;
     finished_ = cell.travel == 0;
-    // s = w t^3/6 and v = w t^2/2.
-    duration_ = cell.piece == LawPiece::kCell
-                    ? 0.0F
-                    : 3.0F * length_ / std::sqrt(std::max(cell.start.value, kLeastSquare));
+    // s = w t^3/6 and v = w t^2/2; a brake leaves half of v = w t^2 after s = v t - w t^3/6.
+    const float speed = std::sqrt(std::max(cell.start.value, kLeastSquare));
+    duration_ = cell.piece == LawPiece::kCell    ? 0.0F
+                : cell.piece == LawPiece::kBrake ? 1.2F * length_ / speed
+                                                 : 3.0F * length_ / speed;
 }
 
 // Precondition: place <= length_.
@@ -67,14 +68,18 @@ std::uint32_t LawPlayer::advance_element(float& left) noexcept
     const float step = std::min(left, duration_ - elapsed_);
     left -= step;
     elapsed_ += step;
-    const bool is_start = cell_.piece == LawPiece::kStart;
     if (elapsed_ >= duration_ * (1.0F - kRestOfElement)) {
-        finished_ = true;
         return go_to_end();
     }
-    const float part = is_start ? elapsed_ / duration_ : 1.0F - elapsed_ / duration_;
-    const float cube = part * part * part;
-    return go_to(length_ * (is_start ? cube : 1.0F - cube));
+    const float part = elapsed_ / duration_;
+    const float left_part = 1.0F - part;
+    if (cell_.piece == LawPiece::kStart) {
+        return go_to(length_ * (part * part * part));
+    }
+    if (cell_.piece == LawPiece::kBrake) {
+        return go_to(length_ * part * (1.2F - 0.2F * part * part));
+    }
+    return go_to(length_ * (1.0F - left_part * left_part * left_part));
 }
 
 std::uint32_t LawPlayer::go_to_end() noexcept
@@ -114,9 +119,15 @@ float LawPlayer::speed() const noexcept
     if (cell_.piece == LawPiece::kCell) {
         return Series{advanced(cell_.start, place_)}.v;
     }
-    const bool is_start = cell_.piece == LawPiece::kStart;
-    const float part = is_start ? elapsed_ / duration_ : 1.0F - elapsed_ / duration_;
-    return std::sqrt(cell_.start.value) * part * part;
+    const float speed = std::sqrt(cell_.start.value);
+    const float part = elapsed_ / duration_;
+    if (cell_.piece == LawPiece::kStart) {
+        return speed * part * part;
+    }
+    if (cell_.piece == LawPiece::kBrake) {
+        return speed * (1.0F - 0.5F * part * part);
+    }
+    return speed * (1.0F - part) * (1.0F - part);
 }
 
 }  // namespace cusp::interpolator

@@ -23,6 +23,7 @@ enum class LawPiece : std::uint8_t {
     kCell,   // x is a parabola
     kStart,  // from rest with constant jerk; `start` is the state at its end
     kStop,   // the same backwards; `start` is the state at its start
+    kBrake,  // from a steady speed, `start`, to half of it: constant jerk, then comes a kStop
 };
 
 struct LawCell {

@@ -6,6 +6,7 @@
 
 #include "firmware/base/assert.hpp"
 #include "firmware/base/math.hpp"
+#include "firmware/base/path_units.hpp"
 #include "firmware/planner/law_rows.hpp"
 
 namespace cusp::planner {
@@ -28,6 +29,7 @@ constexpr std::uint32_t kLeastWindow = 24;
 constexpr float kEndFromCrawl = 0.4F;     // mm, that the way from a crawl to a stop may take
 constexpr float kStillHolds = 0.999999F;  // use of a limit from which a step can start
 constexpr float kPartForCrawl = 0.25F;    // of the way left
+constexpr float kJerkOfCrawlStop = 0.5F;  // of the least of the axes
 constexpr int kMostHalvings = 60;
 constexpr float kSlower = 0.6F;  // from one attempt at a crawl to the next
 constexpr std::uint8_t kMostFirstAttempts = 40;
@@ -159,6 +161,10 @@ void TimeLaw::work() noexcept
     ++step_;
     if (step_ == kSteps) {
         state_ = State::kChecks;
+        // Where the speed changes more than float can tell, rounding may break a row.
+        if (greatest_use(spline_, window_) >= 1.0F) {
+            retreat();
+        }
     }
 }
 
@@ -318,6 +324,19 @@ void TimeLaw::restart() noexcept
     step_ = 0;
     mu_ = kFirstMu;
     state_ = State::kWorks;
+}
+
+// With jerk w half of the speed is lost in t = (v/w)^1/2, over 5/6 v t, and the rest over 1/6 v t.
+std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
+{
+    const float x = spline_.coefficient(planned_ - 1);
+    const float speed = std::sqrt(x);
+    const float time = std::sqrt(speed / (kJerkOfCrawlStop * least_jerk_));
+    const auto units = [&](float part) {
+        return static_cast<std::uint32_t>(part * speed * time * kPathUnitsPerMillimetre + 0.5F);
+    };
+    return {LawCell{{x, 0.0F, 0.0F}, units(5.0F / 6.0F), LawPiece::kBrake},
+            LawCell{{0.25F * x, 0.0F, 0.0F}, units(1.0F / 6.0F), LawPiece::kStop}};
 }
 
 bool TimeLaw::take(LawCell& cell) noexcept

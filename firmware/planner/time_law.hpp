@@ -80,8 +80,17 @@ public:
     // The next final cell. False: there is none.
     bool take(LawCell& cell) noexcept;
 
-    // Squared speed of the crawl, mm^2/s^2.
-    float crawl() const noexcept { return crawl_; }
+    // The plan beyond the final cells, as far as it goes: cells from taken() up to planned_cells(),
+    // then the stop. Precondition: a window has been accepted.
+    std::uint32_t taken() const noexcept { return taken_; }
+    std::uint32_t planned_cells() const noexcept
+    {
+        return planned_ == stations_ + 2 && ended_ ? stations_ : planned_ - 2;
+    }
+    // True if the plan reaches the stop element at the end; else it ends in a crawl.
+    bool plans_the_end() const noexcept { return ended_ && planned_ == stations_ + 2; }
+    // Two cells that bring the tool from the crawl at the end of the plan to rest.
+    std::array<LawCell, 2> stop_from_crawl() const noexcept;
 
     // Newton steps since set_limits(), for budgets.
     std::uint32_t steps() const noexcept { return steps_; }

@@ -37,13 +37,25 @@ public:
     {
     }
 
+    // As run(), but after so many windows in all no further station comes: the plan is played to
+    // its end, and so to rest.
+    std::vector<Position> run_starved(const std::vector<path::Move>& moves,
+                                      std::uint32_t windows_known)
+    {
+        windows_known_ = windows_known;
+        return run(moves);
+    }
+
     // Set points of the whole program, one a tick.
     std::vector<Position> run(const std::vector<path::Move>& moves)
     {
         cut(moves);
-        for (LawStretch& stretch : stretches_) {
-            plan(stretch);
+        std::size_t planned = 0;
+        while (planned < stretches_.size() && windows < windows_known_) {
+            plan(stretches_[planned]);
+            ++planned;
         }
+        stretches_.resize(planned);
         return play(moves.empty() ? Position{} : moves.front().start);
     }
 
@@ -175,6 +187,10 @@ private:
                 stretch.cells.push_back(cell);
             }
             path->drop_before(checked);
+            if (windows >= windows_known_ && !law->plans_the_end()) {
+                starve(*law, stretch);
+                return;
+            }
             if (law->state() == planner::TimeLaw::State::kBlocked) {
                 ++blocked;
                 break;
@@ -204,6 +220,18 @@ private:
                 law.retreat();
             }
         }
+    }
+
+    // Appends the plan beyond its final cells, and the stop from its crawl.
+    static void starve(const planner::TimeLaw& law, LawStretch& stretch)
+    {
+        for (std::uint32_t k = law.taken(); k < law.planned_cells(); ++k) {
+            stretch.cells.push_back(law.cell(k));
+        }
+        for (const planner::LawCell& cell : law.stop_from_crawl()) {
+            stretch.cells.push_back(cell);
+        }
+        stretch.cells.front().start.value = stretch.cells[1].start.value;
     }
 
     // The elements' inner ends have the speed of the cells beside them.
@@ -315,6 +343,7 @@ private:
     static constexpr float kShare = 0.999F;
     static constexpr float kMostUse = 1.0005F;  // of the limits shared
 
+    std::uint32_t windows_known_{0xFFFFFFFFU};
     MachineLimits limits_;
     std::unique_ptr<planner::PathQueue> queue_;
     std::unique_ptr<planner::Planner> planner_;

@@ -27,3 +27,24 @@ TEST(LawLimits, random_moves_keep_every_limit)
         CHECK_TEXT(rig.blocked == 0, ("seed " + std::to_string(seed) + ": blocked").c_str());
     }
 }
+
+// Cut off after any window the plan in force ends in a crawl, and the crawl in a stop.
+TEST(LawLimits, a_plan_that_nothing_follows_stops_within_every_limit)
+{
+    const std::uint64_t first = first_motion_seed(89000);
+    const std::uint64_t count = motion_program_count(100);
+    unsigned stopped_early = 0;
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const std::vector<path::Move> moves = RandomMoves{seed}.program();
+        if (moves.empty()) {
+            continue;
+        }
+        const MachineLimits limits = random_limits(seed);
+        LawRig rig{limits};
+        const std::vector<Position> samples =
+            rig.run_starved(moves, 1 + static_cast<std::uint32_t>(seed % 37));
+        check_motion(samples, samples.back(), limits, seed);
+        stopped_early += samples.back() != moves.back().end ? 1U : 0U;
+    }
+    CHECK(2 * stopped_early > count);
+}

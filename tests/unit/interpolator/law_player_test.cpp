@@ -120,3 +120,37 @@ TEST(LawPlayer, time_left_by_a_cell_is_for_the_next)
     DOUBLES_EQUAL(10.0 - static_cast<double>(time_to(cell, whole)), static_cast<double>(left),
                   2e-5);
 }
+
+// v - w t^2/2 down to half of v, then w (2 t - t')^2/2 to rest.
+TEST(LawPlayer, a_brake_and_a_stop_bring_a_steady_speed_to_rest)
+{
+    constexpr double kJerk = 12500;
+    constexpr double kSpeed = 2.2;
+    const double time = std::sqrt(kSpeed / kJerk);
+    const auto cell = [&](double speed, double way, LawPiece piece) {
+        return LawCell{{static_cast<float>(speed * speed), 0, 0},
+                       static_cast<std::uint32_t>(way * 16e6 + 0.5),
+                       piece};
+    };
+    LawPlayer player;
+    player.play(cell(kSpeed, kSpeed * time * 5 / 6, LawPiece::kBrake));
+    bool brakes = true;
+    std::uint32_t gone = 0;
+    double at = 0;
+    while (!player.needs_cell()) {
+        float left = kServoTick;
+        gone += player.advance(left);
+        if (player.needs_cell() && brakes) {
+            player.play(cell(kSpeed / 2, kSpeed * time / 6, LawPiece::kStop));
+            brakes = false;
+            gone += player.advance(left);
+        }
+        at = std::min(at + static_cast<double>(kServoTick), 2 * time);
+        const double to_rest = 2 * time - at;
+        const double way = at < time ? kSpeed * at - kJerk * at * at * at / 6
+                                     : kSpeed * time - kJerk * to_rest * to_rest * to_rest / 6;
+        DOUBLES_EQUAL(way, static_cast<double>(gone) / 16e6, 2e-7);
+    }
+    CHECK(!brakes);
+    DOUBLES_EQUAL(0, static_cast<double>(player.speed()), 0);
+}
