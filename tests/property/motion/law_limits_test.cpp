@@ -1,11 +1,15 @@
 // Random programs by the time law: no axis over a limit in any tick, every end exact.
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/gcode/interpreter.hpp"
 #include "tests/support/law_rig.hpp"
 #include "tests/support/motion_limits.hpp"
 #include "tests/support/random_moves.hpp"
+#include "tests/support/random_program.hpp"
 
 using namespace cusp;
 using namespace cusp::test;
@@ -18,6 +22,35 @@ TEST(LawLimits, random_moves_keep_every_limit)
     const std::uint64_t count = motion_program_count(100);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         const std::vector<path::Move> moves = RandomMoves{seed}.program();
+        if (moves.empty()) {
+            continue;
+        }
+        const MachineLimits limits = random_limits(seed);
+        LawRig rig{limits};
+        check_motion(rig.run(moves), moves.back().end, limits, seed);
+        CHECK_TEXT(rig.blocked == 0, ("seed " + std::to_string(seed) + ": blocked").c_str());
+    }
+}
+
+// Arcs of all planes, splines, inches.
+TEST(LawLimits, random_gcode_keeps_every_limit)
+{
+    const std::uint64_t first = first_motion_seed(8000);
+    const std::uint64_t count = motion_program_count(40);
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        gcode::Interpreter interpreter;
+        std::vector<path::Move> moves;
+        std::uint32_t number = 0;
+        const std::vector<std::string> lines = RandomProgram{seed}.lines();
+        for (const std::string& line : lines) {
+            (void)interpreter.execute(line, ++number);
+            gcode::Action action;
+            while (interpreter.next(action)) {
+                if (const auto* move = std::get_if<path::Move>(&action)) {
+                    moves.push_back(*move);
+                }
+            }
+        }
         if (moves.empty()) {
             continue;
         }
