@@ -23,7 +23,7 @@ using offset::Region2d;
 namespace {
 
 constexpr double kSameFeature = 0.01;  // mm
-constexpr double kLeastWall = 0.01;    // mm^2 of the ring beside a piece
+constexpr double kLeastBeside = 0.01;    // mm^2 of the ring beside a piece
 
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameFeature; }
 
@@ -64,8 +64,8 @@ void add_pockets(const std::vector<std::array<Vec3d, 3>>& triangles,
         const Beside sides = pocket.area >= offset::kLeastLevel
                                  ? beside({{piece.contours.front()}}, standing)
                                  : Beside{};
-        if (sides.walls > kLeastWall) {
-            pocket.open = sides.open > kLeastWall;
+        if (sides.walls > kLeastBeside) {
+            pocket.open = sides.open > kLeastBeside;
             found.push_back(pocket);
         }
     }
