@@ -1,4 +1,4 @@
-// Triangles: the distance of a tool from one, and the drop of a ball on one.
+// Triangles, and the distance of a tool from one.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct Facet {
 };
 
 // Distance from the core of a tool to a facet, and the nearest point of the facet, `place`. Exact
-// for a ball; for a disc as accurate as edge_distance().
+// for a ball; for other ends as accurate as edge_distance().
 //
 // Both are convex. If the nearest point of the facet's plane lies in the facet, it is the nearest
 // point; otherwise that is on a side.
@@ -31,16 +31,6 @@ double facet_distance(const ToolCore& core,
                       const Facet& facet,
                       Vec3d& place,
                       double limit = kInfinite);
-
-struct FacetContact {
-    double centre;  // mm: height of the ball's centre
-    Vec3d point;
-};
-
-// A ball dropped at (x, y) on one facet; none where it misses the facet, or where its centre would
-// be below `least`.
-std::optional<FacetContact> drop_ball_on_facet(
-    const Facet& facet, double x, double y, double radius, double least);
 
 // Height of the facet at (x, y); none beside it, or where it is vertical.
 std::optional<double> height_at(const Facet& facet, double x, double y);

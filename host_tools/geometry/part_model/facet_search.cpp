@@ -61,25 +61,26 @@ double square_to_box(const BoxTree::Node& box, double x, double y)
 
 }  // namespace
 
-std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
-                                               double x,
-                                               double y,
-                                               double radius)
+std::optional<MeshContact> drop_on_facets(const PartModel::State& state,
+                                          const ToolProfile& tool,
+                                          double x,
+                                          double y)
 {
     // Facets that share the contact are found in any order, so all alike are compared at the end.
-    thread_local std::vector<MeshContact> alike;
+    struct Alike {
+        FacetContact at;
+        std::size_t facet;
+    };
+    thread_local std::vector<Alike> alike;
     alike.clear();
     double highest = -kInfinite;
-    const auto facing = [&](const MeshContact& contact) {
-        return dot(Vec3d{x, y, contact.at.centre} - contact.at.point,
-                   state.facets[contact.facet].normal);
-    };
+    const double square_radius = tool.radius() * tool.radius();
     const auto bound = [&](const BoxTree::Node& box) {
-        const double up = radius * radius - square_to_box(box, x, y);
-        return up < 0 ? -kInfinite : box.high.z + std::sqrt(up);
+        const double square = square_to_box(box, x, y);
+        return square > square_radius ? -kInfinite : box.high.z - tool.height(std::sqrt(square));
     };
     const auto look = [&](std::size_t facet) {
-        const auto found = drop_ball_on_facet(state.facets[facet], x, y, radius, highest - kAlike);
+        const auto found = drop_on_facet(state.facets[facet], tool, x, y, highest - kAlike);
         if (found && found->centre >= highest - kAlike) {
             highest = std::max(highest, found->centre);
             alike.push_back({*found, facet});
@@ -91,13 +92,19 @@ std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
     const double known = state.facets.empty() ? -kInfinite : look(last_facet);
     visit_facets(state, known, bound, look);
     std::optional<MeshContact> best;
-    for (const MeshContact& contact : alike) {
+    double best_facing = -kInfinite;
+    for (const Alike& contact : alike) {
         if (contact.at.centre < highest - kAlike) {
             continue;
         }
-        const double gain = best ? facing(contact) - facing(*best) : kInfinite;
-        if (gain > 0 || (gain == 0 && contact.facet < best->facet)) {
-            best = contact;
+        const Vec3d into = -tool.core_at(x, y, contact.at.centre).reach(contact.at.point);
+        const double reach = norm(into);
+        const Vec3d lean = reach > 0 ? into / reach : Vec3d{};
+        const double facing = dot(lean, state.facets[contact.facet].normal);
+        if (!best || facing > best_facing ||
+            (facing == best_facing && contact.facet < best->facet)) {
+            best = MeshContact{contact.at, lean, contact.facet};
+            best_facing = facing;
         }
     }
     if (best) {

@@ -1,22 +1,25 @@
-// Drop cutter for balls on meshes, over the tree of boxes.
+// Drop cutter on meshes, over the tree of boxes.
 #pragma once
 
 #include <optional>
 
+#include "host_tools/geometry/part_model/facet_drop.hpp"
 #include "host_tools/geometry/part_model/nearest_search.hpp"
 
 namespace cusp::part_model {
 
-// A ball dropped at (x, y) on the facets of a model; none where it misses them all. If it touches
-// several, the one that faces its centre most.
+// A tool dropped at (x, y) on the facets of a model; none where it misses them all. If it touches
+// several, the one that faces it most.
 struct MeshContact {
     FacetContact at;
+    Vec3d
+        lean;  // unit, from the contact into the tool; zero for a contact with a corner radius of 0
     std::size_t facet;
 };
-std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
-                                               double x,
-                                               double y,
-                                               double radius);
+std::optional<MeshContact> drop_on_facets(const PartModel::State& state,
+                                          const ToolProfile& tool,
+                                          double x,
+                                          double y);
 
 // The highest facet at (x, y).
 struct FacetUnder {

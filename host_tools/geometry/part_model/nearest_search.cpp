@@ -446,12 +446,15 @@ NearestResult nearest(const PartModel::State& state,
                       const ToolCore& core,
                       const NearestOptions& options)
 {
-    return Search{state, core, options}.run();
+    // Cells know points and discs: over surfaces a cone counts as the cylinder round it.
+    const bool is_cone = core.widening > 0 && state.facets.empty();
+    const ToolCore used = is_cone ? ToolCore{core.widest, core.end} : core;
+    return Search{state, used, options}.run();
 }
 
 bool is_core_distance_at_least(const PartModel::State& state, const ToolCore& core, double least)
 {
-    return Search{state, core, {least, 0, std::nextafter(least, 0.0)}}.run().distance >= least;
+    return nearest(state, core, {least, 0, std::nextafter(least, 0.0)}).distance >= least;
 }
 
 }  // namespace cusp::part_model

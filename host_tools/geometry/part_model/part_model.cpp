@@ -6,6 +6,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
+#include "host_tools/geometry/part_model/facet_move.hpp"
 #include "host_tools/geometry/part_model/facet_search.hpp"
 #include "host_tools/geometry/part_model/move_clearance_bound.hpp"
 #include "host_tools/geometry/part_model/nearest_search.hpp"
@@ -187,12 +188,50 @@ bool PartModel::is_mesh() const { return !state_->facets.empty(); }
 
 std::optional<PartModel::DroppedBall> PartModel::drop_ball(double x, double y, double radius) const
 {
-    const std::optional<MeshContact> found = drop_ball_on_facets(*state_, x, y, radius);
+    Tool ball;
+    ball.radius = ball.corner_radius = radius;
+    const std::optional<MeshContact> found = drop_on_facets(*state_, ToolProfile{ball}, x, y);
     if (!found) {
         return std::nullopt;
     }
     return DroppedBall{
         {x, y, found->at.centre}, found->at.point, state_->facets[found->facet].normal};
+}
+
+std::optional<PartModel::DroppedTool> PartModel::drop_tool(const Tool& tool,
+                                                           double x,
+                                                           double y) const
+{
+    const std::optional<MeshContact> found = drop_on_facets(*state_, ToolProfile{tool}, x, y);
+    if (!found) {
+        return std::nullopt;
+    }
+    return DroppedTool{{x, y, found->at.centre - tool.corner_radius},
+                       found->at.point,
+                       state_->facets[found->facet].normal,
+                       found->lean};
+}
+
+PartModel::Blocked PartModel::blocked(const Tool& tool,
+                                      const std::array<Vec3d, 3>& tips,
+                                      double least) const
+{
+    const double near = least + tool.corner_radius;
+    const auto by_last = [&] {
+        const Facet& facet = state_->facets[state_->history().last_facet];
+        Vec3d place;
+        return std::all_of(tips.begin(), tips.end(), [&](Vec3d tip) {
+            return facet_distance(core_of(tool, tip), facet, place, near) < near;
+        });
+    };
+    if (by_last()) {
+        return Blocked::kByOneFacet;
+    }
+    const Vec3d middle = (tips[0] + tips[1] + tips[2]) / 3.0;
+    if (nearest(*state_, core_of(tool, middle), {near}).place.surface < 0) {
+        return Blocked::kFree;
+    }
+    return by_last() ? Blocked::kByOneFacet : Blocked::kHere;
 }
 
 std::optional<PartModel::TopPoint> PartModel::height_at(double x, double y) const
@@ -347,6 +386,13 @@ bool PartModel::is_distance_at_least(const Tool& tool, Vec3d tip, double least) 
 double PartModel::move_clearance(
     const Tool& tool, Vec3d a, Vec3d b, double sufficient, double resolution) const
 {
+    if (is_mesh()) {
+        const double least = sufficient + tool.corner_radius;
+        return least <= 0
+                   ? sufficient
+                   : least_facet_distance(*state_, core_of(tool, a), b - a, least, resolution) -
+                         tool.corner_radius;
+    }
     ChordBound chord{*this, tool, sufficient, resolution};
     const double reach = 0.5 * norm(b - a);
     const double at_a = chord.clearance(a, reach);
@@ -378,9 +424,9 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
                                                                double y,
                                                                std::optional<double> guess) const
 {
-    if (state_->cells.empty() && tool.corner_radius == tool.radius) {
-        const std::optional<MeshContact> found = drop_ball_on_facets(*state_, x, y, tool.radius);
-        return found ? std::optional{DroppedCutter{found->at.centre - tool.radius, {}}}
+    if (is_mesh()) {
+        const std::optional<MeshContact> found = drop_on_facets(*state_, ToolProfile{tool}, x, y);
+        return found ? std::optional{DroppedCutter{found->at.centre - tool.corner_radius, {}}}
                      : std::nullopt;
     }
     const double floor = state_->low.z - tool.radius - 1;

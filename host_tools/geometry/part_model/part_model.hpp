@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -60,8 +61,8 @@ struct CcPoint {
 // Derivatives of that centre by u and by v. `p` is the surface there, second derivatives included.
 std::pair<Vec3d, Vec3d> centre_slopes(const nurbs::SurfacePoint& p, Vec3d normal, double distance);
 
-// The tool is the whole rotating body: its end as `Tool` describes it and a cylindrical shank
-// above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
+// The tool is the whole rotating body: its end as `Tool` describes it (over surfaces a cone counts as
+// the cylinder round it) and a cylindrical shank above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
 // a surface is in contact with it.
 //
 // For queries by several threads at once, within SharedQueries. Queries keep the halves of cells
@@ -106,8 +107,11 @@ public:
     // sufficient  mm: the search ends once the bound reaches this, which it never exceeds
     // resolution  mm: how much too low the bound may be; smaller takes longer
     //
-    // Proof: the squared distance to any set, less the squared arc length along a line, is concave
-    // along the line. Thus two exact distances bound all distances between them.
+    // A tool without a corner radius has no depth: its clearance is proved where `sufficient` > 0.
+    //
+    // Proof over surfaces: the squared distance to any set, less the squared arc length along a line, is
+    // concave along the line. Thus two exact distances bound all distances between them. Over a mesh:
+    // see facet_move.hpp.
     double move_clearance(
         const toolpath::Tool& tool, Vec3d a, Vec3d b, double sufficient, double resolution) const;
 
@@ -161,6 +165,24 @@ public:
         Vec3d normal;  // of the facet there, never downward
     };
     std::optional<DroppedBall> drop_ball(double x, double y, double radius) const;
+
+    // Any tool dropped at (x, y) on a mesh; none where it misses the mesh.
+    struct DroppedTool {
+        Vec3d tip;
+        Vec3d point;   // the contact
+        Vec3d normal;  // of the facet there, never downward
+        Vec3d lean;    // unit, from the contact into the tool; 0 for a tool without a corner radius
+    };
+    std::optional<DroppedTool> drop_tool(const toolpath::Tool& tool, double x, double y) const;
+
+    // What blocks a tool at three tips, and so at all tips between them, from a mesh: a facet nearer than
+    // `least` (mm) to all of them does, since it is convex.
+    //
+    // kFree: nothing is so near to the tool in the middle of the tips.
+    enum class Blocked : std::uint8_t { kFree, kByOneFacet, kHere };
+    Blocked blocked(const toolpath::Tool& tool,
+                    const std::array<Vec3d, 3>& tips,
+                    double least) const;
 
     // The highest point of a mesh at (x, y). None beside the mesh; vertical facets have no height.
     struct TopPoint {

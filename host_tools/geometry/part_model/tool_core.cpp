@@ -1,5 +1,5 @@
 // Distances from boxes along tangent planes, and from edges: in closed form for a ball, by
-// bisection for a disc.
+// false position for other ends.
 #include "host_tools/geometry/part_model/tool_core.hpp"
 
 #include <algorithm>
@@ -12,6 +12,9 @@ namespace cusp::part_model {
 using toolpath::Tool;
 
 namespace {
+
+constexpr int kEdgeSteps = 80;
+constexpr double kExactShare = 1e-13;  // of an edge
 
 // The nearest point of a straight edge to the core of a ball, a point and everything above it: the
 // nearest in space below that point, the nearest in plan above it.
@@ -42,7 +45,13 @@ double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge
 
 ToolCore core_of(const Tool& tool, Vec3d tip)
 {
-    return {tool.radius - tool.corner_radius, {tip.x, tip.y, tip.z + tool.corner_radius}};
+    const Vec3d end{tip.x, tip.y, tip.z + tool.corner_radius};
+    if (!is_conical(tool)) {
+        return {tool.radius - tool.corner_radius, end};
+    }
+    const double half = 0.5 * tool.tip_angle;
+    return {tool.tip_radius, end, elementary::tan(half),
+            tool.radius - tool.corner_radius * elementary::cos(half)};
 }
 
 // By the box along the tangent plane.
@@ -65,19 +74,42 @@ double oriented_distance(const ToolCore& core, const BezierCell& cell)
     return std::sqrt(square);
 }
 
-// Bisection: the distance from the core is convex along the edge.
+// The squared distance from the core is convex along the edge: its slope has one zero. False position,
+// with the weight of an end that stays halved (Illinois algorithm); every fourth step bisects.
 double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
 {
-    if (core.radius == 0) {
+    if (core.is_point()) {
         return ball_edge_distance(core, edge, place);
     }
     const Vec3d d = edge[1] - edge[0];
+    const auto slope_at = [&](double share) {
+        return dot(core.reach(edge[0] + d * share), d);
+    };
     double from = 0;
     double to = 1;
-    for (int k = 0; k < 48 && from < to; ++k) {
-        const double middle = 0.5 * (from + to);
-        const double slope = dot(core.reach(edge[0] + d * middle), d);
-        (slope > 0 ? to : from) = middle;
+    double at_from = slope_at(from);
+    double at_to = slope_at(to);
+    if (at_from >= 0) {
+        to = from;
+    } else if (at_to <= 0) {
+        from = to;
+    }
+    int stayed = 0;
+    for (int k = 0; k < kEdgeSteps && to - from > kExactShare; ++k) {
+        const double share = k % 4 == 3 ? 0.5 : at_from / (at_from - at_to);
+        const double middle = from + share * (to - from);
+        const double slope = slope_at(middle);
+        if (slope > 0) {
+            to = middle;
+            at_to = slope;
+            at_from *= stayed > 0 ? 0.5 : 1;
+            stayed = 1;
+        } else {
+            from = middle;
+            at_from = slope;
+            at_to *= stayed < 0 ? 0.5 : 1;
+            stayed = -1;
+        }
         if (slope == 0) {
             to = from = middle;
         }

@@ -8,6 +8,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/geometry/part_model/part_model.hpp"
+#include "tests/support/random_triangles.hpp"
 #include "tests/support/three_tools.hpp"
 
 using namespace cusp;
@@ -18,21 +19,6 @@ using namespace cusp::toolpath;
 namespace {
 
 using Triangle = std::array<Vec3d, 3>;
-
-std::vector<Triangle> random_triangles(std::mt19937& random, int count)
-{
-    std::uniform_real_distribution<double> place{0, 20};
-    std::uniform_real_distribution<double> aside{-4, 4};
-    std::vector<Triangle> out;
-    for (int k = 0; k < count; ++k) {
-        const Vec3d a{place(random), place(random), 0.3 * place(random)};
-        const auto near = [&] {
-            return a + Vec3d{aside(random), aside(random), 0.5 * aside(random)};
-        };
-        out.push_back({a, near(), near()});
-    }
-    return out;
-}
 
 // From samples: the least distance from the core, a disc and all above it; too high by their
 // spacing.
