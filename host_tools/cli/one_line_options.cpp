@@ -102,7 +102,7 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         return command.add_option(name, value, text)->group(kGroup);
     };
     add("--tool", request.tools,
-        "ball:6, flat:8, bull:10:1.5, taper:6:5:0.5, drill:5, vee:6:60: the last finishes")
+        "ball:6, flat:8, bull:10:1.5, drill:5, vee:6:60: the first roughs, the last finishes")
         ->type_name("SHAPE:DIAMETER ...");
     add("--scallop", request.scallop, "height of the scallops that may remain, tolerance included");
     add_drawing_options(command, request);

@@ -243,8 +243,7 @@ class OneLine(unittest.TestCase):
                 ("the diameter is -6", "ball:-6"), ("\"nan\" is no diameter", "ball:nan"),
                 ("the corner radius is 4, the tool's radius only 3", "bull:6:4"),
                 ("its diameter is 200 mm, the part is only 60 x 40", "ball:200"),
-                ("a taper has a diameter, the angle", "taper:6:5"),
-                ("--tool taper:6:5:0.5: a taper only finishes", "taper:6:5:0.5")):
+                ("--tool flat:8: comes last and so finishes", "flat:8")):
             self.refused(words, "ramp.json", "--tool", tool, "--scallop", "0.05")
         self.refused("--tool: is missing", "ramp.json", "--scallop", "0.05")
         self.refused("--tool: is missing", "ramp.json")

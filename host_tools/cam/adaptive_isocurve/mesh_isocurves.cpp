@@ -6,14 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
-#include "host_tools/cam/finishing/scallop_at_point.hpp"
 #include "host_tools/cam/finishing/surface_operation.hpp"
-#include "host_tools/geometry/part_model/tool_cap.hpp"
+#include "host_tools/geometry/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -29,16 +27,13 @@ using finishing::SurfaceOperation;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;
-using part_model::cap_reach;
 using part_model::PartModel;
-using part_model::ToolProfile;
 using toolpath::PlannedOperation;
-using toolpath::ToolShape;
+using toolpath::stepover;
 
 namespace {
 
 constexpr double kRowShare = 0.9;        // of the stepover on level ground
-constexpr double kWidest = 1.8;          // radii: the same
 constexpr double kSampleShare = 0.5;     // of it: between samples along a row
 constexpr double kNarrowest = 1.0 / 64;  // of it: between neighbours
 // Share of the scallop allowed in the middle between neighbours: the ridge is a little higher.
@@ -65,15 +60,10 @@ struct MeshStrip {
 };
 
 // The scallop of passes iso_distance apart on level ground, the tolerance included.
-double scallop_of(const Job& job, const Operation& operation, double outward)
+double scallop_of(const Operation& operation, double outward)
 {
     if (!finish_keys(operation).iso_distance) {
         return *operation.tolerance.scallop;
-    }
-    if (operation.tool.shape != ToolShape::kBall) {
-        throw InputError(fmt::format(
-            "{}: {}: iso_distance goes with a ball; give the scallop for tool {}, which is {}",
-            job.file, operation.name(), operation.tool.number, name_of(operation.tool.shape)));
     }
     const double radius = operation.tool.radius;
     const double half = std::min(0.5 * *finish_keys(operation).iso_distance, 0.95 * radius);
@@ -86,9 +76,8 @@ public:
         : job_{job},
           operation_{operation},
           work_{job, operation, {}},
-          tool_{work_.path_fitter().offset_tool()},
-          radius_{tool_.radius},
-          scallop_{scallop_of(job, operation, work_.outward())},
+          radius_{work_.path_fitter().offset_tool().radius},
+          scallop_{scallop_of(operation, work_.outward())},
           scallop_check_{operation.part.mesh, work_.path_fitter(), scallop_, work_.path_off()}
     {
         leave_out(floors, work_);
@@ -101,9 +90,7 @@ public:
         origin_ = {low.x, low.y, 0};
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
-        row_ = kRowShare * std::min(kWidest * operation.tool.radius,
-                                    2 * cap_reach(ToolProfile{operation.tool}, {0, 0, 1}, {1, 0, 0},
-                                                  scallop_ - work_.outward()));
+        row_ = kRowShare * stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
         if (finish_keys(operation).iso_distance) {
             row_ = std::min(row_, 0.999 * *finish_keys(operation).iso_distance);
         }
@@ -125,7 +112,7 @@ private:
         job_.report_progress(share, operation_.passes.roughing ? kRoughingDone : 0);
     }
 
-    using Dropped = PartModel::DroppedTool;
+    using Dropped = PartModel::DroppedBall;
 
     Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
 
@@ -134,18 +121,19 @@ private:
     std::optional<Dropped> drop_at(double s, double t) const
     {
         const Vec3d at = place(s, t);
-        std::optional<Dropped> found = work_.model().drop_tool(tool_, at.x, at.y);
-        if (found && ((!work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) ||
-                      !work_.area().holds(found->point, found->lean))) {
+        std::optional<Dropped> found = work_.model().drop_ball(at.x, at.y, radius_);
+        if (found &&
+            ((!work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) ||
+             !work_.area().holds(found->point, (found->centre - found->point) / radius_))) {
             return std::nullopt;
         }
         return found;
     }
 
-    // Beside the mesh, a tool that touches a rim or a wall only has nothing to cut.
+    // Beside the mesh, a ball that touches a rim or a wall only has nothing to cut.
     bool is_on(const Dropped& at, double s, double t) const
     {
-        const double facing = dot(at.lean, at.normal);
+        const double facing = dot(at.centre - at.point, at.normal) / radius_;
         const bool outside = s < 0 || s > length_ || t < 0 || t > width_;
         return outside ? facing >= kOutside && at.normal.z >= kUprightNormal : facing >= kFacing;
     }
@@ -180,11 +168,10 @@ private:
     {
         std::vector<std::vector<Range>> missing(strips.size());
         for (std::size_t first = 0; first < 2; ++first) {
-            parallel::for_each((strips.size() + 1 - first) / 2, [&](std::size_t k) {
-                work_.model().forget_queries();
-                missing[2 * k + first] = missing_in(strips[2 * k + first]);
-            });
-            work_.model().forget_queries();
+            scallop_check_.share_out(
+                (strips.size() + 1 - first) / 2, [&](const MeshScallopCheck& check, std::size_t k) {
+                    missing[2 * k + first] = missing_in(strips[2 * k + first], check);
+                });
             std::vector<Cut> cuts;
             for (std::size_t k = first; k < strips.size(); k += 2) {
                 for (const Range& range : missing[k]) {
@@ -204,25 +191,28 @@ private:
         return out;
     }
 
-    std::vector<Range> missing_in(const MeshStrip& strip) const
+    std::vector<Range> missing_in(const MeshStrip& strip, const MeshScallopCheck& check) const
     {
         std::vector<Range> missing;
         if (strip.high - strip.low >= kNarrowest * row_) {
             for (const Range& range : strip.ranges) {
-                find_missing(range, strip, missing);
+                find_missing(range, strip, check, missing);
             }
         }
         return missing;
     }
 
     // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
-    void find_missing(const Range& range, const MeshStrip& strip, std::vector<Range>& missing) const
+    void find_missing(const Range& range,
+                      const MeshStrip& strip,
+                      const MeshScallopCheck& check,
+                      std::vector<Range>& missing) const
     {
         const int samples =
             std::max(1, static_cast<int>(std::ceil((range.to - range.from) / sample_pitch_)));
         for (int k = 0; k <= samples; ++k) {
             const double s = range.from + (range.to - range.from) * k / samples;
-            if (!is_missing(s, strip)) {
+            if (!is_missing(s, strip, check)) {
                 continue;
             }
             const Range around{std::max(whole().from, s - sample_pitch_),
@@ -235,13 +225,14 @@ private:
         }
     }
 
-    bool is_missing(double s, const MeshStrip& strip) const
+    bool is_missing(double s, const MeshStrip& strip, const MeshScallopCheck& check) const
     {
         const std::optional<Dropped> here = drop_at(s, 0.5 * (strip.low + strip.high));
         if (!here) {
             return false;
         }
-        return !scallop_check_.is_covered(here->point, here->lean, kMiddleShare) ||
+        return !check.is_covered(here->point, (here->centre - here->point) / radius_,
+                                 kMiddleShare) ||
                (finish_keys(operation_).iso_distance && too_far_apart(s, strip));
     }
 
@@ -255,7 +246,7 @@ private:
             const double way = norm(b - a);
             return way > delta && way < delta + 4 * (strip.high - strip.low);
         };
-        return low && high && (far(low->tip, high->tip) || far(low->point, high->point));
+        return low && high && (far(low->centre, high->centre) || far(low->point, high->point));
     }
 
     // A part of a row.
@@ -344,9 +335,9 @@ private:
         constexpr double kShown = 1e-2;  // mm2
         if (scallop_check_.blocked_area() > kShown) {
             planned.stats.warnings.push_back(fmt::format(
-                "on {:.3g} mm2 the {} does not touch the mesh (feet of walls, concave edges, "
-                "undercuts, valleys narrower than the tool): stock is left there",
-                scallop_check_.blocked_area(), name_of(operation_.tool.shape)));
+                "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
+                "undercuts, valleys narrower than the ball): stock is left there",
+                scallop_check_.blocked_area()));
         }
         planned.stats.counts.emplace_back("isocurves", curves_);
         planned.stats.counts.emplace_back("triangles",
@@ -357,8 +348,7 @@ private:
     const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
-    toolpath::Tool tool_;  // with the band's offset
-    double radius_;        // mm, of that
+    double radius_;
     double scallop_;
     MeshScallopCheck scallop_check_;
     Vec3d along_{1, 0, 0};

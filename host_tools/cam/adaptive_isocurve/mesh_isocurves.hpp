@@ -8,7 +8,7 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Algorithm 1 of Elber & Cohen on the exact offset of the mesh: a tool dropped on the triangles of
+// Algorithm 1 of Elber & Cohen on the exact offset of the mesh: a ball dropped on the triangles of
 // `operation.mesh`. Isocurves run along x (`direction` "v": along y). If two neighbours leave
 // more than the scallop half way between them, that part of the middle isocurve is added, and so
 // on. Passes along mesh_pencil_curves() follow, then those over uncovered cells of

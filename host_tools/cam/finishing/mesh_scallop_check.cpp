@@ -1,40 +1,191 @@
-// Triangles are halved across their longest side until one move covers each half, or none can.
+// Triangles are halved across their longest side until one move covers each half.
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "host_tools/base/parallel/parallel.hpp"
+#include "firmware/base/math.hpp"
+#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/finish_area.hpp"
-#include "host_tools/cam/finishing/scallop_at_point.hpp"
 #include "host_tools/cam/finishing/walls_over_nothing.hpp"
 #include "host_tools/geometry/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
 
 using part_model::Facet;
-using part_model::PartModel;
 
 namespace {
 
-// Sizes of cells, in widths of what one move leaves low enough.
-constexpr double kLargestTriangle = 3;
-constexpr double kHiddenCell = 1;
-constexpr double kTouchCell = 1;            // whether the tool may touch is asked from here on
-constexpr double kUntouchedCell = 1.0 / 3;  // of ground that is kept as one that it can't touch
-constexpr double kSmallestTriangle = 1.0 / 64;
-constexpr int kTriangleHalvings = 60;
-constexpr std::size_t kMostOpen = 300000;
-constexpr std::size_t kFacetsAtOnce = 64;
-constexpr double kSharedTriangle = 64;  // larger facets are divided before they are shared
-constexpr double kUprightFacet = 1e-9;
+constexpr double kSmallestFacet = 1.0 / 64;  // cells, in steps between passes
+constexpr double kLargestFacet = 2;          // the same
+constexpr int kFacetRounds = 5;
+constexpr int kFacetHalvings = 60;
+constexpr std::size_t kMostGaps = 300000;
+constexpr std::size_t kShares = 64;           // of a search on several threads
+constexpr std::size_t kEnoughFacets = 40000;  // effort of a copy, which then gives half of the rest
+constexpr double kSharedFacet = 4;  // in steps: larger ones are divided before they are shared
+constexpr int kFacetSharedHalvings = 24;
+constexpr int kWaysAround = 12;
+constexpr double kFallsOff = 0.5;  // radii
 
-struct LongSide {
-    double length;
-    std::size_t side;
-};
+// A point exactly on a side would have the normals of two facets.
+Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
 
-LongSide longest_side(const std::array<Vec3d, 3>& corners)
+}  // namespace
+
+MeshScallopCheck::MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& triangles,
+                                   const GougeFreePathFitter& path_fitter,
+                                   double scallop,
+                                   double path_off)
+    : triangles_{triangles},
+      path_fitter_{path_fitter},
+      scallop_{scallop},
+      path_off_{path_off},
+      places_{no_surfaces_, path_fitter, scallop, path_off},
+      walls_{path_fitter, places_}
+{
+}
+
+bool MeshScallopCheck::is_hidden(Vec3d point) const
+{
+    const auto top = path_fitter_.model().height_at(point.x, point.y);
+    return top && top->point.z > point.z + kHidden;
+}
+
+MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
+{
+    ++judged_;
+    const double longest = longest_side(cell.corners).length;
+    if (path_fitter_.area().is_beyond(cell.middle(), longest, cell.normal, 0)) {
+        return Verdict::kCovered;
+    }
+    if (longest > kLargestFacet * step()) {
+        return Verdict::kHalve;
+    }
+    if (cell.normal.z < kUprightNormal) {
+        return judge_steep(cell, longest);
+    }
+    const Vec3d middle = cell.middle();
+    const bool along_z = cell.normal.z >= kSteepNormal;
+    places_.swept().near(centre_under(raised(middle, cell.normal, scallop_, along_z), cell.normal,
+                                      scallop_, path_fitter_.tool().radius),
+                         near_);
+    bool touched = false;
+    for (const std::uint32_t move : near_) {
+        const auto count =
+            std::count_if(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, along_z),
+                                               path_off_);
+            });
+        if (count == 3) {
+            return Verdict::kCovered;
+        }
+        touched = touched || count > 0;
+    }
+    if (!touched && longest < step() && is_hidden(middle) &&
+        std::all_of(cell.corners.begin(), cell.corners.end(),
+                    [&](Vec3d corner) { return is_hidden(corner); })) {
+        return Verdict::kCovered;
+    }
+    if (longest >= kBlockedCell * step()) {
+        return longest < kSettledCell * step() && settled(cell) ? Verdict::kSettled
+                                                                : Verdict::kHalve;
+    }
+    bool each = true;
+    for (const Vec3d& corner : cell.corners) {
+        if (!is_covered(corner, cell.normal, kPlaceShare)) {
+            each = false;
+            if (!path_fitter_.is_clear(places_.touching_tip(corner, cell.normal))) {
+                return low_enough(cell) ? Verdict::kCovered : Verdict::kBlocked;
+            }
+        }
+    }
+    // Halving would not cover an uncovered corner.
+    if (!each) {
+        return Verdict::kUncovered;
+    }
+    return longest >= kSmallestFacet * step() ? Verdict::kHalve : Verdict::kCovered;
+}
+
+bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
+{
+    return !is_covered(corner, normal, kPlaceShare) &&
+           !path_fitter_.is_clear(places_.touching_tip(corner, normal));
+}
+
+// True if the mesh ends or drops within the tool's radius. Beside a drop the ball gets lower, and
+// how low changes from one point to the next: one point does not represent a cell.
+bool MeshScallopCheck::falls_off_beside(Vec3d point) const
+{
+    const double radius = path_fitter_.tool().radius;
+    for (const double away : {0.4 * radius, radius}) {
+        for (int k = 0; k < kWaysAround; ++k) {
+            const double turn = 2 * kPi * k / kWaysAround;
+            const auto top = path_fitter_.model().height_at(point.x + away * elementary::cos(turn),
+                                                            point.y + away * elementary::sin(turn));
+            if (!top || top->point.z < point.z - kFallsOff * radius) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool MeshScallopCheck::settled(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    return std::all_of(cell.corners.begin(), cell.corners.end(),
+                       [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
+           !is_hidden(middle) && places_.settled(middle, cell.normal) &&
+           (!falls_off_beside(middle) ||
+            std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+                return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
+            }));
+}
+
+// True if the stock vertically above the corners is no higher than the scallop, along the normal of
+// the facet.
+bool MeshScallopCheck::low_enough(const Cell& cell) const
+{
+    return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+        const double over = places_.swept().lowest(corner.x, corner.y).height - corner.z;
+        return over * cell.normal.z <= kPlaceShare * scallop_;
+    });
+}
+
+void MeshScallopCheck::check_cell(const Cell& cell, int depth)
+{
+    if (overflowed_) {
+        return;
+    }
+    const Verdict verdict = judge(cell);
+    if (verdict == Verdict::kCovered) {
+        return;
+    }
+    if (verdict != Verdict::kHalve || depth == 0) {
+        if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && checking_) {
+            blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
+                                              cell.corners[2] - cell.corners[0]));
+        }
+        // If the tool cannot touch there is usually no lower position. Rough meshes have very
+        // many such cells.
+        if (verdict == Verdict::kSettled ||
+            (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {
+            return;
+        }
+        overflowed_ = uncovered_.size() >= kMostGaps;
+        if (!overflowed_) {
+            uncovered_.push_back(cell);
+        }
+        return;
+    }
+    for (const Cell& half : halves_of(cell, longest_side(cell.corners).side)) {
+        check_cell(half, depth - 1);
+    }
+}
+
+MeshScallopCheck::LongSide MeshScallopCheck::longest_side(const std::array<Vec3d, 3>& corners)
 {
     LongSide out{0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,207 +197,241 @@ LongSide longest_side(const std::array<Vec3d, 3>& corners)
     return out;
 }
 
-std::array<std::array<Vec3d, 3>, 2> halves_of(const std::array<Vec3d, 3>& at, std::size_t side)
+std::array<MeshScallopCheck::Cell, 2> MeshScallopCheck::halves_of(const Cell& cell,
+                                                                  std::size_t side)
 {
+    const std::array<Vec3d, 3>& at = cell.corners;
     const Vec3d half = (at[side] + at[(side + 1) % 3]) * 0.5;
     const Vec3d across = at[(side + 2) % 3];
-    return {{{at[side], half, across}, {half, at[(side + 1) % 3], across}}};
+    return {Cell{{at[side], half, across}, cell.normal},
+            Cell{{half, at[(side + 1) % 3], across}, cell.normal}};
 }
 
-}  // namespace
-
-double MeshScallopCheck::Cell::area() const
+// Cells that several threads share must not be too large for one.
+void MeshScallopCheck::divide(const Cell& cell, int depth, std::vector<Cell>& out) const
 {
-    return 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const LongSide longest = longest_side(cell.corners);
+    if (depth == 0 || longest.length <= kSharedFacet * step()) {
+        out.push_back(cell);
+        return;
+    }
+    for (const Cell& half : halves_of(cell, longest.side)) {
+        divide(half, depth - 1, out);
+    }
 }
 
-// The cells of one side of a facet.
-class MeshScallopCheck::CellSearch {
-public:
-    CellSearch(const MeshGround& ground, Findings& found) : ground_{ground}, found_{found} {}
-
-    void look_at(const Cell& cell)
-    {
-        side_ = ground_.side(cell.normal);
-        last_ = 0;
-        look_at(cell.corners, kTriangleHalvings);
-    }
-
-private:
-    void look_at(const std::array<Vec3d, 3>& corners, int depth)
-    {
-        if (found_.open.size() >= kMostOpen) {
-            found_.overflowed = true;
-            return;
-        }
-        const LongSide longest = longest_side(corners);
-        const double size = longest.length / side_.fine;
-        const Cell cell{corners, side_.normal};
-        if (ground_.path_fitter().area().is_beyond(cell.middle(), longest.length, side_.normal,
-                                                   0) ||
-            (size <= kLargestTriangle && ground_.is_covered(side_, corners, last_)) ||
-            (size <= kHiddenCell && is_hidden(cell))) {
-            return;
-        }
-        if (size > kTouchCell || (depth > 0 && !settles(cell, size))) {
-            for (const std::array<Vec3d, 3>& half : halves_of(corners, longest.side)) {
-                look_at(half, depth - 1);
-            }
-        }
-    }
-
-    // True if the cell needs no halves: it is kept, or its middle is covered.
-    bool settles(const Cell& cell, double size)
-    {
-        const bool smallest = size <= kSmallestTriangle;
-        switch (ground_.blocked(side_, cell.corners)) {
-            case PartModel::Blocked::kFree:
-                if (!ground_.is_covered(side_, cell.middle(), kPlaceShare)) {
-                    keep_open(cell);
-                    return true;
-                }
-                return smallest;
-            case PartModel::Blocked::kByOneFacet:
-                if (smallest || size <= kUntouchedCell) {
-                    found_.blocked.push_back(cell);
-                    return true;
-                }
-                return false;
-            case PartModel::Blocked::kHere:
-                if (smallest && !ground_.is_covered(side_, cell.middle(), kPlaceShare)) {
-                    found_.blocked.push_back(cell);
-                }
-                return smallest;
-        }
-        return true;
-    }
-
-    void keep_open(const Cell& cell)
-    {
-        if (side_.upright) {
-            const std::optional<Vec3d> tip = ground_.touching_tip(side_, cell.middle());
-            if (!tip || !ground_.rests(*tip)) {
-                return;
-            }
-        }
-        found_.open.push_back(cell);
-    }
-
-    bool is_hidden(const Cell& cell) const
-    {
-        return ground_.is_hidden(cell.place()) &&
-               std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-                   return ground_.is_hidden({corner, cell.normal});
-               });
-    }
-
-    const MeshGround& ground_;
-    Findings& found_;
-    MeshGround::Side side_{};
-    std::uint32_t last_{};
-};
-
-MeshScallopCheck::MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& triangles,
-                                   const GougeFreePathFitter& path_fitter,
-                                   double scallop,
-                                   double path_off)
-    : triangles_{triangles}, ground_{path_fitter, scallop, path_off}
+MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*tag*/)
+    : triangles_{other.triangles_},
+      path_fitter_{other.path_fitter_},
+      scallop_{other.scallop_},
+      path_off_{other.path_off_},
+      places_{other.places_},
+      walls_{path_fitter_, places_},
+      checking_{other.checking_}
 {
 }
 
-// The sides of facets that a tool may touch from above, in parts that several threads may share.
-std::vector<MeshScallopCheck::Cell> MeshScallopCheck::sides() const
+ReachableHeight::Drops MeshScallopCheck::work_at(
+    OpenShare& share, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const
 {
-    std::vector<Cell> out;
-    std::vector<std::array<Vec3d, 3>> open;
-    for (const std::array<Vec3d, 3>& corners : triangles_) {
-        const Vec3d normal = Facet{corners}.normal;
-        open.assign(1, corners);
-        while (!open.empty()) {
-            const std::array<Vec3d, 3> part = open.back();
-            open.pop_back();
-            const LongSide longest = longest_side(part);
-            if (longest.length > kSharedTriangle * ground_.step()) {
-                for (const std::array<Vec3d, 3>& half : halves_of(part, longest.side)) {
-                    open.push_back(half);
-                }
-                continue;
-            }
-            out.push_back({part, normal});
-            if (normal.z < kUprightFacet) {
-                out.push_back({part, -normal});
-            }
+    MeshScallopCheck copy{*this, ForThread{}};
+    copy.places_.begin_with(share.take_known());
+    path_fitter_.model().forget_queries();
+    std::size_t enough = kEnoughFacets;
+    while (const std::optional<std::size_t> k = share.next()) {
+        work(copy, *k);
+        if (copy.effort() >= enough && share.left() > 1) {
+            share.give_half({});
+            enough = copy.effort() + kEnoughFacets;
         }
     }
-    return out;
+    return copy.places_.take_drops();
 }
 
-MeshScallopCheck::Findings MeshScallopCheck::look_at(const std::vector<Cell>& cells) const
+void MeshScallopCheck::share_out(std::size_t count,
+                                 const std::function<void(MeshScallopCheck&, std::size_t)>& work)
 {
-    const std::size_t shares = (cells.size() + kFacetsAtOnce - 1) / kFacetsAtOnce;
-    std::vector<Findings> found(shares);
-    const PartModel& model = ground_.path_fitter().model();
-    parallel::for_each(shares, [&](std::size_t share) {
-        model.forget_queries();
-        CellSearch search{ground_, found[share]};
-        const std::size_t end = std::min(cells.size(), (share + 1) * kFacetsAtOnce);
-        for (std::size_t k = share * kFacetsAtOnce; k < end; ++k) {
-            search.look_at(cells[k]);
-        }
-    });
-    model.forget_queries();
-    Findings out;
-    for (Findings& some : found) {
-        out.overflowed =
-            out.overflowed || some.overflowed || out.open.size() + some.open.size() > kMostOpen;
-        if (!out.overflowed) {
-            out.open.insert(out.open.end(), some.open.begin(), some.open.end());
-        }
-        out.blocked.insert(out.blocked.end(), some.blocked.begin(), some.blocked.end());
-        some = {};
+    std::vector<Share> shares(std::min(count, kShares));
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        const std::size_t begin = count * k / shares.size();
+        shares[k].resize(count * (k + 1) / shares.size() - begin);
+        std::iota(shares[k].begin(), shares[k].end(), begin);
     }
-    return out;
+    // Later calls look near the same places.
+    places_.share(places_.take_drops());
+    std::vector<ReachableHeight::Drops> drops =
+        work_in_shares(shares, [&](OpenShare& share) { return work_at(share, work); });
+    path_fitter_.model().forget_queries();
+    for (ReachableHeight::Drops& some : drops) {
+        places_.share(std::move(some));
+    }
 }
 
 void MeshScallopCheck::check()
 {
-    Findings found = look_at(sides());
-    open_ = std::move(found.open);
-    blocked_ = std::move(found.blocked);
-    overflowed_ = found.overflowed;
-    std::vector<WallFacet> walls;
-    for (const std::array<Vec3d, 3>& corners : triangles_) {
+    checking_ = true;
+    std::vector<Cell> cells;
+    for (const auto& corners : triangles_) {
         const Facet facet{corners};
-        if (ground_.side(facet.normal).upright) {
-            walls.push_back({{corners.begin(), corners.end()}, facet.normal});
+        if (!is_upright(facet.normal)) {
+            divide({corners, facet.normal}, kFacetSharedHalvings, cells);
         }
     }
-    over_nothing_ = walls_over_nothing(walls, ground_.path_fitter());
+    struct Finding {
+        std::vector<Cell> uncovered;
+        double blocked_area;
+        bool overflowed;
+    };
+    std::vector<Finding> found(cells.size());
+    share_out(cells.size(), [&](MeshScallopCheck& copy, std::size_t k) {
+        copy.blocked_area_ = 0;
+        copy.check_cell(cells[k], kFacetHalvings);
+        found[k] = {std::move(copy.uncovered_), copy.blocked_area_, copy.overflowed_};
+        copy.uncovered_.clear();
+    });
+    for (const Finding& finding : found) {
+        blocked_area_ += finding.blocked_area;
+        overflowed_ = overflowed_ || finding.overflowed ||
+                      uncovered_.size() + finding.uncovered.size() > kMostGaps;
+        if (!overflowed_) {
+            uncovered_.insert(uncovered_.end(), finding.uncovered.begin(), finding.uncovered.end());
+        }
+    }
+    checking_ = false;
+    const std::vector<WallFacet> facets = vertical_facets();
+    over_nothing_ = walls_over_nothing(facets, path_fitter_);
+    walls_.find(facets);
 }
 
-double MeshScallopCheck::blocked_area() const
+// A tip that would cut the stock over a point down to the scallop; none where the point is covered,
+// or where the tool cannot touch it and `where_blocked` is false.
+std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
 {
-    double sum = 0;
-    for (const Cell& cell : blocked_) {
-        sum += cell.area();
+    const bool steep = at.normal.z < kUprightNormal;
+    const bool covered = steep ? places_.is_wall_cut(at.point, at.normal, kPlaceShare)
+                               : is_covered(at.point, at.normal, kPlaceShare);
+    if (covered || !path_fitter_.area().holds(at.point, at.normal) || is_hidden(at)) {
+        return std::nullopt;
     }
-    return sum;
+    const Vec3d tip = places_.touching_tip(at.point, at.normal);
+    if (path_fitter_.is_clear(tip)) {
+        return tip;
+    }
+    return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
+}
+
+// A point of the cell where a pass is missing.
+std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const Cell& cell) const
+{
+    const Place middle{cell.middle(), cell.normal};
+    if (missing_tip(middle, true)) {
+        return middle;
+    }
+    const bool falls_off = falls_off_beside(middle.point);
+    for (const Vec3d& corner : cell.corners) {
+        const Place place{place_beside(corner, middle.point), cell.normal};
+        if (missing_tip(place, falls_off)) {
+            return place;
+        }
+    }
+    return std::nullopt;
+}
+
+// A quick form of uncovered_point(): false only where that would find none.
+bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    if (cell.normal.z < kUprightNormal) {
+        return uncovered_point(cell).has_value();
+    }
+    const auto stays = [&](Vec3d at) {
+        return is_covered(at, cell.normal, kPlaceShare) ||
+               !path_fitter_.area().holds(at, cell.normal) || is_hidden(at);
+    };
+    const auto touched = [&](Vec3d at) {
+        return path_fitter_.is_clear(places_.touching_tip(at, cell.normal));
+    };
+    const auto lower = [&](Vec3d at) {
+        return !places_.has_no_lower_tip(at, cell.normal);
+    };
+    if (!stays(middle) && (touched(middle) || lower(middle))) {
+        return true;
+    }
+    const bool falls_off = falls_off_beside(middle);
+    return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+        const Vec3d at = place_beside(corner, middle);
+        return !stays(at) && (touched(at) || (falls_off && lower(at)));
+    });
+}
+
+// The missing tips along a line over the mesh in plan, both ways, as far as tips are missing.
+Points MeshScallopCheck::trace(const Place& from, Vec3d way) const
+{
+    Points out;
+    for (const double sign : {-1.0, 1.0}) {
+        Place at = from;
+        for (int k = 0; k < kMostTraced; ++k) {
+            const std::optional<Vec3d> tip = missing_tip(at, true);
+            if (!tip) {
+                break;
+            }
+            if (k > 0 || sign < 0) {
+                out.push_back(*tip);
+            }
+            const double slant = dot(at.normal, way) / at.normal.z;
+            const Vec3d next =
+                at.point + way * (sign * kTraceStep * step() / std::sqrt(1 + slant * slant));
+            const auto top = path_fitter_.model().height_at(next.x, next.y);
+            if (!top) {
+                break;
+            }
+            at = {top->point, top->normal};
+        }
+        if (sign < 0) {
+            std::reverse(out.begin(), out.end());
+        }
+    }
+    return out;
+}
+
+void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&)>& cut)
+{
+    for (int round = 0; round < kFacetRounds && !uncovered_.empty(); ++round) {
+        const std::vector<Cell> open = std::move(uncovered_);
+        uncovered_.clear();
+        for (const Cell& cell : cut_missing(open, cut)) {
+            check_cell(cell, kFacetHalvings / 6);
+        }
+    }
+    walls_.add_missing(cut);
+    measure_left();
 }
 
 void MeshScallopCheck::measure_left()
 {
-    std::vector<double> left(open_.size());
-    parallel::for_each(open_.size(), [&](std::size_t k) {
-        left[k] = ground_.missing_tip(open_[k].place()) ? ground_.left(open_[k].middle()) : -1;
+    std::vector<double> left(uncovered_.size());
+    share_out(uncovered_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+        left[k] = copy.left_over(uncovered_[k]);
     });
     std::vector<Cell> kept;
     for (std::size_t k = 0; k < left.size(); ++k) {
         if (left[k] >= 0) {
-            kept.push_back(open_[k]);
+            kept.push_back(uncovered_[k]);
             most_left_ = std::max(most_left_, left[k]);
         }
     }
-    open_ = std::move(kept);
+    uncovered_ = std::move(kept);
+    most_left_ = std::max(most_left_, walls_.measure_left());
+}
+
+// mm: the stock left where a pass is missing, above what the tool can reach; negative: none is.
+double MeshScallopCheck::left_over(const Cell& cell) const
+{
+    const std::optional<Place> place = uncovered_point(cell);
+    if (!place) {
+        return -1;
+    }
+    return places_.uncut_at(place->point, place->normal, 0).reachable;
 }
 
 }  // namespace cusp::finishing

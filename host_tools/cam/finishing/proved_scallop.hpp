@@ -34,7 +34,7 @@ ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
                              const std::vector<Points>& cut,
                              const ScallopGuess& guess);
 
-// The same for a mesh and any end, by `MeshScallopCheck`; where the tool cannot touch, nothing is added.
+// The same for a mesh, by `MeshScallopCheck`; where the tool cannot touch, nothing is added.
 double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
                            const GougeFreePathFitter& path_fitter,
                            double path_off,

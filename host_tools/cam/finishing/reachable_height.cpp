@@ -77,13 +77,20 @@ void ReachableHeight::share(Drops drops)
 LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
 {
     ++drops_made_;
-    if (!floor_) {
-        std::call_once(shared_floor_->made, [&] {
-            shared_floor_->cutter.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
-        });
-        floor_ = shared_floor_->cutter->for_thread();
+    LowestPositionSearch::DroppedTool rest{{x, y, kInfinite}, {}};
+    if (surfaces_.empty()) {
+        if (const auto on_mesh = path_fitter_.model().drop_ball(x, y, contact_radius_)) {
+            rest = {on_mesh->centre, on_mesh->point};
+        }
+    } else {
+        if (!floor_) {
+            std::call_once(shared_floor_->made, [&] {
+                shared_floor_->cutter.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
+            });
+            floor_ = shared_floor_->cutter->for_thread();
+        }
+        rest = drop_tool(*floor_, x, y);
     }
-    LowestPositionSearch::DroppedTool rest = drop_tool(*floor_, x, y);
     if (edges == Edges::kMovedClear && std::isfinite(rest.centre.z)) {
         const Vec3d up{0, 0, radius_};
         const EdgeGougeCheck::RaisedTip raised =

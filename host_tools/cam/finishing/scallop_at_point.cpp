@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/cam/finishing/joined_tips.hpp"
-
 namespace cusp::finishing {
 
 using nurbs::Surface;
@@ -20,6 +18,9 @@ constexpr double kDropAccuracy = 1e-4;
 constexpr double kLeastDropShare = 0.001;
 constexpr double kMostDropShare = 0.005;
 constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of searches
+constexpr double kTraceApart = 0.3;  // in stepovers: tips that one line may join
+constexpr double kFarApart = 0.5;    // radii: tips that one pass may join
+constexpr double kShortest = 1e-3;   // mm
 constexpr double kLevelWall = 1e-9;  // z of a normal: a wall has no height
 constexpr int kLeftHalvings = 20;
 
@@ -49,6 +50,9 @@ ScallopAtPoint::ScallopAtPoint(const std::vector<Surface>& surfaces,
       accuracy_{std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)},
       reach_{surfaces, path_fitter, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
 {
+    if (surfaces.empty()) {
+        lower_position_.emplace(path_fitter, reach_.pitch());
+    }
 }
 
 ScallopAtPoint::ScallopAtPoint(const ScallopAtPoint& other)
@@ -62,6 +66,9 @@ ScallopAtPoint::ScallopAtPoint(const ScallopAtPoint& other)
       accuracy_{other.accuracy_},
       reach_{other.reach_}
 {
+    if (other.lower_position_) {
+        lower_position_.emplace(path_fitter_, reach_.pitch());
+    }
 }
 
 Vec3d ScallopAtPoint::touching_tip(Vec3d point, Vec3d normal) const
@@ -131,13 +138,22 @@ double ScallopAtPoint::left_from(Vec3d point, Vec3d normal, double height, doubl
     return left_beside_wall({point.x, point.y, from}, normal);
 }
 
-// True if no ball can remove more than a share of the scallop.
-bool ScallopAtPoint::is_low_enough(Vec3d point,
-                                   Vec3d normal,
-                                   double share,
-                                   const SweptVolume::Lowest& now) const
+// Fast test whether some ball removes more than a share of the scallop, within the resolution of
+// searches.
+LowerPositionProof::Verdict ScallopAtPoint::quick_verdict(Vec3d point,
+                                                          Vec3d normal,
+                                                          double share,
+                                                          const SweptVolume::Lowest& now) const
 {
-    return now.height - point.z <= scallop_ * share / normal.z;
+    const double resolution = scallop_ * share / normal.z;
+    if (now.height - point.z <= resolution) {
+        return LowerPositionProof::Verdict::kNone;
+    }
+    if (!lower_position_ || !std::isfinite(now.height)) {
+        return LowerPositionProof::Verdict::kUnknown;
+    }
+    return lower_position_->verdict_over(
+        {point.x, point.y, now.height - resolution - kAgrees * accuracy_}, now.centre);
 }
 
 ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
@@ -177,15 +193,23 @@ ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, do
         return {};
     }
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
-    return is_low_enough(point, normal, share, now) ? LowerTip{}
-                                                    : searched(point, normal, share, now);
+    return quick_verdict(point, normal, share, now) == LowerPositionProof::Verdict::kNone
+               ? LowerTip{}
+               : searched(point, normal, share, now);
+}
+
+bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
+{
+    return quick_verdict(point, normal, 1, swept_->lowest(point.x, point.y)) ==
+           LowerPositionProof::Verdict::kNone;
 }
 
 bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
 {
     const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
-    if (is_low_enough(point, normal, kSettledShare, now)) {
-        return true;
+    const LowerPositionProof::Verdict quick = quick_verdict(point, normal, kSettledShare, now);
+    if (quick != LowerPositionProof::Verdict::kUnknown) {
+        return quick == LowerPositionProof::Verdict::kNone;
     }
     const LowerTip better = searched(point, normal, kSettledShare, now);
     return !better.tip && !better.moved_clear;
@@ -222,7 +246,30 @@ ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double
 
 std::vector<Points> ScallopAtPoint::runs_of(const Points& tips) const
 {
-    return joined_tips(tips, path_fitter_, step_);
+    // Drops are accurate to a micrometre only: a point at the limit may have had a tip in one query
+    // and none in the next.
+    if (tips.empty()) {
+        return {};
+    }
+    std::vector<Points> out{{tips.front()}};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const double apart = norm(tips[k] - out.back().back());
+        if (apart > kFarApart * radius_) {
+            out.push_back({tips[k]});
+            continue;
+        }
+        if (apart > kTraceApart * step_) {
+            const Points between = path_fitter_.sample_dropped(out.back().back(), tips[k]);
+            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
+        }
+        out.back().push_back(tips[k]);
+    }
+    for (Points& run : out) {
+        if (run.size() == 1) {
+            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
+        }
+    }
+    return out;
 }
 
 }  // namespace cusp::finishing

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
+#include "host_tools/cam/finishing/lower_position_proof.hpp"
 #include "host_tools/cam/finishing/reachable_height.hpp"
 #include "host_tools/cam/finishing/swept_volume.hpp"
 
@@ -45,6 +46,7 @@ constexpr double kHidden = 1e-3;
 
 class ScallopAtPoint {
 public:
+    // surfaces  none for a mesh
     // scallop   mm: allowed height of uncut stock
     // path_off  mm: maximum distance between the path that is cut and the points given to add()
     ScallopAtPoint(const std::vector<nurbs::Surface>& surfaces,
@@ -111,6 +113,10 @@ public:
     // scallop. None where is_upright().
     LowerTip lower_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
+    // Fast rejection: true only where lower_tip() has none.
+    // Precondition: normal.z >= kUprightNormal
+    bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
+
     // True if no tip removes more than `kSettledShare`, tips that would gouge an edge included.
     // Precondition: normal.z >= kUprightNormal
     bool settled(Vec3d point, Vec3d normal) const;
@@ -130,10 +136,10 @@ public:
 
 private:
     double left_from(Vec3d point, Vec3d normal, double height, double now) const;
-    bool is_low_enough(Vec3d point,
-                       Vec3d normal,
-                       double share,
-                       const SweptVolume::Lowest& now) const;
+    LowerPositionProof::Verdict quick_verdict(Vec3d point,
+                                              Vec3d normal,
+                                              double share,
+                                              const SweptVolume::Lowest& now) const;
     LowerTip searched(Vec3d point,
                       Vec3d normal,
                       double share,
@@ -148,6 +154,7 @@ private:
     std::shared_ptr<SweptVolume> swept_;
     double accuracy_;  // mm: how much too high drops may be
     mutable ReachableHeight reach_;
+    mutable std::optional<LowerPositionProof> lower_position_;  // over a mesh
     mutable std::vector<std::uint32_t> near_;
 };
 

@@ -21,10 +21,6 @@ void check_clearance(const job::Job& job,
                      const job::Operation& operation,
                      const part_model::PartModel& model);
 
-// An operation that finishes with another end than a ball, over triangles in place of its surfaces. How
-// far they are off is taken from the tolerance and the scallop.
-job::Operation faceted(const job::Operation& operation);
-
 class SurfaceOperation {
 public:
     // surfaces  empty: the operation's mesh, for which a tolerance is always one-sided
@@ -32,8 +28,8 @@ public:
     // The scallop is proved, and passes are made, in the operation's FinishArea: its boundary, islands,
     // slopes and heights.
     //
-    // Throws InputError for a job that it cannot plan: another end than a ball over surfaces (see
-    // faceted()), a surface without area, a part higher than the clearance height.
+    // Throws InputError for a job that it cannot plan: another end than a ball, a surface without
+    // area, a part higher than the clearance height.
     SurfaceOperation(const job::Job& job,
                      const job::Operation& operation,
                      std::vector<nurbs::Surface> surfaces);

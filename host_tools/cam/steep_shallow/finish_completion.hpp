@@ -26,7 +26,7 @@ public:
     void cut(finishing::SurfaceOperation::FittedPass pass);
 
     // Links all passes. With `step_over` the scallop that they keep is proved; else the passes are
-    // added that the scallop lacks.
+    // added that the scallop lacks. For other ends than a ball what is left is measured, and told.
     //
     // step     mm: of neighbouring passes
     // lead_in  mm: radius of level entries and exits

@@ -10,7 +10,6 @@
 
 namespace cusp::steep_shallow {
 
-using finishing::faceted;
 using finishing::FinishArea;
 using finishing::SurfaceOperation;
 using job::Job;
@@ -49,22 +48,20 @@ std::vector<PlannedOperation> timed(PlannedOperation planned,
 
 }  // namespace
 
-std::vector<PlannedOperation> plan_waterline(const Job& job, const Operation& given)
+std::vector<PlannedOperation> plan_waterline(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
-    check_sizes(job, given);
-    const Operation operation = faceted(given);
+    check_sizes(job, operation);
     SurfaceOperation work{job, operation, operation.part.floor};
     FinishCompletion passes{job, operation, work};
     const double step = cut_levels(job, operation, work, work.area(), passes);
     return timed(passes.finished(step, kLeadIn * operation.tool.radius), begin);
 }
 
-std::vector<PlannedOperation> plan_steep_shallow(const Job& job, const Operation& given)
+std::vector<PlannedOperation> plan_steep_shallow(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
-    check_sizes(job, given);
-    const Operation operation = faceted(given);
+    check_sizes(job, operation);
     const double steep_from = finish_keys(operation).steep_from;
     SurfaceOperation work{job, operation, operation.part.floor};
     FinishCompletion passes{job, operation, work};

@@ -245,21 +245,11 @@ void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& to
                         "give two at most",
                         request.tools[1]));
     }
-    // What roughs: all but the last one, or that alone.
-    const std::size_t rough = tools.size() > 1 ? tools.size() - 1 : request.roughing ? 1 : 0;
-    for (std::size_t i = 0; i < rough; ++i) {
-        if (tools[i].taper_angle > 0) {
-            throw InputError(fmt::format(
-                "--tool {}: a taper only finishes: give a flat end, a bull or a ball before it, or "
-                "--no-roughing",
-                request.tools[i]));
-        }
-    }
-    if (request.boundary && tools.back().taper_angle > 0) {
+    if (!request.boundary && tools.back().shape != "ball") {
         throw InputError(fmt::format(
-            "--tool {}: a taper finishes whole parts; inside a --boundary a ball, flat or "
-            "bull does",
-            request.tools.back()));
+            "--tool {}: comes last and so finishes, for which a part needs a ball: --tool {} "
+            "ball:6; inside a --boundary any tool finishes",
+            request.tools.back(), request.tools.back()));
     }
 }
 
