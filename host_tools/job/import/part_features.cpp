@@ -23,7 +23,7 @@ using offset::Region2d;
 namespace {
 
 constexpr double kSameFeature = 0.01;  // mm
-constexpr double kLeastBeside = 0.01;    // mm^2 of the ring beside a piece
+constexpr double kLeastBeside = 0.01;  // mm^2 of the ring beside a piece
 
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameFeature; }
 
