@@ -196,8 +196,8 @@ class Builder:
             mine = self.folder / "main.obj"
             flags = f" -w -I{self.folder / 'overlay'} -I{ROOT}"
             command = self.compile.replace(f"-o {objects}", f"-o {mine}")
-            self.run(command.replace(" -I" + str(ROOT) + " ", f"{flags} ", 1)
-                     if f" -I{ROOT} " in command else command.replace(" -c ", f"{flags} -c ", 1))
+            compiler, words = command.split(" ", 1)
+            self.run(f"{compiler}{flags} {words}")  # the changed header is looked for first
             elf = self.folder / "changed.elf"
             step = next(part for part in self.link.split("&&") if " -o bin/" in part)
             step = step.replace(objects, str(mine)).replace(f"-o bin/{self.board}.elf", f"-o {elf}")
