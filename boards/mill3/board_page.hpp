@@ -46,7 +46,7 @@ private:
         std::string name;
         Pin pin;
     };
-    // Those that the board has; none: no row.
+    // One row for all that the board has; without any there is no row.
     void row(const std::vector<Signal>& signals,
              std::string_view level,
              std::string_view where = "")

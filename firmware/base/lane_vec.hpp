@@ -29,7 +29,7 @@ inline float dot(WideVec a, WideVec b) noexcept
     return products[0] + products[1] + products[2];
 }
 
-// Of the three numbers.
+// The sum of the three numbers.
 inline float sum(WideVec a) noexcept { return a.lanes[0] + a.lanes[1] + a.lanes[2]; }
 inline float sum(Vec3f a) noexcept { return a.x + a.y + a.z; }
 

@@ -96,7 +96,7 @@ void Backlash::rest(Position at) noexcept
 {
     for (unsigned i = 0; i < kAxisCount; ++i) {
         Axis& axis = axes_[i];
-        // What is left of a take-up that was cut is left.
+        // The rest of a take-up that was cut stays to be taken up.
         axis.to -= axis.at;
         axis.at = 0;
         axis.before = 0;

@@ -26,7 +26,7 @@ public:
     // An axis has turned once it has come back so far, nm: less than a step.
     static constexpr std::int64_t kTurn = 500;
 
-    // What is left of an axis's limits for its way. play: mm, per axis.
+    // The limits less the share of axes with play. play: mm, per axis.
     static MachineLimits left_of(const MachineLimits& limits, const Vec3f& play) noexcept;
 
     // `limits`: those of the settings. What is under way is forgotten.

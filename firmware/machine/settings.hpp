@@ -213,7 +213,7 @@ public:
         return on(Setting::kSquaring) && second_motor_axis() == axis;
     }
 
-    // Of the motors.
+    // Limits of the motors.
     MachineLimits limits() const noexcept;
     Vec3f backlash() const noexcept;  // mm
     // How far inside its switch homing leaves an axis, mm.

@@ -280,7 +280,7 @@ void NewtonSystem::tie_ends() noexcept
 void NewtonSystem::solve() noexcept
 {
     tie_ends();
-    // Of the last two lines: their couplings with those after them, in the matrix and in L.
+    // Couplings of the last two lines with those after them, in the matrix and in L.
     struct Passed {
         float next{0}, second{0};
         float next_of_l{0}, second_of_l{0};
