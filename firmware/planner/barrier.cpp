@@ -171,7 +171,8 @@ public:
     void solve() noexcept;
     // The longest part of the step that leaves of each slack what a step leaves.
     float longest(const LawSpline& spline) const noexcept;
-    void apply(LawSpline& spline, float part) const noexcept;
+    // Returns the greatest change of the coefficients that become final.
+    float apply(LawSpline& spline, float part) const noexcept;
 
 private:
     struct Line {
@@ -357,12 +358,16 @@ float NewtonSystem::longest(const LawSpline& spline) const noexcept
     return kPartOfSlack / most;
 }
 
-void NewtonSystem::apply(LawSpline& spline, float part) const noexcept
+float NewtonSystem::apply(LawSpline& spline, float part) const noexcept
 {
+    float most = 0;
     for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
-        spline.coefficient(j) *= 1.0F + part * line(j).change;
+        const float change = part * line(j).change;
+        spline.coefficient(j) *= 1.0F + change;
+        most = j < window_.begin + kLawAdvance ? std::max(most, std::fabs(change)) : most;
     }
     cusp::planner::tie_ends(spline, window_);
+    return most;
 }
 
 }  // namespace
@@ -393,9 +398,7 @@ float newton_step(LawSpline& spline, const LawWindow& window, const BarrierWeigh
         system.add_coefficient(spline, j, weight);
     }
     system.solve();
-    const float part = system.longest(spline);
-    system.apply(spline, part);
-    return part;
+    return system.apply(spline, system.longest(spline));
 }
 
 float greatest_use(const LawSpline& spline, const LawWindow& window) noexcept

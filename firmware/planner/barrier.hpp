@@ -15,6 +15,7 @@ namespace cusp::planner {
 
 inline constexpr std::uint32_t kStations = 64;    // that a law keeps at once
 inline constexpr std::uint32_t kMostWindow = 56;  // coefficients that one step changes
+inline constexpr std::uint32_t kLawAdvance = 16;  // that a window makes final
 
 // A quadratic spline over stations. Cell k lies between the knots k and k + 1; the coefficients
 // k, k + 1 and k + 2 act on it. Counters run freely: places are modulo kStations.
@@ -63,7 +64,8 @@ struct BarrierWeight {
 };
 
 // One step. Precondition: every row holds, window.end - window.begin <= kMostWindow.
-// Returns the part of Newton's step that was gone, in (0, 1]. Context: main loop.
+// Returns the greatest change of a coefficient that the window makes final, as a part of it.
+// Context: main loop.
 float newton_step(LawSpline& spline, const LawWindow& window, const BarrierWeight& weight) noexcept;
 
 // Greatest share of a limit that a row of the window's cells uses: below 1 where all hold. 2 or more

@@ -14,12 +14,14 @@ namespace {
 
 constexpr float kFirstMu = 0.1F;
 constexpr float kLastMu = 0.002F;
-constexpr float kMuRatio = 0.7007F;         // eleven steps from the first to the last
-constexpr float kSpeedWeight = 0.2F;        // of mu, in the last steps
-constexpr float kTimeHessian = 0.15F;       // in the first steps: x may grow by 1.67 a step
-constexpr float kTimeHessianUntil = 5.0F;   // times the last mu
-constexpr std::uint32_t kWindow = 40;       // coefficients, but for the last of a stretch
-constexpr std::uint8_t kSteps = 18;         // of a window
+constexpr float kMuRatio = 0.7007F;        // eleven steps from the first to the last
+constexpr float kSpeedWeight = 0.2F;       // of mu, in the last steps
+constexpr float kTimeHessian = 0.15F;      // in the first steps: x may grow by 1.67 a step
+constexpr float kTimeHessianUntil = 5.0F;  // times the last mu
+constexpr std::uint32_t kWindow = 40;      // coefficients, but for the last of a stretch
+constexpr std::uint8_t kLeastSteps = 12;   // of a window
+constexpr std::uint8_t kMostSteps = 24;
+constexpr float kSettled = 0.01F;           // change by a step of what is as good as it gets
 constexpr float kShortestStation = 0.003F;  // s
 constexpr float kLongestStation = 0.02F;
 constexpr float kCrawlUse = 0.3F;         // greatest use of a limit in the crawl
@@ -155,11 +157,11 @@ void TimeLaw::work() noexcept
         extend();
         return;
     }
-    (void)newton_step(spline_, window_, weight());
+    const float change = newton_step(spline_, window_, weight());
     mu_ = std::max(mu_ * kMuRatio, last_mu_);
     ++steps_;
     ++step_;
-    if (step_ == kSteps) {
+    if (step_ == kMostSteps || (step_ >= kLeastSteps && change < kSettled)) {
         state_ = State::kChecks;
         // Where the speed changes more than float can tell, rounding may break a row.
         if (greatest_use(spline_, window_) >= 1.0F) {

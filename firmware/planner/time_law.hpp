@@ -1,7 +1,7 @@
 // TimeLaw: the fastest speeds along a stretch of path from stop to stop, window by window.
 //
-// Stations come in order while the path becomes known; a window of them is planned by a fixed
-// number of Newton steps and its first part becomes final. Each plan ends in a crawl, from which the
+// Stations come in order while the path becomes known; a window of them is planned by Newton
+// steps, a bounded number, and its first part becomes final. Each plan ends in a crawl, from which the
 // tool can stop within kCrawlStop at any place that the stations behind the window describe, so a
 // plan may be played to its end if no other comes.
 //
@@ -21,8 +21,7 @@
 
 namespace cusp::planner {
 
-inline constexpr float kCrawlStop = 0.1F;         // mm
-inline constexpr std::uint32_t kLawAdvance = 16;  // coefficients that a window makes final
+inline constexpr float kCrawlStop = 0.1F;  // mm
 
 // Context: main loop.
 class TimeLaw {
