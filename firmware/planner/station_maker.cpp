@@ -167,14 +167,20 @@ KeptShares StationMaker::kept_at(const Station& station,
 
 // The longest element from rest at an end of the stretch that the filters do not let feel a joint,
 // mm, at most `most`; its jerk is at most `jerk`, along the path.
-float StationMaker::smooth_length(
-    const LawPath& path, PathCursor cursor, bool at_end, float jerk, float most) const noexcept
+float StationMaker::smooth_length(const LawPath& path,
+                                  PathCursor cursor,
+                                  std::int64_t rest,
+                                  bool at_end,
+                                  float jerk,
+                                  float most) const noexcept
 {
     const auto speed_at = [jerk](float s) {
         return cube_root(4.5F * jerk * s * s);
     };
     const float speed = speed_at(most);
-    float length = 0;
+    const std::int64_t beyond =
+        at_end ? cursor.begin + path[cursor.block].block->length - rest : rest - cursor.begin;
+    float length = -to_mm(beyond);
     for (unsigned i = 0; i < kElementBlocks; ++i) {
         const Block& block = *path[cursor.block].block;
         length += to_mm(block.length);
@@ -203,11 +209,11 @@ float StationMaker::smooth_length(
 
 StopElement StationMaker::element(const LawPath& path,
                                   PathCursor cursor,
+                                  std::int64_t rest,
                                   bool at_end,
                                   const StopChoice& choice,
                                   float most) const noexcept
 {
-    const std::int64_t rest = at_end ? path.length() : cursor.begin;
     const auto at = [&](float s) {
         const auto units = static_cast<std::int64_t>(s * kPathUnitsPerMillimetre);
         const std::int64_t place = rest + (at_end ? -units : units);
@@ -224,7 +230,7 @@ StopElement StationMaker::element(const LawPath& path,
     const float time = std::min(
         choice.time, std::min(kElementAcceleration * acceleration / jerk, std::sqrt(speed / jerk)));
     const float wanted = jerk * time * time * time * (1.0F / 6.0F);
-    const float d = smooth_length(path, cursor, at_end, jerk,
+    const float d = smooth_length(path, cursor, rest, at_end, jerk,
                                   std::min(std::min(wanted, kLongestElement), most));
     // A whole number of path units.
     StopElement element{

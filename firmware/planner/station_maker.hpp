@@ -51,10 +51,12 @@ public:
     // The element that starts or ends at a place of rest, up to the first joint that counts.
     //
     //   cursor  its block.
-    //   at_end  it ends at the end of the block, else it starts at its start.
+    //   rest    path units from the start of the stretch.
+    //   at_end  it ends there, else it starts there.
     //   most    mm, that it may be long.
     StopElement element(const LawPath& path,
                         PathCursor cursor,
+                        std::int64_t rest,
                         bool at_end,
                         const StopChoice& choice,
                         float most) const noexcept;
@@ -63,8 +65,12 @@ private:
     KeptShares kept_at(const Station& station,
                        Span<const LawJoint> joints,
                        float speed) const noexcept;
-    float smooth_length(
-        const LawPath& path, PathCursor cursor, bool at_end, float jerk, float most) const noexcept;
+    float smooth_length(const LawPath& path,
+                        PathCursor cursor,
+                        std::int64_t rest,
+                        bool at_end,
+                        float jerk,
+                        float most) const noexcept;
     MachineLimits limits_{};
     LaneVec inverse_jerk_{};
     LaneVec inverse_acceleration_{};

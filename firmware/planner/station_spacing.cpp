@@ -51,17 +51,20 @@ void StationSpacing::set_limits(const MachineLimits& limits, float station_time)
     }
 }
 
-void StationSpacing::begin(const StopChoice& start) noexcept
+void StationSpacing::begin(const StopChoice& start,
+                           const PathCursor& cursor,
+                           std::int64_t place) noexcept
 {
     start_choice_ = start;
     span_begin_ = 0;
     span_end_ = 0;
     joints_.clear();
-    read_ = path_.begin();
+    read_ = cursor;
     read_stretch_ = 0;
-    read_offset_ = 0;
-    cursor_ = path_.begin();
-    at_ = 0;
+    read_offset_ = static_cast<std::uint32_t>(place - cursor.begin);
+    cursor_ = cursor;
+    at_ = place;
+    rest_ = place;
     last_ = 0;
     mark_next_ = false;
     started_ = false;
@@ -203,7 +206,7 @@ float StationSpacing::expected_at(std::int64_t at) const noexcept
     float x = std::min(own.cap, own.expected + 2.0F * own.brake * within);
     x = std::min(x, after + 2.0F * own.brake * std::max(own.length - within, 0.0F));
     // From and to rest by jerk.
-    const float from = std::max(distance(0, at), start_.length);
+    const float from = std::max(distance(rest_, at), start_.length);
     const auto by_jerk = [](float jerk, float s) {
         const float speed = cube_root(std::min(4.5F * jerk * s * s, 1e15F));
         return speed * speed;
@@ -259,8 +262,8 @@ void StationSpacing::settle_stop() noexcept
 {
     PathCursor cursor = cursor_;
     path_.seek(cursor, path_.length(), true);
-    const float most = distance(0, path_.length()) * kMostElement;
-    stop_ = maker_.element(path_, cursor, true, stop_choice_, most);
+    const float most = distance(rest_, path_.length()) * kMostElement;
+    stop_ = maker_.element(path_, cursor, path_.length(), true, stop_choice_, most);
     stop_jerk_ = jerk_of(stop_);
     inner_end_ = path_.length() - to_units(stop_.length);
     stop_settled_ = true;
@@ -273,14 +276,14 @@ bool StationSpacing::start(StopElement& element) noexcept
         pass_backward();
     }
     const bool is_full = span_end_ - span_begin_ == kSpans || path_.full();
-    const float known = distance(0, path_.length()) * kMostElement;
-    if (path_.length() == 0 || (!knows_all() && !is_full && known < kLongestElement)) {
+    const float known = distance(rest_, path_.length()) * kMostElement;
+    if (path_.length() == rest_ || (!knows_all() && !is_full && known < kLongestElement)) {
         return false;
     }
-    start_ = maker_.element(path_, cursor_, false, start_choice_, known);
+    start_ = maker_.element(path_, cursor_, rest_, false, start_choice_, known);
     start_jerk_ = jerk_of(start_);
     element = start_;
-    at_ = to_units(start_.length);
+    at_ = rest_ + to_units(start_.length);
     path_.seek(cursor_, at_);
     started_ = true;
     return true;

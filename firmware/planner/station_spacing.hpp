@@ -24,8 +24,11 @@ public:
     // `station_time`, s: in which a station is to be passed.
     void set_limits(const MachineLimits& limits, float station_time) noexcept;
 
-    // The path begins with a new stretch.
-    void begin(const StopChoice& start) noexcept;
+    // From a place of rest on: that at which the path begins, or where a plan came to rest.
+    //
+    //   cursor  the block of the place.
+    //   place   path units from the start of the stretch.
+    void begin(const StopChoice& start, const PathCursor& cursor, std::int64_t place) noexcept;
     // How it ends. To be set before the path is closed.
     void set_stop(const StopChoice& stop) noexcept;
 
@@ -93,6 +96,7 @@ private:
     // Where the next station begins.
     PathCursor cursor_{};
     std::int64_t at_{0};
+    std::int64_t rest_{0};       // where it began
     std::int64_t inner_end_{0};  // of the stop element at the end, once it is settled
     float last_{0};              // mm, length of the last cell
     bool mark_next_{false};      // the next span begins at a mark

@@ -32,14 +32,13 @@ constexpr float kEndFromCrawl = 0.4F;     // mm, that the way from a crawl to a 
 constexpr float kStillHolds = 0.999999F;  // use of a limit from which a step can start
 constexpr float kPartForCrawl = 0.25F;    // of the way left
 constexpr float kJerkOfCrawlStop = 0.5F;  // of the least of the axes
+constexpr float kBrakingOfCrawl = 0.5F;   // of the least acceleration
 constexpr int kMostHalvings = 60;
 constexpr float kSlower = 0.6F;  // from one attempt at a crawl to the next
 constexpr std::uint8_t kMostFirstAttempts = 40;
 constexpr std::uint8_t kMostAttempts = 8;
 constexpr std::uint8_t kMostRetreats = 4;
 constexpr float kHeavier = 4.0F;  // the barrier after a retreat
-// Time of the stop elements' jerk beside a/j: docs/numerics.md.
-constexpr float kElementTime = 0.8F;
 
 // x' = 4/3 x/d at the inner end of an element of length d: the coefficient beyond a cell of length h
 // is this times that before it.
@@ -61,10 +60,11 @@ void TimeLaw::set_limits(const MachineLimits& limits) noexcept
     }
     spline_.ratio = quotient(to_lanes(limits.jerk), to_lanes(limits.acceleration));
     station_time_ = std::clamp(0.25F * longest, kShortestStation, kLongestStation);
-    // No faster than at the end of an element.
-    const float time = kElementTime * longest;
-    const float element = 0.5F * least_jerk_ * time * time;
-    greatest_crawl_ = std::min(crawl_within(kCrawlStop), kCrawlOfEnd * element * element);
+    // Its stop reaches the acceleration (v w)^1/2, w the jerk.
+    const float of_axes = least(kUnlimited, to_lanes(limits.acceleration));
+    const float speed =
+        kBrakingOfCrawl * kBrakingOfCrawl * of_axes * of_axes / (kJerkOfCrawlStop * least_jerk_);
+    greatest_crawl_ = std::min(crawl_within(kCrawlStop), speed * speed);
     steps_ = 0;
 }
 
@@ -75,9 +75,11 @@ void TimeLaw::begin(const StopElement& start) noexcept
     end_factor_ = 0;
     stations_ = 0;
     planned_ = 0;
+    in_force_ = 0;
     final_ = 0;
     taken_ = 0;
     ended_ = false;
+    rests_ = false;
     extended_ = false;
     attempts_ = 0;
     crawl_ = greatest_crawl_;
@@ -272,6 +274,9 @@ void TimeLaw::extend() noexcept
     ++attempts_;
     if (attempts_ == (is_first ? kMostFirstAttempts : kMostAttempts)) {
         state_ = State::kBlocked;
+        if (has_plan()) {
+            rest();
+        }
     }
 }
 
@@ -295,6 +300,7 @@ BarrierWeight TimeLaw::weight() const noexcept
 void TimeLaw::accept() noexcept
 {
     CUSP_ASSERT(state_ == State::kChecks);
+    in_force_ = planned_;
     if (window_.end_factor > 0) {
         final_ = planned_;
         state_ = State::kDone;
@@ -308,10 +314,7 @@ void TimeLaw::accept() noexcept
 void TimeLaw::retreat() noexcept
 {
     CUSP_ASSERT(state_ == State::kChecks);
-    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
-        spline_.coefficient(j) = before_[j - window_.begin];
-    }
-    tie_ends(spline_, window_);
+    restore();
     ++retreats_;
     if (retreats_ == kMostRetreats) {
         accept();
@@ -319,6 +322,34 @@ void TimeLaw::retreat() noexcept
     }
     last_mu_ *= kHeavier;
     restart();
+}
+
+// The coefficients as they were before the window's first step.
+void TimeLaw::restore() noexcept
+{
+    for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
+        spline_.coefficient(j) = before_[j - window_.begin];
+    }
+    tie_ends(spline_, window_);
+}
+
+void TimeLaw::rest() noexcept
+{
+    CUSP_ASSERT(has_plan() && !plans_the_end());
+    const bool is_at_work = state_ == State::kWorks || state_ == State::kChecks;
+    if (is_at_work && extended_) {
+        restore();
+    }
+    rests_ = true;
+    final_ = in_force_;
+    state_ = State::kDone;
+}
+
+std::int64_t TimeLaw::place_of_rest() const noexcept
+{
+    const Station& last = station(in_force_ - 3);
+    const std::array<LawCell, 2> stop = stop_from_crawl();
+    return last.begin + last.travel + stop[0].travel + stop[1].travel;
 }
 
 void TimeLaw::restart() noexcept
@@ -331,7 +362,7 @@ void TimeLaw::restart() noexcept
 // With jerk w half of the speed is lost in t = (v/w)^1/2, over 5/6 v t, and the rest over 1/6 v t.
 std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
 {
-    const float x = spline_.coefficient(planned_ - 1);
+    const float x = spline_.coefficient(in_force_ - 1);
     const float speed = std::sqrt(x);
     const float time = std::sqrt(speed / (kJerkOfCrawlStop * least_jerk_));
     const auto units = [&](float part) {
@@ -344,10 +375,12 @@ std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
 bool TimeLaw::take(LawCell& cell) noexcept
 {
     const std::uint32_t k = taken_;
-    if (k + 3 > final_ || k >= stations_) {
+    const std::uint32_t end = std::min(std::max(final_, 2U) - 2, stations_);
+    const bool stops = rests_ && k >= end && k < end + 2;
+    if (k >= end && !stops) {
         return false;
     }
-    cell = this->cell(k);
+    cell = stops ? stop_from_crawl()[k - end] : this->cell(k);
     ++taken_;
     return true;
 }

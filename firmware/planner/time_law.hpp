@@ -52,8 +52,8 @@ public:
         kWaits,    // for stations
         kWorks,    // a window is on its way
         kChecks,   // a window is planned: to be judged by accept() or retreat()
-        kBlocked,  // the plan so far can't be continued: the path stops at its end
         kDone,     // all cells are final
+        kBlocked,  // not even a crawl leads away from rest
     };
     State state() const noexcept { return state_; }
 
@@ -79,17 +79,18 @@ public:
     // The next final cell. False: there is none.
     bool take(LawCell& cell) noexcept;
 
-    // The plan beyond the final cells, as far as it goes: cells from taken() up to planned_cells(),
-    // then the stop. Precondition: a window has been accepted.
-    std::uint32_t taken() const noexcept { return taken_; }
-    std::uint32_t planned_cells() const noexcept
-    {
-        return planned_ == stations_ + 2 && ended_ ? stations_ : planned_ - 2;
-    }
-    // True if the plan reaches the stop element at the end; else it ends in a crawl.
-    bool plans_the_end() const noexcept { return ended_ && planned_ == stations_ + 2; }
-    // Two cells that bring the tool from the crawl at the end of the plan to rest.
-    std::array<LawCell, 2> stop_from_crawl() const noexcept;
+    // True once a plan is in force, and if it reaches the stop element at the end; else it ends in a
+    // crawl.
+    bool has_plan() const noexcept { return in_force_ > 0; }
+    bool plans_the_end() const noexcept { return ended_ && in_force_ == stations_ + 2; }
+
+    // No station comes in time: the plan in force becomes final to its end, and two cells more
+    // bring the tool from its crawl to rest. A plan that can't be continued ends like this by itself.
+    // Precondition: has_plan(), !plans_the_end().
+    void rest() noexcept;
+    bool rests() const noexcept { return rests_; }
+    // Path units from the start of the stretch. Precondition: rests().
+    std::int64_t place_of_rest() const noexcept;
 
     // Newton steps since set_limits(), for budgets.
     std::uint32_t steps() const noexcept { return steps_; }
@@ -104,6 +105,8 @@ private:
     void extend() noexcept;
     void ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept;
     void restrict_crawl(const Station& station) noexcept;
+    void restore() noexcept;
+    std::array<LawCell, 2> stop_from_crawl() const noexcept;
     BarrierWeight weight() const noexcept;
 
     LawSpline spline_;
@@ -111,13 +114,15 @@ private:
     LawWindow window_{1, 1, 0.0F, 0.0F};
     State state_{State::kDone};
     bool ended_{false};
+    bool rests_{false};         // the plan ends before the stretch does
     bool extended_{false};      // the window has values to start from
     std::uint8_t attempts_{0};  // at such values
     std::uint8_t step_{0};      // of the window
     std::uint8_t retreats_{0};
     std::uint32_t stations_{0};  // added
     std::uint32_t planned_{0};   // coefficients that have a value
-    std::uint32_t final_{0};     // coefficients that keep theirs
+    std::uint32_t in_force_{0};  // those of the last plan accepted
+    std::uint32_t final_{0};     // those that keep theirs
     std::uint32_t taken_{0};     // cells
     std::uint32_t steps_{0};
     float mu_{0};

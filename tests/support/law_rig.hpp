@@ -37,8 +37,8 @@ public:
     {
     }
 
-    // As run(), but after so many windows in all no further station comes: the plan is played to
-    // its end, and so to rest.
+    // As run(), but after each so many windows no further station comes in time: the plan is played
+    // to its end, and so to rest, and the path goes on from there.
     std::vector<Position> run_starved(const std::vector<path::Move>& moves,
                                       std::uint32_t windows_known)
     {
@@ -50,12 +50,9 @@ public:
     std::vector<Position> run(const std::vector<path::Move>& moves)
     {
         cut(moves);
-        std::size_t planned = 0;
-        while (planned < stretches_.size() && windows < windows_known_) {
-            plan(stretches_[planned]);
-            ++planned;
+        for (LawStretch& stretch : stretches_) {
+            plan(stretch);
         }
-        stretches_.resize(planned);
         return play(moves.empty() ? Position{} : moves.front().start);
     }
 
@@ -63,6 +60,7 @@ public:
     std::uint32_t stations{0};
     std::uint32_t windows{0};
     std::uint32_t retreats{0};  // plans that the check refused
+    std::uint32_t rests{0};     // plans that ended before their stretch
     std::uint32_t blocked{0};   // stretches that could not be planned to their end
     float greatest_use{0};      // by the check, of the plans accepted
 
@@ -127,91 +125,105 @@ private:
         }
     }
 
-    void plan(LawStretch& stretch)
+    // What plans a stretch.
+    struct Planning {
+        explicit Planning(const MachineLimits& limits)
+        {
+            law.set_limits(limits);
+            spacing.set_limits(limits, law.station_time());
+        }
+
+        planner::LawPath path;
+        planner::TimeLaw law;
+        planner::StationSpacing spacing{path};
+        planner::PathCursor checked{};
+        std::size_t next{0};       // block
+        std::size_t first{0};      // cell from rest
+        std::uint32_t windows{0};  // since then
+        bool started{false};
+        bool ended{false};
+    };
+
+    planner::StopChoice stop_choice() const
     {
-        const auto path = std::make_unique<planner::LawPath>();
-        const auto law = std::make_unique<planner::TimeLaw>();
-        const auto spacing = std::make_unique<planner::StationSpacing>(*path);
-        MachineLimits shared = limits_;
-        shared.acceleration = shared.acceleration * kShare;
-        shared.jerk = shared.jerk * kShare;
-        law->set_limits(shared);
-        spacing->set_limits(shared, law->station_time());
         float longest = 0;
         for (unsigned i = 0; i < 3; ++i) {
             longest = std::max(longest, limits_.acceleration[i] / limits_.jerk[i]);
         }
-        const planner::StopChoice stop{0.8F * longest, 1.0F};
-        spacing->begin(stop);
-        spacing->set_stop(stop);
-        std::size_t next = 0;
-        planner::PathCursor checked{};
-        bool started = false;
-        bool ended = false;
-        for (;;) {
-            while (next < stretch.blocks.size() && !path->full()) {
-                path->append(
-                    {&stretch.blocks[next], stretch.feeds[next], stretch.centripetals[next]});
-                ++next;
-                if (next == stretch.blocks.size()) {
-                    path->close();
-                }
-            }
-            planner::StopElement element;
-            if (!started && spacing->start(element)) {
-                law->begin(element);
-                const float length = element.length * kPathUnitsPerMillimetre;
-                stretch.cells.push_back(
-                    {{}, static_cast<std::uint32_t>(length + 0.5F), planner::LawPiece::kStart});
-                started = true;
-            }
-            planner::Station station;
-            while (started && !ended && law->has_room() && spacing->next(station)) {
-                law->add(station);
-                ++stations;
-                if (spacing->finished()) {
-                    law->end(spacing->stop());
-                    ended = true;
-                }
-            }
-            const std::uint32_t before = law->steps();
-            law->work();
-            station_steps += law->steps() == before
+        return {0.8F * longest, 1.0F};
+    }
+
+    void plan(LawStretch& stretch)
+    {
+        MachineLimits shared = limits_;
+        shared.acceleration = shared.acceleration * kShare;
+        shared.jerk = shared.jerk * kShare;
+        const auto planning = std::make_unique<Planning>(shared);
+        Planning& now = *planning;
+        now.spacing.begin(stop_choice(), {}, 0);
+        now.spacing.set_stop(stop_choice());
+        while (now.law.state() != planner::TimeLaw::State::kDone || !now.started) {
+            give(now, stretch);
+            const std::uint32_t before = now.law.steps();
+            now.law.work();
+            station_steps += now.law.steps() == before
                                  ? 0.0F
-                                 : static_cast<float>(law->end_cell() - law->first_cell());
-            if (law->state() == planner::TimeLaw::State::kChecks) {
-                check(*law, *path, checked, shared);
+                                 : static_cast<float>(now.law.end_cell() - now.law.first_cell());
+            if (now.law.state() == planner::TimeLaw::State::kChecks) {
+                check(now, shared);
             }
-            planner::LawCell cell;
-            while (law->take(cell)) {
-                stretch.cells.push_back(cell);
+            const bool is_late = now.windows >= windows_known_;
+            if (is_late && now.law.has_plan() && !now.law.plans_the_end()) {
+                now.law.rest();
             }
-            path->drop_before(checked);
-            if (windows >= windows_known_ && !law->plans_the_end()) {
-                starve(*law, stretch);
-                return;
-            }
-            if (law->state() == planner::TimeLaw::State::kBlocked) {
+            take(now, stretch);
+            if (now.law.state() == planner::TimeLaw::State::kBlocked) {
                 ++blocked;
                 break;
             }
-            if (started && law->state() == planner::TimeLaw::State::kDone) {
-                break;
-            }
         }
-        finish(stretch, spacing->stop());
     }
 
-    void check(planner::TimeLaw& law,
-               const planner::LawPath& path,
-               planner::PathCursor& cursor,
-               const MachineLimits& limits)
+    // Blocks and stations, as many as there is room for.
+    void give(Planning& now, LawStretch& stretch)
+    {
+        while (now.next < stretch.blocks.size() && !now.path.full()) {
+            now.path.append({&stretch.blocks[now.next], stretch.feeds[now.next],
+                             stretch.centripetals[now.next]});
+            ++now.next;
+            if (now.next == stretch.blocks.size()) {
+                now.path.close();
+            }
+        }
+        planner::StopElement element;
+        if (!now.started && now.spacing.start(element)) {
+            now.law.begin(element);
+            now.first = stretch.cells.size();
+            const float length = element.length * kPathUnitsPerMillimetre;
+            stretch.cells.push_back(
+                {{}, static_cast<std::uint32_t>(length + 0.5F), planner::LawPiece::kStart});
+            now.started = true;
+        }
+        planner::Station station;
+        while (now.started && !now.ended && now.law.has_room() && now.spacing.next(station)) {
+            now.law.add(station);
+            ++stations;
+            if (now.spacing.finished()) {
+                now.law.end(now.spacing.stop());
+                now.ended = true;
+            }
+        }
+    }
+
+    void check(Planning& now, const MachineLimits& limits)
     {
         ++windows;
+        ++now.windows;
+        planner::TimeLaw& law = now.law;
         while (law.state() == planner::TimeLaw::State::kChecks) {
             const std::int64_t begin = law.station(law.first_cell()).begin;
-            const float use = planner::greatest_use(law, path, cursor, limits);
-            path.seek(cursor, begin);
+            const float use = planner::greatest_use(law, now.path, now.checked, limits);
+            now.path.seek(now.checked, begin);
             if (use <= kMostUse) {
                 greatest_use = std::max(greatest_use, use);
                 law.accept();
@@ -220,33 +232,38 @@ private:
                 law.retreat();
             }
         }
+        now.path.drop_before(now.checked);
     }
 
-    // Appends the plan beyond its final cells, and the stop from its crawl.
-    static void starve(const planner::TimeLaw& law, LawStretch& stretch)
-    {
-        for (std::uint32_t k = law.taken(); k < law.planned_cells(); ++k) {
-            stretch.cells.push_back(law.cell(k));
-        }
-        for (const planner::LawCell& cell : law.stop_from_crawl()) {
-            stretch.cells.push_back(cell);
-        }
-        stretch.cells.front().start.value = stretch.cells[1].start.value;
-    }
-
-    // The elements' inner ends have the speed of the cells beside them.
-    static void finish(LawStretch& stretch, const planner::StopElement& stop)
+    // The final cells. After the last of them the stretch ends, or goes on from rest.
+    void take(Planning& now, LawStretch& stretch)
     {
         std::vector<planner::LawCell>& cells = stretch.cells;
-        if (cells.size() < 2) {
+        planner::LawCell cell;
+        while (now.law.take(cell)) {
+            cells.push_back(cell);
+        }
+        if (!now.started || now.law.state() != planner::TimeLaw::State::kDone) {
             return;
         }
-        cells.front().start.value = cells[1].start.value;
-        const planner::LawCell& last = cells.back();
-        const float length = static_cast<float>(last.travel) / kPathUnitsPerMillimetre;
-        const float travel = stop.length * kPathUnitsPerMillimetre;
-        cells.push_back({advanced(last.start, length), static_cast<std::uint32_t>(travel + 0.5F),
-                         planner::LawPiece::kStop});
+        // The elements' inner ends have the speed of the cells beside them.
+        cells[now.first].start.value = cells[now.first + 1].start.value;
+        if (!now.law.rests()) {
+            const planner::LawCell& last = cells.back();
+            const float length = static_cast<float>(last.travel) / kPathUnitsPerMillimetre;
+            const float travel = now.spacing.stop().length * kPathUnitsPerMillimetre;
+            cells.push_back({advanced(last.start, length),
+                             static_cast<std::uint32_t>(travel + 0.5F), planner::LawPiece::kStop});
+            return;
+        }
+        ++rests;
+        now.windows = 0;
+        const std::int64_t rest = now.law.place_of_rest();
+        planner::PathCursor cursor = now.checked;
+        now.path.seek(cursor, rest);
+        now.spacing.begin(stop_choice(), cursor, rest);
+        now.started = false;
+        now.ended = false;
     }
 
     // A stretch on its way.
@@ -329,9 +346,9 @@ private:
             at = at + Position{division[0].divide(moved.x), division[1].divide(moved.y),
                                division[2].divide(moved.z)};
             samples.push_back(at);
-            const bool rests = track.stretch == nullptr && next == stretches_.size() &&
+            const bool still = track.stretch == nullptr && next == stretches_.size() &&
                                first.drained() && second.drained();
-            idle = rests ? idle + 1 : 0;
+            idle = still ? idle + 1 : 0;
         }
         return samples;
     }

@@ -83,7 +83,7 @@ Spaced space(const std::vector<Block>& blocks, std::size_t burst, float feed)
     const auto path = std::make_unique<LawPath>();
     StationSpacing spacing{*path};
     spacing.set_limits(MachineLimits{}, kStationTime);
-    spacing.begin(kStop);
+    spacing.begin(kStop, {}, 0);
     spacing.set_stop(kStop);
     Spaced made;
     std::size_t next = 0;

@@ -44,8 +44,8 @@ Stretch any_stretch(RandomStations& random)
     return made;
 }
 
-// Plays all stations through a law; some plans are thrown away. Final cells in order, none where the
-// law is blocked.
+// Plays all stations through a law; some plans are thrown away. Final cells in order, without the
+// two that bring the tool to rest where the plan can't be continued.
 std::vector<LawCell> plan(TimeLaw& law,
                           const Stretch& stretch,
                           RandomStations& random,
@@ -76,7 +76,9 @@ std::vector<LawCell> plan(TimeLaw& law,
         }
         LawCell cell;
         while (law.take(cell)) {
-            cells.push_back(cell);
+            if (cell.piece == LawPiece::kCell) {
+                cells.push_back(cell);
+            }
         }
     }
     return cells;
@@ -144,7 +146,7 @@ TEST_GROUP(TimeLaw){};
 
 TEST(TimeLaw, final_cells_hold_every_limit_and_meet)
 {
-    int blocked = 0;
+    int rests = 0;
     for (int n = 0; n < kLawCases; ++n) {
         const std::uint64_t seed = kLawSeed + static_cast<std::uint64_t>(n);
         const std::string which = "seed " + std::to_string(seed);
@@ -153,7 +155,8 @@ TEST(TimeLaw, final_cells_hold_every_limit_and_meet)
         TimeLaw law;
         law.set_limits(random.limits);
         const std::vector<LawCell> cells = plan(law, stretch, random, 1);
-        blocked += law.state() == TimeLaw::State::kBlocked ? 1 : 0;
+        CHECK_TEXT(law.state() == TimeLaw::State::kDone, which.c_str());
+        rests += law.rests() ? 1 : 0;
         const LaneVec ratio =
             quotient(to_lanes(random.limits.jerk), to_lanes(random.limits.acceleration));
         for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -176,11 +179,9 @@ TEST(TimeLaw, final_cells_hold_every_limit_and_meet)
                 DOUBLES_EQUAL(1.0, static_cast<double>(before.value / start.value), 1e-4);
             }
         }
-        CHECK_TEXT(
-            law.state() == TimeLaw::State::kBlocked || cells.size() == stretch.stations.size(),
-            which.c_str());
+        CHECK_TEXT(law.rests() || cells.size() == stretch.stations.size(), which.c_str());
     }
-    CHECK_TEXT(blocked * 20 < kLawCases, std::to_string(blocked).c_str());
+    CHECK_TEXT(rests * 20 < kLawCases, std::to_string(rests).c_str());
 }
 
 TEST(TimeLaw, a_line_takes_hardly_longer_than_the_closed_form)
