@@ -6,19 +6,18 @@
 #include <unistd.h>
 
 #include "host_tools/base/files/files.hpp"
+#include "host_tools/base/files/program_data.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/plan/plan.hpp"
 #include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/console_watcher.hpp"
-#include "host_tools/cli/demo_summary.hpp"
-#include "host_tools/cli/examples_folder.hpp"
-#include "host_tools/cli/run_program.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/controller/simulate/settings_file.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/judge/report/report.hpp"
+#include "host_tools/judge/report/run_summary.hpp"
 #include "host_tools/judge/verify/verify_statistics.hpp"
 #include "host_tools/judge/view/run_page.hpp"
 
@@ -28,19 +27,6 @@
 namespace cusp::cli {
 
 using files::write_text;
-using import::read_job;
-using job::Job;
-using plan::plan_job;
-using plan::PlannedProgram;
-using plan::PlanOptions;
-using simulate::read_settings_file;
-using simulate::SimulationOptions;
-using simulate::SimulationProgress;
-using simulate::SimulationResult;
-using verify::Verification;
-using view::run_page;
-using view::RunPage;
-using view::RunPageOptions;
 
 namespace {
 
@@ -54,6 +40,25 @@ struct DemoOptions {
     std::string examples;
     bool traces{};
 };
+
+// The folder that is given, or that of the examples that come with the program.
+fs::path examples_folder(const std::string& given)
+{
+    std::error_code failed;
+    if (!given.empty()) {
+        if (!fs::is_regular_file(given / fs::path{kJob}, failed)) {
+            throw InputError(fmt::format("--examples {}: holds no {}", given, kJob));
+        }
+        return given;
+    }
+    if (const auto found = files::program_data("examples", kJob)) {
+        return *found;
+    }
+    throw InputError(
+        fmt::format("no share/cusp/examples/{0} and no examples/{0} in {1} or above: "
+                    "name the folder of the examples with --examples DIR",
+                    kJob, files::program_folder().string()));
+}
 
 // Called before any computation, so that a folder that can't be written is refused immediately.
 void make_folder(const fs::path& folder)
@@ -70,17 +75,17 @@ void make_folder(const fs::path& folder)
 }
 
 // Runs the program and writes its page.
-SimulationResult run_with_page(const fs::path& folder,
-                               const fs::path& program,
-                               const Job& job,
-                               const SimulationOptions& mill,
-                               const Verification& cut)
+simulate::SimulationResult run_with_page(const fs::path& folder,
+                                         const fs::path& program,
+                                         const job::Job& job,
+                                         const simulate::SimulationOptions& mill,
+                                         const verify::Verification& cut)
 {
-    RunPageOptions options;
+    view::RunPageOptions options;
     options.simulation = mill;
     options.job = &job;
     options.verification = &cut;
-    const RunPage page = run_page(program, options);
+    const view::RunPage page = view::run_page(program, options);
     write_text(folder / "sim.json", statistics_json(page.run));
     write_text(folder / "RUN.html", page.html);
     return page.run;
@@ -88,23 +93,24 @@ SimulationResult run_with_page(const fs::path& folder,
 
 int run_demo(const DemoOptions& options)
 {
-    const fs::path examples = examples_folder(options.examples, kJob);
-    Job job = read_job(examples / kJob, strategies::all());
-    SimulationOptions mill;
-    mill.settings = read_settings_file(examples / kMill);
+    const fs::path examples = examples_folder(options.examples);
+    job::Job job = import::read_job(examples / kJob, strategies::all());
+    simulate::SimulationOptions mill;
+    mill.settings = simulate::read_settings_file(examples / kMill);
     const fs::path out = options.out;
     make_folder(out);
 
     const fs::path program = out / "pocket.ngc";
     ConsoleWatcher watcher{stdout};
-    PlanOptions plan_options;
+    plan::PlanOptions plan_options;
     plan_options.title = "job " + job.file;
-    const PlannedProgram plan = plan_job(job, plan_options, watcher);
+    const plan::PlannedProgram plan = plan::plan_job(job, plan_options, watcher);
     write_text(program, plan.gcode);
     write_text(out / "plan.json", statistics_json(job, plan));
     verify::VerifySettings settings;
     settings.engagement = true;
-    const Verification cut = verify::verify(job, program, settings, ShareProgress{"cutting"});
+    const verify::Verification cut =
+        verify::verify(job, program, settings, ShareProgress{"cutting"});
     write_text(out / "verify.json", statistics_json(cut));
     write_text(out / "path.svg", report::path_picture(job, cut.program));
     write_text(out / "left.svg", report::left_picture(job, cut));
@@ -114,14 +120,14 @@ int run_demo(const DemoOptions& options)
         mill.samples_file = out / "samples.csv";
     }
     ShareProgress bar{"running"};
-    mill.progress = [&bar](const SimulationProgress& progress) {
+    mill.progress = [&bar](const simulate::SimulationProgress& progress) {
         bar(progress.fraction);
     };
-    const SimulationResult run = run_with_page(out, program, job, mill, cut);
+    const simulate::SimulationResult run = run_with_page(out, program, job, mill, cut);
     bar(1.0);
 
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
-               demo_summary(plan, run, cut));
+               report::run_summary(plan.operations, run, cut));
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
         "plan.json sim.json verify.json verify.txt (figures){}\n"
@@ -130,7 +136,7 @@ int run_demo(const DemoOptions& options)
         out.string(),
         options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
     std::fflush(stdout);
-    print_faults(program, run);
+    fmt::print(stderr, "{}", simulate::faults_text(program, run));
     for (const std::string& broken : cut.broken) {
         fmt::print("broken: {}\n", broken);
     }

@@ -14,13 +14,6 @@
 
 namespace cusp::cli {
 
-using files::text_of_file;
-using files::write_text;
-using program_fit::fit_program;
-using program_fit::FitReport;
-using program_fit::FittedProgram;
-using program_fit::statistics_json;
-
 namespace {
 
 struct FitOptions {
@@ -33,15 +26,16 @@ struct FitOptions {
 int run_fit(const FitOptions& options)
 {
     const auto begin = std::chrono::steady_clock::now();
-    const std::string program = text_of_file(options.program);
-    const FittedProgram fitted =
-        fit_program(program, options.program, options.tolerance, ShareProgress{"fitting"});
-    write_text(options.output, fitted.text);
+    const std::string program = files::text_of_file(options.program);
+    const program_fit::FittedProgram fitted = program_fit::fit_program(
+        program, options.program, options.tolerance, ShareProgress{"fitting"});
+    files::write_text(options.output, fitted.text);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const FitReport& report = fitted.report;
+    const program_fit::FitReport& report = fitted.report;
     if (!options.stats.empty()) {
-        write_text(options.stats, statistics_json(report, options.tolerance, seconds));
+        files::write_text(options.stats,
+                          program_fit::statistics_json(report, options.tolerance, seconds));
     }
     fmt::print(
         "{} feed moves became {}: {} lines, {} arcs; off by at most {:.4f} mm at a vertex, "

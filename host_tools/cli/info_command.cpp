@@ -1,6 +1,5 @@
 // cusp info: describes a part file.
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "firmware/base/inch.hpp"
@@ -16,12 +15,6 @@
 
 namespace cusp::cli {
 
-using files::write_text;
-using import::read_part_geometry;
-using part_info::inspect_part;
-using part_info::PartInfo;
-using report::part_picture;
-
 namespace {
 
 struct InfoOptions {
@@ -31,39 +24,6 @@ struct InfoOptions {
     std::string picture;
     double tolerance{0.01};
 };
-
-// Removes a file that could not be written completely; a device is not removed.
-void write_or_remove(const std::string& file, const std::string& text)
-{
-    try {
-        write_text(file, text);
-    } catch (const InputError&) {
-        if (std::filesystem::is_regular_file(file)) {
-            std::filesystem::remove(file);
-        }
-        throw;
-    }
-}
-
-// Either both files are written or none.
-void write_outputs(const InfoOptions& options, const std::vector<PartInfo>& parts)
-{
-    const std::string picture = options.picture.empty() ? "" : part_picture(parts.front());
-    if (!options.picture.empty()) {
-        write_or_remove(options.picture, picture);
-    }
-    if (options.stats.empty()) {
-        return;
-    }
-    try {
-        write_or_remove(options.stats, json_of(parts));
-    } catch (const InputError&) {
-        if (std::filesystem::is_regular_file(options.picture)) {
-            std::filesystem::remove(options.picture);
-        }
-        throw;
-    }
-}
 
 int run_info(const InfoOptions& options)
 {
@@ -77,17 +37,25 @@ int run_info(const InfoOptions& options)
                                      options.tolerance));
     }
     const double millimetres = options.units == "inch" ? kMillimetresPerInch : 1.0;
-    std::vector<PartInfo> parts;
+    std::vector<part_info::PartInfo> parts;
     std::string text;
     for (const std::string& file : options.files) {
-        parts.push_back(inspect_part(read_part_geometry(file, millimetres), options.tolerance));
+        parts.push_back(part_info::inspect_part(import::read_part_geometry(file, millimetres),
+                                                options.tolerance));
         text += (text.empty() ? "" : "\n") + text_of(parts.back());
         if (options.picture.empty()) {  // only the picture needs them later
             parts.back().part.surfaces = {};
             parts.back().part.triangles = {};
         }
     }
-    write_outputs(options, parts);
+    std::vector<files::NewFile> outputs;
+    if (!options.picture.empty()) {
+        outputs.push_back({options.picture, report::part_picture(parts.front())});
+    }
+    if (!options.stats.empty()) {
+        outputs.push_back({options.stats, json_of(parts)});
+    }
+    write_all(outputs);
     fmt::print("{}", text);
     return kDone;
 }

@@ -20,4 +20,11 @@ const std::atomic<int>& count_interruptions()
     return interruptions;
 }
 
+std::function<bool()> was_interrupted()
+{
+    return [&stops = count_interruptions()] {
+        return stops.load() > 0;
+    };
+}
+
 }  // namespace cusp::cli

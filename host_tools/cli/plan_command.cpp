@@ -24,20 +24,8 @@
 
 namespace cusp::cli {
 
-using files::write_text;
-using import::job_help;
-using import::job_schema;
-using import::OneLineJob;
-using import::PartFiles;
-using import::read_job;
-using import::read_post;
-using import::read_setups;
 using job::Job;
-using plan::plan_setups;
-using plan::PlannedProgram;
 using plan::PlanOptions;
-using plan::statistics_json;
-using plan::summary_text;
 
 namespace {
 
@@ -62,15 +50,15 @@ struct PlanArguments {
 bool explain_jobs(const PlanArguments& options)
 {
     if (options.schema) {
-        fmt::print("{}", job_schema(strategies::all()));
+        fmt::print("{}", import::job_schema(strategies::all()));
     } else if (options.help_job && options.help_name.empty()) {
-        fmt::print("{}", job_help(strategies::all()));
+        fmt::print("{}", import::job_help(strategies::all()));
     } else if (options.help_job) {
-        fmt::print("{}", job_help(strategies::all(), options.help_name));
+        fmt::print("{}", import::job_help(strategies::all(), options.help_name));
     }
     if (options.list_posts) {
         for (const std::string& name : import::post_names()) {
-            fmt::print("{}: {}\n", name, import::post_text(read_post(name, "")));
+            fmt::print("{}: {}\n", name, import::post_text(import::read_post(name, "")));
         }
     }
     return options.schema || options.help_job || options.list_posts;
@@ -79,8 +67,8 @@ bool explain_jobs(const PlanArguments& options)
 // Builds the job from parts and options, prints it, and reads it as if it were a file.
 Job one_line_job_of(const PlanArguments& options)
 {
-    PartFiles parts;
-    const OneLineJob job = one_line_job(options.call.request, strategies::all(), parts);
+    import::PartFiles parts;
+    const import::OneLineJob job = one_line_job(options.call.request, strategies::all(), parts);
     for (const std::string& line : job.said) {
         fmt::print(options.output.said, "{}\n", line);
     }
@@ -88,15 +76,15 @@ Job one_line_job_of(const PlanArguments& options)
     if (options.call.print_job) {
         fmt::print("{}", job.toml);
     }
-    return read_job({job.toml, options.call.job_name(), ""}, strategies::all(), parts);
+    return import::read_job({job.toml, options.call.job_name(), ""}, strategies::all(), parts);
 }
 
-void write_files(const Job& job, const PlannedProgram& program, const PlanFiles& files)
+void write_files(const Job& job, const plan::PlannedProgram& program, const PlanFiles& files)
 {
     const cancellation::FinishOutput finish;
-    write_text(files.program, program.gcode);
+    files::write_text(files.program, program.gcode);
     if (!files.stats.empty()) {
-        write_text(files.stats, statistics_json(job, program));
+        files::write_text(files.stats, plan::statistics_json(job, program));
     }
 }
 
@@ -113,7 +101,7 @@ void plan_files(std::vector<Job>& setups, const PlanOptions& common, const PlanF
         }
         return own;
     };
-    plan_setups(
+    plan::plan_setups(
         setups, watcher,
         [&](const Job& job) {
             PlanOptions options = common;
@@ -125,10 +113,10 @@ void plan_files(std::vector<Job>& setups, const PlanOptions& common, const PlanF
             }
             return options;
         },
-        [&](const Job& job, const PlannedProgram& program) {
+        [&](const Job& job, const plan::PlannedProgram& program) {
             const PlanFiles own = files_of(job);
             write_files(job, program, own);
-            fmt::print(own.said, "{}", summary_text(program));
+            fmt::print(own.said, "{}", plan::summary_text(program));
             print_warnings(job.notes);
             print_warnings(program.all_warnings());
             fmt::print(own.said, "wrote {}\n", own.program);
@@ -149,12 +137,13 @@ int run_plan(PlanArguments& options)
     if (call.is_one_line()) {
         setups.push_back(one_line_job_of(options));
     } else {
-        setups = read_setups(call.files.front(), strategies::all());
+        setups = import::read_setups(call.files.front(), strategies::all());
     }
-    return_freed_memory();  // Open CASCADE's shapes take more than what is read of them
+    cancellation::
+        return_freed_memory();  // Open CASCADE's shapes take more than what is read of them
     for (Job& job : setups) {
         if (!call.request.post.empty()) {
-            job.post = read_post(call.request.post, "");
+            job.post = import::read_post(call.request.post, "");
         }
     }
     if (!options.output.program.empty()) {
@@ -205,9 +194,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "It prints the values it chose. --print-job instead of -o prints the job file, to edit "
         "and\n"
         "plan: ... --print-job > part.toml\n\n"
-        "Strategies: contour_pocket, adaptive_isocurve, grid_pocket, hull_rough; for comparison\n"
-        "complete_isocurves and parallel_planes; from a drawing: pocket, profile, drill, face,\n"
-        "engrave, v_carve, chamfer. Statistics are in mm and s, whatever the job's units.\n\n"
+        "--help-job lists the strategies. Statistics are in mm and s, whatever the job's units.\n\n"
         "A job (keys: docs/job_file.md, choice of a strategy: docs/strategies.md):\n"
         "  units = \"mm\"\n"
         "  [tool]\n"

@@ -17,7 +17,4 @@ void add_resource_options(CLI::App& command, Resources& resources);
 // Limits the process, and has Ctrl-C and the end of memory end it with a line.
 void apply(const Resources& resources);
 
-// Gives the system what was freed: after a phase that took much more than it left.
-void return_freed_memory();
-
 }  // namespace cusp::cli

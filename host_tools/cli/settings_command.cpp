@@ -7,8 +7,6 @@
 
 namespace cusp::cli {
 
-using simulate::settings_text;
-
 void add_settings_command(CLI::App& app, Work& work)
 {
     CLI::App* command = app.add_subcommand("settings", "print the default settings");
@@ -17,7 +15,7 @@ void add_settings_command(CLI::App& app, Work& work)
         "`cusp sim --settings FILE`.");
     command->callback([&work] {
         work = [] {
-            const std::string text = settings_text(machine::Settings{});
+            const std::string text = simulate::settings_text(machine::Settings{});
             std::fputs(text.c_str(), stdout);
             return static_cast<int>(kDone);
         };

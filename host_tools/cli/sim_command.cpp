@@ -2,15 +2,12 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string>
-#include <unistd.h>
 
-#include "firmware/base/machine_limits.hpp"
-#include "firmware/base/pulse_frame.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
-#include "host_tools/cli/run_program.hpp"
+#include "host_tools/cli/share_progress.hpp"
 #include "host_tools/controller/program_run/motion_profile.hpp"
 #include "host_tools/controller/simulate/fault_command.hpp"
 #include "host_tools/controller/simulate/settings_file.hpp"
@@ -20,140 +17,58 @@
 
 namespace cusp::cli {
 
-using files::write_text;
-using program_run::MotionProfile;
-using program_run::ProgramMoveCounts;
-using program_run::SetPoint;
-using program_run::ToolTime;
-using report::motion_picture;
-using simulate::input_named;
-using simulate::parse_line_faults;
-using simulate::read_script;
-using simulate::read_settings_file;
 using simulate::ServeOptions;
-using simulate::SimulationOptions;
-using simulate::SimulationProgress;
-using simulate::SimulationResult;
 
 namespace {
+
+constexpr const char* kServing = "Virtual controller";
 
 struct SimArguments {
     std::string program;
     std::string settings_file;
-    std::string vcd_file;
-    std::string samples_file;
     std::string script_file;
     std::string stats_file;
     std::string picture_file;
-    std::optional<double> probe_z;
-    std::uint32_t bits_per_second{0};
     std::string dialect{"cusp"};
-    bool serve{false};
-    std::string pty_link;
-    std::string tcp;
-    std::string control;
-    std::string line_faults;
-    std::uint32_t seed{1};
-    std::optional<std::uint64_t> cut_power_after;
-    std::vector<std::string> stuck_high;
-    std::vector<std::string> stuck_low;
+    simulate::SimulationOptions run;
+    bool serves{false};
+    ServeOptions serve;  // the VCD file and the probe's height are those of `run`
 };
-
-void show_progress(const SimulationProgress& progress)
-{
-    constexpr int kCells = 30;
-    const int filled = static_cast<int>(progress.fraction * kCells);
-    fmt::print(stderr, "\r\x1b[K[{}{}] {:5.1f} %  line {}  {:.1f} s simulated",
-               std::string(static_cast<std::size_t>(filled), '#'),
-               std::string(static_cast<std::size_t>(kCells - filled), '.'),
-               100.0 * progress.fraction, progress.line, progress.simulated_s);
-    std::fflush(stderr);
-}
-
-// Prints the greatest values of a derivative of the set points with the limits of the settings. Set
-// points are whole nanometres; `rounding`, nm a tick to the power of the order, bounds the effect.
-void print_limited(const char* name, int order, double rounding, Vec3d value, Vec3f limit)
-{
-    double added = rounding / kNanometresPerMillimetre;
-    for (int k = 0; k < order; ++k) {
-        added *= kServoTicksPerSecond;
-    }
-    fmt::print("{:<10} X {:.3f}  Y {:.3f}  Z {:.3f} mm/s{} at most", name, value.x, value.y,
-               value.z, order == 1 ? "" : fmt::format("^{}", order));
-    fmt::print(" (limits {:g}, {:g}, {:g}; up to {:g} is rounding to nanometres)\n", limit.x,
-               limit.y, limit.z, added);
-}
-
-void print_result(const SimulationResult& result, const MachineLimits& limits)
-{
-    const ProgramMoveCounts& moves = result.moves;
-    const Vec3d end = to_millimetres(result.end);
-    fmt::print("{} lines, {} rapids, {} lines, {} arcs, {} NURBS\n", result.lines, moves.rapid,
-               moves.line, moves.arc, moves.nurbs);
-    fmt::print("time       {:.3f} s in motion, {:.1f} mm, simulated in {:.3f} s\n",
-               result.duration_s, result.length_mm, result.wall_s);
-    fmt::print("end        X {:.3f}  Y {:.3f}  Z {:.3f} mm\n", end.x, end.y, end.z);
-    print_limited("speed", 1, 1, result.max_velocity, limits.velocity);
-    print_limited("accel", 2, 2, result.max_acceleration, limits.acceleration);
-    print_limited("jerk", 3, 4, result.max_jerk, limits.jerk);
-    fmt::print("deviation  {:.6f} mm at most, in line {}\n", result.max_deviation_mm,
-               result.max_deviation_line);
-    if (result.starved_ticks > 0) {
-        fmt::print("starved    {} ms without a line to run\n", result.starved_ticks);
-    }
-    if (result.tool_changes > 0) {
-        fmt::print("tools     ");
-        for (const ToolTime& tool : result.tools) {
-            fmt::print(" T{} {:.1f} s{}", tool.number, tool.seconds(),
-                       &tool == &result.tools.back() ? "" : ",");
-        }
-        fmt::print("; {} change{} of tool\n", result.tool_changes,
-                   result.tool_changes == 1 ? "" : "s");
-    }
-    if (result.rotary_line > 0) {
-        fmt::print("ignored    A, B and C words, from line {} on: they turn nothing\n",
-                   result.rotary_line);
-    }
-    for (const std::uint64_t line : result.pause_lines) {
-        fmt::print("pause      line {}: resumed at once\n", line);
-    }
-}
 
 int run_once(const SimArguments& arguments)
 {
-    SimulationOptions options;
+    simulate::SimulationOptions options = arguments.run;
     if (!arguments.settings_file.empty()) {
-        options.settings = read_settings_file(arguments.settings_file);
+        options.settings = simulate::read_settings_file(arguments.settings_file);
     }
-    options.vcd_file = arguments.vcd_file;
-    options.samples_file = arguments.samples_file;
     if (!arguments.script_file.empty()) {
-        options.script = read_script(arguments.script_file);
+        options.script = simulate::read_script(arguments.script_file);
     }
-    options.probe_z = arguments.probe_z;
-    options.bits_per_second = arguments.bits_per_second;
     options.stock_grbl = arguments.dialect == "grbl";
     options.sums_edges = !arguments.stats_file.empty();  // no other output has the sum
-    const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
-    if (on_terminal) {
-        options.progress = show_progress;
-    }
-    MotionProfile profile;
+    options.stop = was_interrupted();
+    constexpr double kQuiet = 2.0;  // s
+    ShareProgress bar{"running", kQuiet};
+    options.progress = [&bar](const simulate::SimulationProgress& progress) {
+        bar(progress.fraction);
+    };
+    program_run::MotionProfile profile;
     if (!arguments.picture_file.empty()) {
-        options.set_point = [&profile](const SetPoint& point) {
+        options.set_point = [&profile](const program_run::SetPoint& point) {
             profile.add(point.at, point.line);
         };
     }
-    const SimulationResult result = run_program(arguments.program, options, arguments.stats_file);
+    const simulate::SimulationResult result = simulate::simulate(arguments.program, options);
+    if (!arguments.stats_file.empty()) {
+        files::write_text(arguments.stats_file, statistics_json(result));
+    }
     if (!arguments.picture_file.empty()) {
-        write_text(arguments.picture_file, motion_picture(profile, options.settings.limits()));
+        files::write_text(arguments.picture_file,
+                          report::motion_picture(profile, options.settings.limits()));
     }
-    if (on_terminal) {
-        fmt::print(stderr, "\r\x1b[K");
-    }
-    print_result(result, options.settings.limits());
+    fmt::print("{}", summary_text(result, options.settings.limits()));
     std::fflush(stdout);
-    print_faults(arguments.program, result);
+    fmt::print(stderr, "{}", faults_text(arguments.program, result));
     return result.good() ? kDone : kFoundWrong;
 }
 
@@ -166,45 +81,22 @@ hal::TcpAddress address_of(const std::string& text, const char* option)
     return *address;
 }
 
-std::uint16_t inputs_of(const std::vector<std::string>& names, const char* option)
+hal::LineFaults faults_of(const std::string& text)
 {
-    unsigned bits = 0;
-    for (const std::string& name : names) {
-        const std::uint16_t bit = input_named(name);
-        if (bit == 0) {
-            throw InputError{
-                fmt::format("{} {}: is none of x, y, z, probe, door, hold, start, reset, at-speed",
-                            option, name)};
-        }
-        bits |= bit;
+    const auto faults = simulate::parse_line_faults(text);
+    if (!faults) {
+        throw InputError{fmt::format(
+            "--line-faults {}: is no list of noise=, loss=, doubling=, delay= with 0 to 1", text)};
     }
-    return static_cast<std::uint16_t>(bits);
+    return *faults;
 }
 
 int run_server(const SimArguments& arguments)
 {
-    ServeOptions options;
-    options.pty_link = arguments.pty_link;
-    if (!arguments.tcp.empty()) {
-        options.tcp = address_of(arguments.tcp, "--tcp");
-    }
-    if (!arguments.control.empty()) {
-        options.control = address_of(arguments.control, "--control");
-    }
-    const auto faults = parse_line_faults(arguments.line_faults);
-    if (!faults) {
-        throw InputError{fmt::format(
-            "--line-faults {}: is no list of noise=, loss=, doubling=, delay= with 0 to 1",
-            arguments.line_faults)};
-    }
+    ServeOptions options = arguments.serve;
     options.settings_file = arguments.settings_file;
-    options.faults = *faults;
-    options.seed = arguments.seed;
-    options.probe_z = arguments.probe_z;
-    options.cut_power_after = arguments.cut_power_after;
-    options.stuck_high = inputs_of(arguments.stuck_high, "--stuck-high");
-    options.stuck_low = inputs_of(arguments.stuck_low, "--stuck-low");
-    options.vcd_file = arguments.vcd_file;
+    options.probe_z = arguments.run.probe_z;
+    options.vcd_file = arguments.run.vcd_file;
     options.notice = [](const std::string& text) {
         fmt::print("{}\n", text);
         std::fflush(stdout);
@@ -215,8 +107,8 @@ int run_server(const SimArguments& arguments)
 
 int run_sim(const SimArguments& arguments)
 {
-    if (arguments.serve) {
-        if (arguments.pty_link.empty() == arguments.tcp.empty()) {
+    if (arguments.serves) {
+        if (arguments.serve.pty_link.empty() == !arguments.serve.tcp) {
             throw InputError{"cusp sim --serve needs one of --pty LINK and --tcp HOST:PORT"};
         }
         if (!arguments.program.empty()) {
@@ -235,35 +127,49 @@ int run_sim(const SimArguments& arguments)
 
 void add_serve_options(CLI::App& command, SimArguments& arguments)
 {
-    const char* group = "Virtual controller";
+    ServeOptions& serve = arguments.serve;
+    const auto add = [&](const char* name, auto& value, const char* text) {
+        command.add_option(name, value, text)->group(kServing);
+    };
+    const auto add_read = [&](const char* name, auto& value, auto read, const char* text) {
+        command
+            .add_option_function<std::string>(
+                name, [&value, read](const std::string& given) { value = read(given); }, text)
+            ->group(kServing);
+    };
+    const auto add_inputs = [&](const char* name, std::uint16_t& value, const char* text) {
+        command
+            .add_option_function<std::vector<std::string>>(
+                name,
+                [&value, name](const std::vector<std::string>& given) {
+                    value = simulate::inputs_named(given, name);
+                },
+                text)
+            ->group(kServing);
+    };
+    const auto address = [](const char* option) {
+        return [option](const std::string& text) {
+            return address_of(text, option);
+        };
+    };
     command
-        .add_flag("--serve", arguments.serve,
+        .add_flag("--serve", arguments.serves,
                   "Run as a controller in real time for any Grbl sender")
-        ->group(group);
-    command.add_option("--pty", arguments.pty_link, "Link to make to a new pseudo-terminal")
-        ->group(group);
-    command.add_option("--tcp", arguments.tcp, "HOST:PORT to listen on")->group(group);
-    command
-        .add_option("--control", arguments.control,
-                    "HOST:PORT for commands: unplug, plug, power off|on, cut WORDS,\n"
-                    "high|low|free INPUT, plate Z, line noise=P loss=P doubling=P delay=P,\n"
-                    "lose-frame, overrun, where")
-        ->group(group);
-    command
-        .add_option("--line-faults", arguments.line_faults,
-                    "Probabilities a byte: noise=P,loss=P,doubling=P,delay=P")
-        ->group(group);
-    command.add_option("--seed", arguments.seed, "Seed of the line's random faults")->group(group);
-    command
-        .add_option("--cut-power-after", arguments.cut_power_after,
-                    "Words written to the settings store before the power fails")
-        ->group(group);
-    command
-        .add_option("--stuck-high", arguments.stuck_high,
-                    "Input that always reads high: x, y, z, probe, door, hold, start, reset")
-        ->group(group);
-    command.add_option("--stuck-low", arguments.stuck_low, "Input that always reads low")
-        ->group(group);
+        ->group(kServing);
+    add("--pty", serve.pty_link, "Link to make to a new pseudo-terminal");
+    add_read("--tcp", serve.tcp, address("--tcp"), "HOST:PORT to listen on");
+    add_read("--control", serve.control, address("--control"),
+             "HOST:PORT for commands: unplug, plug, power off|on, cut WORDS,\n"
+             "high|low|free INPUT, plate Z, line noise=P loss=P doubling=P delay=P,\n"
+             "lose-frame, overrun, where");
+    add_read("--line-faults", serve.faults, faults_of,
+             "Probabilities a byte: noise=P,loss=P,doubling=P,delay=P");
+    add("--seed", serve.seed, "Seed of the line's random faults");
+    add("--cut-power-after", serve.cut_power_after,
+        "Words written to the settings store before the power fails");
+    add_inputs("--stuck-high", serve.stuck_high,
+               "Input that always reads high: x, y, z, probe, door, hold, start, reset");
+    add_inputs("--stuck-low", serve.stuck_low, "Input that always reads low");
 }
 
 }  // namespace
@@ -276,8 +182,8 @@ void add_sim_command(CLI::App& app, Work& work)
     command->add_option("program", arguments->program, "G-code to run from machine position 0,0,0");
     command->add_option("--settings", arguments->settings_file,
                         "Grbl settings, one $N=v a line; `cusp settings` prints the defaults");
-    command->add_option("--vcd", arguments->vcd_file, "Write every step and direction edge");
-    command->add_option("--samples", arguments->samples_file,
+    command->add_option("--vcd", arguments->run.vcd_file, "Write every step and direction edge");
+    command->add_option("--samples", arguments->run.samples_file,
                         "Write the set point and the line of every ms");
     command->add_option(
         "--script", arguments->script_file,
@@ -285,9 +191,9 @@ void add_sim_command(CLI::App& app, Work& work)
     command->add_option("--stats", arguments->stats_file, "Write the figures as JSON");
     command->add_option("--picture", arguments->picture_file,
                         "Plot speed over time, and v, a, j of each axis with its limits (SVG)");
-    command->add_option("--probe-z", arguments->probe_z,
+    command->add_option("--probe-z", arguments->run.probe_z,
                         "Height of a probe plate, mm from the start position");
-    command->add_option("--baud", arguments->bits_per_second,
+    command->add_option("--baud", arguments->run.bits_per_second,
                         "Send the lines at this rate (default: without delay)");
     command
         ->add_option("--dialect", arguments->dialect,

@@ -2,24 +2,19 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <spawn.h>
 #include <string>
 #include <sys/prctl.h>
-#include <unistd.h>
 
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/version_text.hpp"
 #include "host_tools/studio/call.hpp"
+#include "host_tools/studio/open_in_browser.hpp"
 #include "host_tools/studio/studio.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 
 namespace cusp::cli {
-
-using studio::answer_call;
-using studio::serve;
-using studio::StudioOptions;
 
 namespace {
 
@@ -30,26 +25,11 @@ struct StudioArguments {
     std::string call;
 };
 
-// The browser is another program's matter: where there is none, the printed address is what there is.
-void open_in_browser(const std::string& address)
-{
-    std::string program = "xdg-open";
-    std::string argument = address;
-    char* const command[] = {program.data(), argument.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", 1, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
-    pid_t process{};
-    posix_spawnp(&process, command[0], &actions, nullptr, command, environ);
-    posix_spawn_file_actions_destroy(&actions);
-}
-
 // The process of one call: it ends with its server.
 int run_call(const std::string& name)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    answer_call(name, stdin, stdout);
+    studio::answer_call(name, stdin, stdout);
     return kDone;
 }
 
@@ -60,7 +40,7 @@ int run_studio(const StudioArguments& arguments)
     }
     // a request that is closed while it is answered
     std::signal(SIGPIPE, SIG_IGN);
-    StudioOptions options;
+    studio::StudioOptions options;
     options.port = arguments.port;
     options.linger = arguments.linger;
     options.version = version_text().substr(0, version_text().find('\n'));
@@ -69,10 +49,10 @@ int run_studio(const StudioArguments& arguments)
         fmt::print("{}\nEnds when its last page is closed, or with Ctrl-C.\n", address);
         std::fflush(stdout);
         if (!arguments.no_browser) {
-            open_in_browser(address);
+            studio::open_in_browser(address);
         }
     };
-    serve(options);
+    studio::serve(options);
     return kDone;
 }
 

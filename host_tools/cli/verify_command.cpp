@@ -20,13 +20,7 @@
 
 namespace cusp::cli {
 
-using files::write_text;
 using job::Job;
-using report::engagement_picture;
-using report::left_picture;
-using report::path_picture;
-using verify::Verification;
-using verify::VerifySettings;
 
 namespace {
 
@@ -74,25 +68,25 @@ bool asks_for_engagement(const VerifyOptions& options, const Job& job)
            });
 }
 
-void write_output(const Job& job, const Verification& result, const VerifyOutput& output)
+void write_output(const Job& job, const verify::Verification& result, const VerifyOutput& output)
 {
     const cancellation::FinishOutput finish;
     const auto write = [](const std::string& file, const auto& text_of) {
         if (!file.empty()) {
-            write_text(file, text_of());
+            files::write_text(file, text_of());
         }
     };
     write(output.stats, [&] { return statistics_json(result); });
-    write(output.path_picture, [&] { return path_picture(job, result.program); });
-    write(output.left_picture, [&] { return left_picture(job, result); });
-    write(output.engagement_picture, [&] { return engagement_picture(job, result); });
+    write(output.path_picture, [&] { return report::path_picture(job, result.program); });
+    write(output.left_picture, [&] { return report::left_picture(job, result); });
+    write(output.engagement_picture, [&] { return report::engagement_picture(job, result); });
 }
 
 int run_verify(const VerifyOptions& options)
 {
     apply(options.resources);
     cancellation::set_work("reading " + options.job);
-    VerifySettings settings;
+    verify::VerifySettings settings;
     if (options.pitch > 0) {
         settings.pitch = options.pitch;
     }
@@ -103,7 +97,7 @@ int run_verify(const VerifyOptions& options)
     settings.max_engagement = options.max_engagement;
     settings.engagement = asks_for_engagement(options, job);
     cancellation::set_work("cutting " + options.program);
-    const Verification result =
+    const verify::Verification result =
         verify::verify(job, options.program, settings, ShareProgress{"cutting"});
     write_output(job, result, options.output);
     fmt::print("{}", verification_text(result));

@@ -21,16 +21,6 @@
 namespace cusp::cli {
 
 using files::write_text;
-using job::Job;
-using simulate::read_settings_file;
-using simulate::SimulationProgress;
-using view::Page;
-using view::page_still;
-using view::page_text;
-using view::pages_hold_core;
-using view::run_page;
-using view::RunPage;
-using view::RunPageOptions;
 
 namespace {
 
@@ -44,14 +34,14 @@ struct ViewArguments {
     std::string still;
 };
 
-RunPage page_of(const ViewArguments& arguments)
+view::RunPage page_of(const ViewArguments& arguments)
 {
-    RunPageOptions options;
+    view::RunPageOptions options;
     options.simulation.sums_edges = false;
     if (!arguments.settings_file.empty()) {
-        options.simulation.settings = read_settings_file(arguments.settings_file);
+        options.simulation.settings = simulate::read_settings_file(arguments.settings_file);
     }
-    std::optional<Job> job;
+    std::optional<job::Job> job;
     if (!arguments.job_file.empty()) {
         job = job_for(arguments.job_file, arguments.program, arguments.after);
         options.job = &*job;
@@ -60,14 +50,11 @@ RunPage page_of(const ViewArguments& arguments)
     ShareProgress cutting{"cutting", kQuiet};
     ShareProgress running{"running", kQuiet};
     options.verifying = cutting;
-    options.simulation.progress = [&running](const SimulationProgress& progress) {
+    options.simulation.progress = [&running](const simulate::SimulationProgress& progress) {
         running(progress.fraction);
     };
-    const std::atomic<int>& stops = count_interruptions();
-    options.simulation.stop = [&stops] {
-        return stops.load() > 0;
-    };
-    return run_page(arguments.program, options);
+    options.simulation.stop = was_interrupted();
+    return view::run_page(arguments.program, options);
 }
 
 int write_playground(const ViewArguments& arguments)
@@ -77,8 +64,8 @@ int write_playground(const ViewArguments& arguments)
         throw InputError{
             "cusp view --playground takes no program, job, settings or still: its page does"};
     }
-    const std::string_view page = page_text(Page::kPlayground);
-    if (page.empty() || !pages_hold_core()) {
+    const std::string_view page = view::page_text(view::Page::kPlayground);
+    if (page.empty() || !view::pages_hold_core()) {
         throw InputError{
             "cusp view --playground has no core to run: cusp was built without npm "
             "(CUSP_VIEW=ON) or without the packages for WebAssembly"};
@@ -95,10 +82,10 @@ int run_view(const ViewArguments& arguments)
     if (arguments.program.empty()) {
         throw InputError{"cusp view needs a program, or --playground"};
     }
-    const RunPage page = page_of(arguments);
+    const view::RunPage page = page_of(arguments);
     write_text(arguments.page, page.html);
     if (!arguments.still.empty()) {
-        write_text(arguments.still, page_still(arguments.page));
+        write_text(arguments.still, view::page_still(arguments.page));
     }
     constexpr double kMegabyte = 1048576.0;
     fmt::print("{}: {} ticks, {:.2f} MB\n{}\n", arguments.page, page.ticks,

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nlohmann/json.hpp"
@@ -30,10 +31,30 @@ public:
     std::vector<double> find_numbers(const char* key) const;
     bool flag(const char* key, bool otherwise) const;
 
+    // Sets a value where the argument is given.
+    void read(const char* key, std::optional<std::string>& value) const
+    {
+        take(find_text(key), value);
+    }
+    void read(const char* key, std::optional<double>& value) const
+    {
+        take(find_number(key), value);
+    }
+    void read(const char* key, std::string& value) const { take(find_text(key), value); }
+    void read(const char* key, std::vector<std::string>& value) const { value = find_texts(key); }
+    void read(const char* key, std::vector<double>& value) const { value = find_numbers(key); }
+
     // Refuses arguments that nothing has asked for: misspelt ones.
     void check_all_read() const;
 
 private:
+    template <class T, class Value>
+    static void take(std::optional<T>&& given, Value& value)
+    {
+        if (given) {
+            value = *std::move(given);
+        }
+    }
     const Json* find(const char* key) const;
     [[noreturn]] void refuse(const char* key, const char* needed) const;
 

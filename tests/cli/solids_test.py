@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-for folder in ("property/prismatic", "support"):
+for folder in ("judges", "support"):
     sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / folder))
 from property_cases import property_cases, property_seed  # noqa: E402
 from plate_mesh import PITCH, plate, stl  # noqa: E402

@@ -11,8 +11,8 @@ import struct
 import sys
 
 sys.dont_write_bytecode = True
-PROPERTY = pathlib.Path(__file__).resolve().parent.parent / "property"
-sys.path += [str(PROPERTY / "contour_pocket"), str(PROPERTY / "adaptive_isocurve")]
+TESTS = pathlib.Path(__file__).resolve().parent.parent
+sys.path += [str(TESTS / "generators"), str(TESTS / "property" / "adaptive_isocurve")]
 import model_jobs
 import random_models
 from random_pocket import FLOORS, RandomPocket

@@ -28,6 +28,11 @@ void stop_with_message(std::size_t memory);
 // Half of the machine's memory, bytes.
 std::size_t half_of_memory();
 
+// Lets the system have large blocks as soon as they are freed. Once, before the work.
+void keep_large_blocks_apart();
+// Gives the system what was freed: after a phase that took much more than it left.
+void return_freed_memory();
+
 // The work of the process; a long text is cut off. For one thread at a time.
 void set_work(std::string_view what);
 // The share of it that is done, 0 to 1; from any thread.

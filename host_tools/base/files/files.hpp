@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cusp::files {
 
@@ -44,5 +45,13 @@ private:
 
 // A whole file at once.
 void write_text(const std::string& file, std::string_view text);
+
+struct NewFile {
+    std::string name;
+    std::string text;
+};
+
+// Writes all files, or leaves none of them where one can't be written. Devices stay.
+void write_all(const std::vector<NewFile>& files);
 
 }  // namespace cusp::files

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
@@ -60,6 +61,22 @@ void write_text(const std::string& file, std::string_view text)
     TextFile out{file};
     out.write(text);
     out.close();
+}
+
+void write_all(const std::vector<NewFile>& files)
+{
+    for (const NewFile& file : files) {
+        try {
+            write_text(file.name, file.text);
+        } catch (const InputError&) {
+            for (const NewFile* written = files.data(); written <= &file; ++written) {
+                if (std::filesystem::is_regular_file(written->name)) {
+                    std::filesystem::remove(written->name);
+                }
+            }
+            throw;
+        }
+    }
 }
 
 }  // namespace cusp::files

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "firmware/base/panel.hpp"
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/number_text/number_text.hpp"
+
+#include "fmt/format.h"
 
 namespace cusp::simulate {
 
@@ -150,6 +153,21 @@ std::uint16_t input_named(std::string_view name)
         }
     }
     return 0;
+}
+
+std::uint16_t inputs_named(const std::vector<std::string>& names, const char* option)
+{
+    unsigned bits = 0;
+    for (const std::string& name : names) {
+        const std::uint16_t bit = input_named(name);
+        if (bit == 0) {
+            throw InputError{
+                fmt::format("{} {}: is none of x, y, z, probe, door, hold, start, reset, at-speed",
+                            option, name)};
+        }
+        bits |= bit;
+    }
+    return static_cast<std::uint16_t>(bits);
 }
 
 }  // namespace cusp::simulate

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/sim/faulty_line.hpp"
 
@@ -41,5 +43,8 @@ std::optional<hal::LineFaults> parse_line_faults(std::string_view text);
 
 // The bit of InputBit for an input's name; 0 if there is none of this name.
 std::uint16_t input_named(std::string_view name);
+
+// The bits of all of them. Throws InputError that begins with `option` where there is none of a name.
+std::uint16_t inputs_named(const std::vector<std::string>& names, const char* option);
 
 }  // namespace cusp::simulate

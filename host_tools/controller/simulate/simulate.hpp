@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/machine_limits.hpp"
 #include "host_tools/controller/program_run/program_run.hpp"
 
 namespace cusp::simulate {
@@ -56,5 +57,9 @@ SimulationResult simulate(dialect::LineSource& program, const SimulationOptions&
 
 // The result as JSON, one key a figure.
 std::string statistics_json(const SimulationResult& result);
+// For people: times, end, and the greatest speeds beside their limits.
+std::string summary_text(const SimulationResult& result, const MachineLimits& limits);
+// Why the run ended early, a line each: "part.ngc:12: error 20: ..."; "": it did not.
+std::string faults_text(const std::string& program_file, const SimulationResult& result);
 
 }  // namespace cusp::simulate

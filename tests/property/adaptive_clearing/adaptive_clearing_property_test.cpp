@@ -19,9 +19,9 @@
 #include "host_tools/cam/adaptive_clearing/steered_pass.hpp"
 #include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "host_tools/cam/contour_pocket/open_sides.hpp"
-#include "tests/property/adaptive_clearing/random_clearing.hpp"
-#include "tests/property/adaptive_clearing/raster_cutter.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_clearing.hpp"
+#include "tests/generators/random_regions.hpp"
+#include "tests/judges/raster_cutter.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/unit/offset/polygons.hpp"
 

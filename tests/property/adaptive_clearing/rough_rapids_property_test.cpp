@@ -4,9 +4,9 @@
 
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
-#include "tests/property/adaptive_clearing/stock_under_rapids.hpp"
+#include "tests/generators/random_jobs.hpp"
+#include "tests/judges/stock_under_rapids.hpp"
 #include "tests/support/property_cases.hpp"
-#include "tests/support/random_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

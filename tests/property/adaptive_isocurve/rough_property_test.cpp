@@ -12,7 +12,7 @@
 #include "host_tools/cam/adaptive_isocurve/waterline_roughing.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/generators/random_pockets.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

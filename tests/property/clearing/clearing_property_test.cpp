@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "host_tools/cam/clearing/clearing.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

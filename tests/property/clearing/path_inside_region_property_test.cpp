@@ -4,7 +4,7 @@
 
 #include "host_tools/cam/clearing/path_inside_region.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

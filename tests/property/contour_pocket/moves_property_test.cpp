@@ -3,11 +3,11 @@
 #include <cstdio>
 
 #include "host_tools/cam/contour_pocket/contour_pocket.hpp"
-#include "tests/property/contour_pocket/moves_judge.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_jobs.hpp"
+#include "tests/generators/random_regions.hpp"
+#include "tests/judges/moves_judge.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
-#include "tests/support/random_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

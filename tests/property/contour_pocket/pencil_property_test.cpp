@@ -1,7 +1,7 @@
 // Patches over level floors: stock left at the foot of their cliffs, by brute force.
 #include <cstdio>
 
-#include "tests/property/contour_pocket/pocket_judge.hpp"
+#include "tests/judges/pocket_judge.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"

@@ -3,10 +3,10 @@
 
 #include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "host_tools/geometry/offset/region_check.hpp"
-#include "tests/property/contour_pocket/pocket_judge.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_jobs.hpp"
+#include "tests/generators/random_regions.hpp"
+#include "tests/judges/pocket_judge.hpp"
 #include "tests/support/property_cases.hpp"
-#include "tests/support/random_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

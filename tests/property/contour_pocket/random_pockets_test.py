@@ -15,7 +15,8 @@ import subprocess
 import sys
 import tempfile
 
-from random_pocket import RandomPocket
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "generators"))
+from random_pocket import RandomPocket  # noqa: E402
 
 REFUSALS = ("crosses", "lies outside", "lies inside", "fits nowhere")
 LEAST_GOUGE = 1e-3  # mm, what the judge's grid resolves

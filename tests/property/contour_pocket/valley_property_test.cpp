@@ -1,7 +1,7 @@
 // Steep floors with valleys that a tool does not reach: stock left, by brute force.
 #include <cstdio>
 
-#include "tests/property/contour_pocket/pocket_judge.hpp"
+#include "tests/judges/pocket_judge.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 

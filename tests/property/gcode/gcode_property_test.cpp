@@ -8,7 +8,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/gcode_promises.hpp"
+#include "tests/judges/gcode_promises.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "host_tools/cam/grid_pocket/adaptive_layers.hpp"
 #include "host_tools/cam/grid_pocket/grid_passes.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/property/grid_pocket/height_raster.hpp"
-#include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/generators/random_pockets.hpp"
+#include "tests/judges/height_raster.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

@@ -6,7 +6,7 @@
 #include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "host_tools/geometry/toolpath/gcode_writer.hpp"
 #include "host_tools/judge/verify/verify.hpp"
-#include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/generators/random_pockets.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -7,9 +7,9 @@
 #include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "host_tools/geometry/toolpath/gcode_writer.hpp"
 #include "host_tools/judge/verify/verify.hpp"
+#include "tests/generators/random_jobs.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
-#include "tests/support/random_jobs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_tools/job/import/gerber_image.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
 #include "tests/support/property_cases.hpp"
 
 #include "fmt/format.h"

@@ -13,8 +13,8 @@
 #include <cstring>
 #include <vector>
 
-#include "tests/property/import/swept_bodies.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
+#include "tests/generators/swept_bodies.hpp"
 
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepAlgoAPI_Fuse.hxx"

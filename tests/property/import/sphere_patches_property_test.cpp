@@ -11,8 +11,8 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/sphere_patches.hpp"
-#include "tests/support/draw.hpp"
-#include "tests/support/patch_cover.hpp"
+#include "tests/generators/draw.hpp"
+#include "tests/judges/patch_cover.hpp"
 #include "tests/support/property_cases.hpp"
 
 #include "fmt/format.h"

@@ -6,10 +6,10 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/gcode/interpreter.hpp"
+#include "tests/generators/random_moves.hpp"
+#include "tests/generators/random_program.hpp"
+#include "tests/judges/motion_limits.hpp"
 #include "tests/support/law_rig.hpp"
-#include "tests/support/motion_limits.hpp"
-#include "tests/support/random_moves.hpp"
-#include "tests/support/random_program.hpp"
 
 using namespace cusp;
 using namespace cusp::test;

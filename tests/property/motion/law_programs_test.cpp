@@ -13,8 +13,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/gcode/interpreter.hpp"
+#include "tests/judges/motion_limits.hpp"
 #include "tests/support/law_rig.hpp"
-#include "tests/support/motion_limits.hpp"
 
 using namespace cusp;
 using namespace cusp::test;

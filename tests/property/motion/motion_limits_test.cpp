@@ -1,6 +1,6 @@
 // Limits hold in the integer set points of every tick, for random programs and random events during
 // it.
-#include "tests/support/motion_limits.hpp"
+#include "tests/judges/motion_limits.hpp"
 
 #include <memory>
 #include <random>
@@ -10,7 +10,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/random_moves.hpp"
+#include "tests/generators/random_moves.hpp"
 
 using namespace cusp;
 using cusp::test::MotionRig;

@@ -6,8 +6,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/motion_limits.hpp"
-#include "tests/support/random_moves.hpp"
+#include "tests/generators/random_moves.hpp"
+#include "tests/judges/motion_limits.hpp"
 
 using namespace cusp;
 using cusp::test::MotionRig;

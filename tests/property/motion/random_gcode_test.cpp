@@ -11,9 +11,9 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/gcode/interpreter.hpp"
-#include "tests/support/motion_limits.hpp"
-#include "tests/support/random_moves.hpp"
-#include "tests/support/random_program.hpp"
+#include "tests/generators/random_moves.hpp"
+#include "tests/generators/random_program.hpp"
+#include "tests/judges/motion_limits.hpp"
 
 using namespace cusp;
 using cusp::test::MotionRig;

@@ -6,8 +6,8 @@
 #include "host_tools/geometry/offset/edge_reach.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
-#include "tests/property/offset/offset_judge.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
+#include "tests/judges/offset_judge.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

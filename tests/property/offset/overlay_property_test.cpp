@@ -8,7 +8,7 @@
 #include "host_tools/geometry/offset/edge_crossings.hpp"
 #include "host_tools/geometry/offset/edge_runs.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
-#include "tests/property/offset/region_pairs.hpp"
+#include "tests/generators/region_pairs.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.

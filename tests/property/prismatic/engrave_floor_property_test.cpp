@@ -8,7 +8,7 @@
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/tap.hpp"

@@ -10,7 +10,7 @@
 #include "host_tools/cam/prismatic/prismatic.hpp"
 #include "host_tools/geometry/toolpath/short_tour.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/test_jobs.hpp"

@@ -15,7 +15,8 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+for folder in ("judges", "support"):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / folder))
 from property_cases import property_cases, property_seed  # noqa: E402
 from stock_walk import StockWalk, rapid_in_stock  # noqa: E402
 

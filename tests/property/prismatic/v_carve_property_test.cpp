@@ -11,7 +11,7 @@
 #include "host_tools/cam/prismatic/prismatic.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/test_jobs.hpp"

@@ -7,9 +7,9 @@
 
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
-#include "tests/property/grid_pocket/height_raster.hpp"
+#include "tests/generators/random_jobs.hpp"
+#include "tests/judges/height_raster.hpp"
 #include "tests/support/plates.hpp"
-#include "tests/support/random_jobs.hpp"
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;

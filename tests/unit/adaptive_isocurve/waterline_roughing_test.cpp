@@ -13,8 +13,8 @@
 #include "host_tools/cam/adaptive_isocurve/rough_depths.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
+#include "tests/generators/random_jobs.hpp"
 #include "tests/support/plates.hpp"
-#include "tests/support/random_jobs.hpp"
 
 using namespace cusp;
 using namespace cusp::adaptive_isocurve;

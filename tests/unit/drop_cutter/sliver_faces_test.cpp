@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
-#include "tests/property/adaptive_isocurve/ball_on_triangles.hpp"
-#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
+#include "tests/generators/faces_of_mesh.hpp"
+#include "tests/judges/ball_on_triangles.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

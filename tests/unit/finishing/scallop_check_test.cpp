@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host_tools/base/parallel/parallel.hpp"
-#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
+#include "tests/generators/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"

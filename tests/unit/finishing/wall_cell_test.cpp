@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "tests/property/adaptive_isocurve/round_walls.hpp"
+#include "tests/generators/round_walls.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host_tools/cam/finishing/vertical_faces.hpp"
-#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
+#include "tests/generators/faces_of_mesh.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

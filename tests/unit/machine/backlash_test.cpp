@@ -9,9 +9,9 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "tests/generators/random_moves.hpp"
 #include "tests/support/controller_bench.hpp"
 #include "tests/support/motion_rig.hpp"
-#include "tests/support/random_moves.hpp"
 
 using namespace cusp;
 using machine::Backlash;

@@ -8,7 +8,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/geometry/part_model/part_model.hpp"
-#include "tests/support/random_triangles.hpp"
+#include "tests/generators/random_triangles.hpp"
 #include "tests/support/three_tools.hpp"
 
 using namespace cusp;

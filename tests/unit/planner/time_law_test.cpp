@@ -9,8 +9,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/law_judge.hpp"
-#include "tests/support/random_stations.hpp"
+#include "tests/generators/random_stations.hpp"
+#include "tests/judges/law_judge.hpp"
 
 using namespace cusp;
 using namespace cusp::planner;

@@ -6,7 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/edge_crc.hpp"
+#include "tests/judges/edge_crc.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/base/input_error/input_error.hpp"
-#include "tests/support/edge_crc.hpp"
+#include "tests/judges/edge_crc.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

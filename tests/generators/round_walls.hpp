@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/property/adaptive_isocurve/faces_of_mesh.hpp"
-#include "tests/property/adaptive_isocurve/random_polyhedra.hpp"
+#include "tests/generators/faces_of_mesh.hpp"
+#include "tests/generators/random_polyhedra.hpp"
 
 namespace cusp::test {
 

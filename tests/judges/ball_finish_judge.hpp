@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "firmware/base/math.hpp"
-#include "tests/property/adaptive_isocurve/ball_on_triangles.hpp"
-#include "tests/support/random_jobs.hpp"
+#include "tests/generators/random_jobs.hpp"
+#include "tests/judges/ball_on_triangles.hpp"
 
 namespace cusp::test {
 

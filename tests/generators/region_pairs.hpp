@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_tools/geometry/offset/offset.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 
 namespace cusp::test {
 

@@ -1,7 +1,7 @@
 // Random bodies that Open CASCADE sweeps, turns, lofts or stretches, for random_part.
 #pragma once
 
-#include "tests/support/draw.hpp"
+#include "tests/generators/draw.hpp"
 
 #include "opencascade/TopoDS_Shape.hxx"
 #include "opencascade/gp_Dir.hxx"

@@ -8,8 +8,8 @@
 
 #include "host_tools/cam/grid_pocket/grid_pocket.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
+#include "tests/generators/random_jobs.hpp"
 #include "tests/support/loops.hpp"
-#include "tests/support/random_jobs.hpp"
 
 namespace cusp::test {
 

@@ -8,7 +8,7 @@
 #include "host_tools/cam/contour_pocket/contour_pocket.hpp"
 #include "host_tools/geometry/offset/contour.hpp"
 #include "host_tools/job/job/job.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 
 namespace cusp::test {
 

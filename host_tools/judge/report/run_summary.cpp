@@ -1,14 +1,13 @@
 // A table of the tools and a list of figures.
-#include "host_tools/cli/demo_summary.hpp"
+#include "host_tools/judge/report/run_summary.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "fmt/format.h"
 
-namespace cusp::cli {
+namespace cusp::report {
 
-using plan::PlannedProgram;
 using program_run::ToolTime;
 using simulate::SimulationResult;
 using toolpath::PlannedOperation;
@@ -57,19 +56,19 @@ std::string allowed(double value, int decimals, double limit)
     return fmt::format("{:.{}f} mm (allowed {:g} mm)", value, decimals, limit);
 }
 
-int retracts(const PlannedProgram& plan)
+int retracts(const std::vector<PlannedOperation>& planned)
 {
     int sum = 0;
-    for (const PlannedOperation& operation : plan.operations) {
+    for (const PlannedOperation& operation : planned) {
         sum += operation.stats.retracts;
     }
     return sum;
 }
 
-double planning(const PlannedProgram& plan)
+double planning(const std::vector<PlannedOperation>& planned)
 {
     double sum = 0;
-    for (const PlannedOperation& operation : plan.operations) {
+    for (const PlannedOperation& operation : planned) {
         sum += operation.stats.planning_s;
     }
     return sum;
@@ -77,9 +76,9 @@ double planning(const PlannedProgram& plan)
 
 }  // namespace
 
-std::string demo_summary(const PlannedProgram& plan,
-                         const SimulationResult& run,
-                         const Verification& cut)
+std::string run_summary(const std::vector<PlannedOperation>& planned,
+                        const SimulationResult& run,
+                        const Verification& cut)
 {
     constexpr double kPercent = 100;
     const VerifyFigures& f = cut.figures;
@@ -87,7 +86,7 @@ std::string demo_summary(const PlannedProgram& plan,
     const double scallop = f.scallop_bound.value_or(0);
     std::string text = tools(run, f) + "\n";
     text += line("tool changes", fmt::format("{}", run.tool_changes));
-    text += line("retracts", fmt::format("{}", retracts(plan)));
+    text += line("retracts", fmt::format("{}", retracts(planned)));
     text += line("rapid moves", fmt::format("{:.1f} m", f.rapid_length / 1000));
     text += line("gouge, floor",
                  allowed(f.ball_gouge_max.value_or(f.gouge_max), 4, bounds.floor_tolerance));
@@ -100,7 +99,7 @@ std::string demo_summary(const PlannedProgram& plan,
     text += line("rapids through stock", allowed(f.rapid_cut_max, 4, bounds.rapid_cut));
     text +=
         line("steps", fmt::format("X {}, Y {}, Z {}", run.steps[0], run.steps[1], run.steps[2]));
-    return text + line("planned in", fmt::format("{:.2f} s", planning(plan)));
+    return text + line("planned in", fmt::format("{:.2f} s", planning(planned)));
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::report

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "firmware/base/math.hpp"
+#include "tests/generators/random_jobs.hpp"
 #include "tests/support/box_mesh.hpp"
-#include "tests/support/random_jobs.hpp"
 
 namespace cusp::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <polyclipping/clipper.hpp>
 
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 
 namespace cusp::test {
 

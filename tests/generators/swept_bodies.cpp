@@ -1,4 +1,4 @@
-#include "tests/property/import/swept_bodies.hpp"
+#include "tests/generators/swept_bodies.hpp"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_check.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 #include "tests/unit/offset/polygons.hpp"
 
 namespace cusp::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_tools/job/job/job.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "tests/generators/random_regions.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/test_jobs.hpp"
 
