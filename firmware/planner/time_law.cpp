@@ -375,7 +375,7 @@ std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
 bool TimeLaw::take(LawCell& cell) noexcept
 {
     const std::uint32_t k = taken_;
-    const std::uint32_t end = std::min(std::max(final_, 2U) - 2, stations_);
+    const std::uint32_t end = std::min(std::max<std::uint32_t>(final_, 2) - 2, stations_);
     const bool stops = rests_ && k >= end && k < end + 2;
     if (k >= end && !stops) {
         return false;
