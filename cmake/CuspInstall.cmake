@@ -7,7 +7,7 @@ set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 
 set(data ${CMAKE_INSTALL_DATADIR})
 install(DIRECTORY examples DESTINATION ${data}/cusp USE_SOURCE_PERMISSIONS COMPONENT program)
-install(DIRECTORY posts tool_libraries DESTINATION ${data}/cusp COMPONENT program)
+install(DIRECTORY materials posts tool_libraries DESTINATION ${data}/cusp COMPONENT program)
 install(FILES README.md CHANGELOG.md DESTINATION ${data}/doc/cusp COMPONENT program)
 install(DIRECTORY docs DESTINATION ${data}/doc/cusp COMPONENT program)
 install(FILES ${packaging}/cusp-studio.desktop DESTINATION ${data}/applications COMPONENT program)

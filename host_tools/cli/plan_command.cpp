@@ -137,7 +137,7 @@ int run_plan(PlanArguments& options)
     if (call.is_one_line()) {
         setups.push_back(one_line_job_of(options));
     } else {
-        setups = import::read_setups(call.files.front(), strategies::all());
+        setups = import::read_setups(call.files.front(), strategies::all(), call.request.machine);
     }
     cancellation::
         return_freed_memory();  // Open CASCADE's shapes take more than what is read of them
@@ -176,6 +176,26 @@ void add_explaining_options(CLI::App& command, PlanArguments& options)
                      "print a JSON Schema of job files, for editors, and end");
     command.add_flag("--list-posts", options.list_posts,
                      "say for which controllers programs are written, and what they hold, and end");
+}
+
+void add_controller_options(CLI::App& command, PlanArguments& options)
+{
+    command
+        .add_option("--post", options.call.request.post,
+                    "the controller to write for: cusp, grbl, linuxcnc ... (--list-posts), or a "
+                    "file .toml (docs/posts.md); default: the job's")
+        ->type_name("NAME");
+    command
+        .add_option("--machine", options.call.request.machine,
+                    "the machine's file (.toml): its travel, rates and spindle bound the program, "
+                    "its post is the "
+                    "default (docs/posts.md); default: the job's")
+        ->type_name("FILE");
+    command
+        .add_option("--blend", options.blend,
+                    "let the controller round corners by this much, in the job's units (G64 P); "
+                    "default: the exact path (G61)")
+        ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace
@@ -219,16 +239,7 @@ void add_plan_command(CLI::App& app, Work& work)
                         "drawings: .dxf, .svg, Gerber (.gbr), Excellon (.drl)");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
-    command
-        ->add_option("--post", options->call.request.post,
-                     "the controller to write for: cusp, grbl, linuxcnc ... (--list-posts), or a "
-                     "file .toml (docs/posts.md); default: the job's")
-        ->type_name("NAME");
-    command
-        ->add_option("--blend", options->blend,
-                     "let the controller round corners by this much, in the job's units (G64 P); "
-                     "default: the exact path (G61)")
-        ->check(CLI::NonNegativeNumber);
+    add_controller_options(*command, *options);
     add_explaining_options(*command, *options);
     add_resource_options(*command, options->resources);
     add_one_line_options(*command, options->call);

@@ -67,7 +67,7 @@ tool = "6mm ball"
         self.refused("feeed: unknown key; the nearest known one is feed", library=self.LIBRARY.replace("feed", "feeed"))
         self.refused('two tools are "6mm ball"', library=self.LIBRARY.replace("3mm ball", "6mm ball"))
         self.refused("tool: is missing: name a tool of the library", self.JOB.replace('tool = "6mm ball"\n', ""))
-        self.refused('library "metal": none of that name comes', self.JOB.replace("tools.toml", "metal"))
+        self.refused('library "metal": there is none of that name', self.JOB.replace("tools.toml", "metal"))
         self.refused("has the number 2, and so has a [[tool]] of the job",
                      self.JOB.replace("[stock]", '[[tool]]\nnumber = 2\nshape = "flat"\ndiameter = 3\nfeed = 100\n[stock]'))
         self.refused("cutting: is missing", library=self.LIBRARY.replace("feed = 400\n", ""))

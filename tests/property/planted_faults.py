@@ -130,7 +130,7 @@ class Planter:
         words = shlex.split(line.split(" && ")[0])
         (folder / "bin").mkdir()
         (folder / "lib").symlink_to(self.build / "lib")
-        for data in ("posts", "tool_libraries"):
+        for data in ("materials", "posts", "tool_libraries"):
             (folder / data).symlink_to(ROOT / data)
         place = words.index("-o") + 1
         words[place] = str(folder / "bin" / pathlib.Path(program).name)

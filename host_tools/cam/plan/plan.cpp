@@ -15,6 +15,7 @@ using toolpath::Toolpath;
 namespace {
 
 constexpr Stage kStages[]{
+    take_machine,
     fit_to_post,
     read_earlier_programs,
     plan_operations,
@@ -24,6 +25,7 @@ constexpr Stage kStages[]{
     prove_edges,
     prove_rapids,
     measure_paths,
+    prove_travel,
     prove_reach,
     warn,
     find_engagement,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/machine/settings.hpp"
 #include "host_tools/cam/plan/plan.hpp"
 #include "host_tools/cam/plan/rest_of_job.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
@@ -34,6 +35,7 @@ struct Planning {
     Watcher& watcher;
 
     toolpath::MachineRates rates{};
+    machine::Settings settings{};  // of the controller that times the program
     RestOfJob rest{};
     std::vector<Planned> planned{};  // until put_in_order() moves them to the program
     PlannedProgram program{};

@@ -7,6 +7,8 @@ namespace cusp::plan {
 
 using Stage = void (*)(Planning&);
 
+// Takes rates and accelerations of the job's machine for the times.
+void take_machine(Planning& planning);
 // Takes from the tolerances what the post's rounding adds, refuses words that the post lacks.
 void fit_to_post(Planning& planning);
 // Reads the programs that were cut before.
@@ -29,6 +31,8 @@ void prove_edges(Planning& planning);
 void prove_rapids(Planning& planning);
 // Measures lengths and estimates times.
 void measure_paths(Planning& planning);
+// Refuses a program that is longer, wider or higher than the machine travels.
+void prove_travel(Planning& planning);
 // Refuses shanks and holders in stock.
 void prove_reach(Planning& planning);
 // Warns of what may not be meant: air, overlaps, levels, tools that are too short.

@@ -134,6 +134,45 @@ std::vector<std::string> reach_warnings(const Job& job, const PlannedProgram& pl
     return warnings;
 }
 
+// A warning for each tool that stands far out of its holder. What bends, bends with the cube of its length and the fourth
+// power of its diameter: flutes and shank together count as a rod as wide as the tool.
+std::vector<std::string> stick_out_warnings(const Job& job, const PlannedProgram& plan)
+{
+    constexpr double kSlender = 8;  // diameters: beyond, makers sell mills as long reach
+    const auto cube = [](double length) {
+        return length * length * length;
+    };
+    std::map<int, std::string> warnings;  // by the number of the tool
+    for (const PlannedOperation& operation : plan.operations) {
+        const toolpath::Tool& tool = operation.path.tool;
+        const auto found = job.tool_facts.find(tool.number);
+        if (found == job.tool_facts.end() || !found->second.length) {
+            continue;
+        }
+        const ToolFacts& facts = found->second;
+        const double across = 2 * tool.radius;
+        const double length = *facts.length;
+        const double flutes = facts.flute_length.value_or(length);
+        const double thinner = across / facts.shank_diameter.value_or(across);
+        const double bends =
+            (cube(flutes) + (cube(length) - cube(flutes)) * cube(thinner) * thinner) /
+            cube(kSlender * across);
+        if (bends > 1) {
+            warnings[tool.number] = fmt::format(
+                "tool {}{} stands {:.3g} mm out of its holder, {:.2g} diameters: it bends {:.2g} "
+                "times as far as one of {:g} "
+                "diameters: use a shorter or a wider one, or lower its feed",
+                tool.number, facts.name.empty() ? "" : " (" + facts.name + ")", length,
+                length / across, bends, kSlender);
+        }
+    }
+    std::vector<std::string> texts;
+    for (const auto& [number, text] : warnings) {
+        texts.push_back(text);
+    }
+    return texts;
+}
+
 }  // namespace
 
 void warn(Planning& planning)
@@ -145,7 +184,7 @@ void warn(Planning& planning)
     }
     for (const std::vector<std::string>& more :
          {job::overlap_warnings(job), job::level_warnings(job),
-          reach_warnings(job, planning.program)}) {
+          reach_warnings(job, planning.program), stick_out_warnings(job, planning.program)}) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     }
 }

@@ -58,7 +58,8 @@ void put_times(Planning& planning)
     }
     planning.begin("timing the program");
     if (const auto seconds =
-            simulate::simulated_times(program.gcode, planning.begins, planning.reports("timing"))) {
+            simulate::simulated_times(program.gcode, planning.begins, planning.reports("timing"),
+                                      simulate::kUsualPart, planning.settings)) {
         for (std::size_t i = 0; i < program.measures.size(); ++i) {
             program.measures[i].estimated_s = (*seconds)[i];
         }

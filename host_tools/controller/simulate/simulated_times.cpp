@@ -19,9 +19,10 @@ using program_run::RunOptions;
 
 namespace {
 
-RunOptions options_for_times()
+RunOptions options_for_times(const machine::Settings& settings)
 {
     RunOptions options;
+    options.settings = settings;
     options.measures_motion = false;
     options.measures_deviation = false;
     options.sums_edges = false;
@@ -107,11 +108,12 @@ private:
 std::optional<Ticks> ticks_of(const std::string& program,
                               const ProgramPart& part,
                               const std::vector<std::uint32_t>& first_lines,
+                              const machine::Settings& settings,
                               const std::function<void(double)>& done)
 {
     constexpr std::uint64_t kBetween = 1 << 16;  // ticks
     PartTicks counted{part, first_lines};
-    RunOptions options = options_for_times();
+    RunOptions options = options_for_times(settings);
     options.set_point = [&counted](const program_run::SetPoint& point) {
         counted.add(point.line);
     };
@@ -136,7 +138,8 @@ std::optional<Ticks> ticks_of(const std::string& program,
 std::optional<std::vector<double>> simulated_times(const std::string& program,
                                                    const std::vector<std::size_t>& begins,
                                                    const std::function<void(double)>& progress,
-                                                   double part)
+                                                   double part,
+                                                   const machine::Settings& settings)
 {
     std::vector<std::uint32_t> first_lines;  // of all operations but the first
     for (std::size_t k = 1; k < begins.size(); ++k) {
@@ -155,7 +158,7 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
         const auto done = [&](double seconds) {
             shares.set(k, std::min(seconds, parts[k].seconds) / estimate);
         };
-        ticks[k] = ticks_of(program, parts[k], first_lines, done);
+        ticks[k] = ticks_of(program, parts[k], first_lines, settings, done);
         done(parts[k].seconds);
     });
     std::vector<double> seconds(begins.size(), 0);

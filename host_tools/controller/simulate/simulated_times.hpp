@@ -12,16 +12,21 @@
 #include <string>
 #include <vector>
 
+#include "firmware/machine/settings.hpp"
+
 namespace cusp::simulate {
 
-// s of each operation, on a machine with the default settings. No value where the controller
-// refuses the program.
+// s, of machine time: a longer program is run in parts of about this length.
+inline constexpr double kUsualPart = 400;
+
+// s of each operation. No value where the controller refuses the program.
 //
 // program   G-code
 // begins    byte offsets of the operations; what precedes the first counts for the first
 // progress  receives the fraction that has run, 0 to 1, from one thread at a time
-// part      s: a longer program is run in parts of about this length (program_parts.hpp), on all
-//           cores; a shorter part wastes more on its way to where it begins
+// part      s: of the parts (program_parts.hpp) that run on all cores; a shorter one wastes more on its
+//           way to where it begins
+// settings  of the machine
 //
 // The times are the same for any number of threads. Accuracy: equal to those of `cusp sim` where there
 // is one part, otherwise within a servo tick for each part that begins with a lift, and 0.3 s for each
@@ -29,6 +34,7 @@ namespace cusp::simulate {
 std::optional<std::vector<double>> simulated_times(const std::string& program,
                                                    const std::vector<std::size_t>& begins,
                                                    const std::function<void(double)>& progress,
-                                                   double part = 400);
+                                                   double part = kUsualPart,
+                                                   const machine::Settings& settings = {});
 
 }  // namespace cusp::simulate

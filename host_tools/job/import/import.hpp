@@ -29,13 +29,19 @@ namespace cusp::import {
 job::Job read_job(const std::string& file, const job::Strategies& strategies);
 // A job for each set-up, in order: its operations, fixtures, and parts as they lie in it. One for a job
 // without set-ups. Throws InputError.
-std::vector<job::Job> read_setups(const std::string& file, const job::Strategies& strategies);
+//
+// machine  as JobText has it
+std::vector<job::Job> read_setups(const std::string& file,
+                                  const job::Strategies& strategies,
+                                  const std::string& machine = {});
 
 // A job given as text.
 struct JobText {
     std::string text;    // TOML
     std::string name;    // of the job, for messages
     std::string folder;  // base of its relative paths; "": the current folder
+    // File of a machine in place of the job's, relative to the current folder; "": the job's.
+    std::string machine{};
 };
 class PartFiles;
 // As read_setups(), from text.

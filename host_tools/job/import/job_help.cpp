@@ -104,6 +104,8 @@ std::vector<KeyTable> named_tables()
             tables.push_back(key.members());
         }
     }
+    tables.push_back(machine_table());
+    tables.push_back(material_table());
     tables.push_back(
         {"operation", "What every operation has, whatever its strategy.", job::common_keys()});
     return tables;

@@ -60,6 +60,15 @@ const KeyTable& job_table()
          {"post", Kind::kText, "cusp",
           "the controller to write for: `\"grbl\"`, `\"grblhal\"`, `\"linuxcnc\"`, `\"mach3\"`, "
           "`\"fanuc\"`, or a file `.toml` (`docs/posts.md`)"},
+         {"machine", Kind::kText, "none",
+          "file `.toml` of the machine that it is cut on: limits of feeds, spindle and travel, and "
+          "the default of "
+          "`post` (`docs/posts.md`)"},
+         {"material", Kind::kText, "none",
+          "feeds and speeds of tools that have none: `\"aluminium\"`, `\"brass\"`, `\"steel\"`, "
+          "`\"acrylic\"`, `\"plywood\"`, `\"mdf\"`, `\"softwood\"`, `\"hardwood\"`, or a file "
+          "`.toml` "
+          "(`docs/strategies.md`)"},
          {"operation", Kind::kTables, "needed", "what is cut, in order"},
          {"group_by_tool", Kind::kFlag, "true",
           "operations whose cuts lie beside each other change places where that saves a change of "
@@ -75,6 +84,48 @@ const KeyTable& library_table()
         "A file of tools.",
         {choice("units", {"mm", "inch"}, "of the library's lengths and feeds", "needed"),
          tables("tool", tool_table, "needed", "the tools; each has a `name`")}};
+    return kTable;
+}
+
+const KeyTable& machine_table()
+{
+    static const KeyTable kTable{
+        "machine",
+        "A machine, a file of its own; all optional.",
+        {choice("units", {"mm", "inch"}, "of lengths and rates in this file"),
+         {"name", Kind::kText, "none", "for people"},
+         {"settings", Kind::kText, "none",
+          "file with what the controller (Grbl, grblHAL, `cusp`) prints for `$$`: $30, $31, $110 "
+          "to "
+          "$132 take the place of keys that are absent"},
+         {"travel", Kind::kLengths, "unknown", "`[x, y, z]`: of the axes", kPositive},
+         {"max_rate", Kind::kLengths, "unknown",
+          "`[x, y, z]`, lengths a minute: feeds are at most the slower one of x and y, plunge "
+          "feeds "
+          "that of z",
+          job::kFeedRange},
+         {"acceleration", Kind::kLengths, "unknown",
+          "`[x, y, z]`, lengths a second and second: for the time that a program takes", kPositive},
+         {"spindle", Kind::kInterval, "unknown", "rpm, `[least, greatest]`; 0 is always allowed",
+          kNotNegative},
+         {"post", Kind::kText, "cusp", "of jobs that name none; a path is relative to this file"}}};
+    return kTable;
+}
+
+const KeyTable& material_table()
+{
+    static const KeyTable kTable{
+        "material",
+        "A material, a file of its own.",
+        {{"source", Kind::kText, "needed", "who gives the figures"},
+         {"surface_speed", Kind::kNumber, "needed", "m/min, of mills", kPositive},
+         {"chip", Kind::kPairs, "needed",
+          "`[[diameter, chip], ...]`, mm, mm a tooth: of mills; between two diameters in "
+          "proportion",
+          kPositive},
+         {"drill_speed", Kind::kNumber, "needed", "m/min, of drills", kPositive},
+         {"drill_feed", Kind::kPairs, "needed", "`[[diameter, feed], ...]`, mm, mm a turn",
+          kPositive}}};
     return kTable;
 }
 
@@ -104,7 +155,11 @@ const KeyTable& tool_table()
           "of the flat at the tip", kNotNegative},
          {"name", Kind::kText, "none",
           "what operations may name it by, and the program's comments do"},
-         {"flutes", Kind::kCount, "none", "number of teeth, for people", {1, 20}},
+         {"flutes",
+          Kind::kCount,
+          "none",
+          "number of teeth; for feeds of a `material` 2 without it",
+          {1, 20}},
          {"flute_length", Kind::kLength, "none", "of the teeth, from the tip", kPositive},
          {"length", Kind::kLength, "none", "out of the holder, from the tip", kPositive},
          {"shank_diameter", Kind::kLength, "none",

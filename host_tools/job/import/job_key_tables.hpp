@@ -13,6 +13,8 @@ namespace cusp::import {
 // members: its keys are those of its strategy.
 const job::KeyTable& job_table();
 const job::KeyTable& library_table();
+const job::KeyTable& machine_table();
+const job::KeyTable& material_table();
 const job::KeyTable& tool_table();
 const job::KeyTable& cutting_table();
 const job::KeyTable& stock_table();

@@ -14,6 +14,7 @@
 #include "host_tools/job/import/fixture_reader.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
+#include "host_tools/job/import/job_rates.hpp"
 #include "host_tools/job/import/job_table.hpp"
 #include "host_tools/job/import/job_tools.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
@@ -24,7 +25,6 @@
 #include "host_tools/job/import/setup_reader.hpp"
 #include "host_tools/job/import/stock_table.hpp"
 #include "host_tools/job/import/text_reader.hpp"
-#include "host_tools/job/import/tool_reader.hpp"
 #include "host_tools/job/import/trim_loops.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/job/job/operation_check.hpp"
@@ -47,7 +47,6 @@ using job::Traversal;
 using nurbs::Curve;
 using nurbs::Surface;
 using part_model::intersection_of;
-using toolpath::Tool;
 
 namespace {
 
@@ -61,26 +60,24 @@ job::Refuse refuse_in(const JobTable& table)
 
 class JobReader {
 public:
-    // folder  base of relative paths
-    JobReader(const std::string& file,
-              const std::filesystem::path& folder,
-              const Strategies& strategies,
-              PartFiles& parts)
-        : file_{file},
-          folder_{folder},
+    // job  its folder is the base of relative paths
+    JobReader(const JobText& job, const Strategies& strategies, PartFiles& parts)
+        : text_{job.text},
+          file_{job.name},
+          folder_{job.folder},
+          machine_{job.machine},
           strategies_{strategies},
           all_keys_{job::all_keys(strategies)},
           parts_{parts}
     {
-        job_.file = file;
+        job_.file = file_;
     }
 
     // setup  the place among the set-ups of the one to read; counts them
-    Job read(const std::string& text, std::size_t setup, std::size_t& setups);
+    Job read(std::size_t setup, std::size_t& setups);
 
 private:
     void read_units(JobTable& top);
-    void read_cutting(JobTable& top);
     void read_operation(const toml::table& table, std::size_t index);
     std::optional<std::string> read_boundary(JobTable& table, const Operation& operation);
     std::vector<Operation> read_pockets(JobTable& table,
@@ -89,7 +86,6 @@ private:
     void read_common(JobTable& table, Operation& operation);
     void read_rest(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
-    void read_tool_choice(JobTable& table, Operation& operation);
     void read_strategy_keys(JobTable& table, const Strategy& strategy, Operation& operation);
     static bool takes_mesh(const Strategy& strategy, const std::vector<std::string>& floor);
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
@@ -101,14 +97,17 @@ private:
     void use_tools(const toml::table& table, std::size_t index);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
+    const std::string& text_;
     std::string file_;
     std::filesystem::path folder_;
+    std::string machine_;  // in place of the job's
     const Strategies& strategies_;
     std::vector<Key> all_keys_;
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
     std::optional<JobTools> tools_;
+    std::optional<JobRates> rates_;
     // Keys: files of the floor, files it was intersected with, tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
@@ -118,35 +117,6 @@ void JobReader::read_units(JobTable& top)
 {
     job_.inch = top.choice_or_default("units") == "inch";
     unit_ = job_.inch ? kMillimetresPerInch : 1.0;
-}
-
-void JobReader::read_cutting(JobTable& top)
-{
-    static const toml::table kNothing;
-    const toml::table* table = top.table("cutting");
-    const bool needed = !tools_->has_feeds();
-    if (table == nullptr && needed) {
-        top.refuse("cutting", "is missing: a table [cutting] with at least feed");
-    }
-    JobTable keys{table == nullptr ? kNothing : *table, file_, "cutting", cutting_table().keys};
-    job_.feed = (needed ? keys.required_number("feed") : keys.number("feed").value_or(0)) * unit_;
-    // cutter makers recommend a quarter of the feed for plunging where they give no figure
-    job_.plunge_feed = keys.length("plunge_feed", unit_).value_or(job_.feed / 4);
-    job_.spindle = keys.number_or_default("spindle");
-    keys.check_all_read();
-}
-
-void JobReader::read_tool_choice(JobTable& table, Operation& operation)
-{
-    operation.tool = tools_->tool(table);
-    operation.tools = tools_->tools(table);
-    if (operation.tools.empty()) {
-        operation.tools.push_back(operation.tool);
-    }
-    read_rates(table, unit_, operation.tool);
-    for (Tool& tool : operation.tools) {
-        read_rates(table, unit_, tool);
-    }
 }
 
 void JobReader::read_common(JobTable& table, Operation& operation)
@@ -222,7 +192,7 @@ void JobReader::read_strategy_keys(JobTable& table, const Strategy& strategy, Op
     }
     operation.passes.step_over = table.length("step_over", unit_);
     read_clearing(table, strategy, operation);
-    read_chip_load(table, unit_, operation);
+    rates_->read_load(table, operation);
 }
 
 // True if the strategy plans on the triangles themselves, without a height field.
@@ -381,7 +351,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     table.check_values();
     table.leave({"strategy", "setup"});
     read_rest(table, operation);
-    read_tool_choice(table, operation);
+    rates_->choose_tools(table, operation);
     read_common(table, operation);
     read_depths(table, operation);
     read_strategy_keys(table, strategy, operation);
@@ -410,22 +380,25 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     table.check_all_read();
 }
 
-Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& setups)
+Job JobReader::read(std::size_t setup, std::size_t& setups)
 {
-    const toml::table document = parsed_toml(text, file_);
+    const toml::table document = parsed_toml(text_, file_);
     JobTable top{document, file_, "", job_table().keys};
     read_units(top);
     tools_.emplace(top, file_, folder_, unit_);
-    read_cutting(top);
+    rates_.emplace(top, folder_, unit_, machine_, *tools_, job_);
     const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
     const SetupTables tables{top, file_, all_keys_};
     setups = tables.all().size();
     job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
-    const std::string post = top.text("post").value_or("cusp");
+    const auto named_post = top.text("post");
+    const std::string post = named_post                  ? *named_post
+                             : job_.machine.post.empty() ? "cusp"
+                                                         : job_.machine.post;
     try {
         job_.post = read_post(post, folder_);
     } catch (const InputError& error) {
-        top.refuse("post", error.what());
+        top.refuse(named_post ? "post" : "machine", error.what());
     }
     job_.group_by_tool = top.flag_or_default("group_by_tool");
     const auto operations = top.tables("operation");
@@ -464,10 +437,12 @@ Job JobReader::read(const std::string& text, std::size_t setup, std::size_t& set
 
 }  // namespace
 
-std::vector<Job> read_setups(const std::string& file, const Strategies& strategies)
+std::vector<Job> read_setups(const std::string& file,
+                             const Strategies& strategies,
+                             const std::string& machine)
 {
     const std::filesystem::path path{file};
-    return read_setups({files::text_of_file(file), file, path.parent_path()}, strategies);
+    return read_setups({files::text_of_file(file), file, path.parent_path(), machine}, strategies);
 }
 
 std::vector<Job> read_setups(const JobText& job, const Strategies& strategies)
@@ -476,8 +451,7 @@ std::vector<Job> read_setups(const JobText& job, const Strategies& strategies)
     std::size_t setups = 1;
     for (std::size_t place = 0; place < std::max<std::size_t>(1, setups); ++place) {
         PartFiles parts;
-        jobs.push_back(
-            JobReader{job.name, job.folder, strategies, parts}.read(job.text, place, setups));
+        jobs.push_back(JobReader{job, strategies, parts}.read(place, setups));
     }
     return jobs;
 }
@@ -494,7 +468,7 @@ Job read_job(const std::string& file, const Strategies& strategies)
 Job read_job(const JobText& job, const Strategies& strategies, PartFiles& parts)
 {
     std::size_t setups = 1;
-    return JobReader{job.name, job.folder, strategies, parts}.read(job.text, 0, setups);
+    return JobReader{job, strategies, parts}.read(0, setups);
 }
 
 }  // namespace cusp::import

@@ -71,14 +71,26 @@ JobTable::JobTable(const toml::table& table,
     refuse_unknown_keys();
 }
 
+// Of the table where it has no such key.
+toml::source_index JobTable::line_of(const char* key) const
+{
+    const toml::node* node = table_.get(key);
+    return std::max((node != nullptr ? node->source() : table_.source()).begin.line,
+                    toml::source_index{1});
+}
+
+std::string JobTable::place_of(const char* key) const
+{
+    const std::string dot = place_.empty() ? "" : place_ + ": ";
+    return fmt::format("{}:{}: {}{}", file_, line_of(key), dot, key);
+}
+
 void JobTable::refuse(const char* key, const std::string& reason, const std::string& limit) const
 {
     const toml::node* node = table_.get(key);
-    const auto line = std::max((node != nullptr ? node->source() : table_.source()).begin.line,
-                               toml::source_index{1});
-    const std::string dot = place_.empty() ? "" : place_ + ": ";
-    throw InputError(fmt::format("{}:{}: {}{}: {}", file_, line, dot, key, reason),
-                     {file_, line, key, node == nullptr ? "" : text_of(*node), limit, place_});
+    throw InputError(
+        fmt::format("{}: {}", place_of(key), reason),
+        {file_, line_of(key), key, node == nullptr ? "" : text_of(*node), limit, place_});
 }
 
 const job::Key& JobTable::key_of(const char* key) const
@@ -330,70 +342,6 @@ std::vector<const toml::table*> JobTable::tables(const char* key)
         refuse(key, fmt::format("tables [[{}]] are needed", key));
     }
     return out;
-}
-
-std::string JobTable::required_text(const char* key)
-{
-    const std::optional<std::string> value = text(key);
-    if (!value) {
-        refuse(key, "is missing");
-    }
-    return *value;
-}
-
-std::vector<std::string> JobTable::required_texts(const char* key)
-{
-    const auto value = texts(key);
-    if (!value) {
-        refuse(key, "is missing: a list of lines, [] for none");
-    }
-    return *value;
-}
-
-bool JobTable::required_flag(const char* key)
-{
-    const std::optional<bool> value = flag(key);
-    if (!value) {
-        refuse(key, "is missing: true or false");
-    }
-    return *value;
-}
-
-double JobTable::length_or_default(const char* key, double millimetres)
-{
-    const auto value = length(key, millimetres);
-    return value ? *value : key_of(key).number_otherwise();
-}
-
-double JobTable::number_or_default(const char* key)
-{
-    const auto value = number(key);
-    return value ? *value : key_of(key).number_otherwise();
-}
-
-int JobTable::whole_number_or_default(const char* key)
-{
-    const auto value = whole_number(key);
-    return value ? *value : static_cast<int>(key_of(key).number_otherwise());
-}
-
-bool JobTable::flag_or_default(const char* key)
-{
-    return flag(key).value_or(key_of(key).otherwise == "true");
-}
-
-std::string JobTable::choice_or_default(const char* key)
-{
-    return choice(key).value_or(key_of(key).otherwise);
-}
-
-double JobTable::required_number(const char* key)
-{
-    const std::optional<double> value = number(key);
-    if (!value) {
-        refuse(key, "is missing");
-    }
-    return *value;
 }
 
 job::KeyValues JobTable::values(const std::vector<job::Key>& keys, double millimetres)

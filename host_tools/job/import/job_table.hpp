@@ -92,6 +92,9 @@ public:
     bool has(const char* key) const { return table_.contains(key); }
     job::Range range_of(const char* key) const { return key_of(key).range; }
 
+    // Where the key is, for messages: "job.toml:4: tool 1: feed".
+    std::string place_of(const char* key) const;
+
     // limit  in words, where the reason names one
     [[noreturn]] void refuse(const char* key,
                              const std::string& reason,
@@ -102,6 +105,7 @@ public:
 
 private:
     void refuse_unknown_keys() const;
+    toml::source_index line_of(const char* key) const;
     const job::Key& key_of(const char* key) const;
     std::optional<job::KeyValues::Value> value(const job::Key& key, double millimetres);
     const toml::node* find(const char* key);

@@ -6,11 +6,10 @@
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/base/files/files.hpp"
-#include "host_tools/base/files/program_data.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/data_file.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/nearest_name.hpp"
-#include "host_tools/job/import/path_ending.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -24,24 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLibraries = "tool_libraries";
+constexpr DataKind kLibraries{"library", "tool_libraries", "wood"};
 constexpr std::size_t kNearest = 3;
 
-// A path, or the library of that name that comes with the program.
-std::string library_path(const std::string& name, const fs::path& folder)
+JobTable table_of_tool(const toml::table& table, const std::string& file, std::size_t index)
 {
-    if (path_ending(name) == ".toml") {
-        return (folder / name).string();
-    }
-    const bool plain = name.find('/') == std::string::npos;
-    const auto found = plain ? files::program_data(kLibraries, name + ".toml") : std::nullopt;
-    if (!found) {
-        throw InputError(fmt::format(
-            "library \"{}\": none of that name comes with the program; a library of one's own is a "
-            "path that ends in .toml",
-            name));
-    }
-    return (*found / (name + ".toml")).string();
+    return {table, file, fmt::format("tool {}", index), tool_table().keys};
 }
 
 }  // namespace
@@ -59,7 +46,7 @@ JobTools::JobTools(JobTable& top, const std::string& file, const fs::path& folde
                 top.refuse("tool", fmt::format("two tools are named \"{}\"", read.facts.name));
             }
         }
-        own_.push_back({read, true});
+        own_.push_back({read, true, table_of_tool(*tables[i], file, i + 1)});
     }
     if (const auto library = top.text("library")) {
         try {
@@ -74,9 +61,9 @@ JobTools::JobTools(JobTable& top, const std::string& file, const fs::path& folde
 
 void JobTools::read_library(const std::string& name, const fs::path& folder)
 {
-    library_file_ = library_path(name, folder);
-    const toml::table document = parsed_toml(files::text_of_file(library_file_), library_file_);
-    JobTable top{document, library_file_, "", library_table().keys};
+    library_file_ = data_file(kLibraries, name, folder).string();
+    library_document_ = parsed_toml(files::text_of_file(library_file_), library_file_);
+    JobTable top{library_document_, library_file_, "", library_table().keys};
     const auto units = top.choice("units");
     if (!units) {
         top.refuse("units", "is missing: \"mm\" or \"inch\", of the library's lengths and feeds");
@@ -88,7 +75,7 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
     for (std::size_t i = 0; i < tables.size(); ++i) {
         const ReadTool read = read_tool(*tables[i], library_file_, i + 1,
                                         *units == "inch" ? kMillimetresPerInch : 1.0);
-        JobTable place{*tables[i], library_file_, fmt::format("tool {}", i + 1), tool_table().keys};
+        const JobTable place = table_of_tool(*tables[i], library_file_, i + 1);
         if (read.facts.name.empty()) {
             place.refuse("name", "is missing: operations name the tools of a library");
         }
@@ -101,7 +88,7 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
                                                    other.read.facts.name, read.tool.number));
             }
         }
-        library_.push_back({read, false});
+        library_.push_back({read, false, place});
     }
 }
 
@@ -209,6 +196,15 @@ std::vector<Tool> JobTools::tools(JobTable& table)
         table.refuse(kKey, "names no tool");
     }
     return tools;
+}
+
+const JobTools::Entry& JobTools::chosen(int number) const
+{
+    const auto is_it = [&](const Entry& entry) {
+        return entry.used && entry.read.tool.number == number;
+    };
+    const auto own = std::find_if(own_.begin(), own_.end(), is_it);
+    return own != own_.end() ? *own : *std::find_if(library_.begin(), library_.end(), is_it);
 }
 
 void JobTools::store(Job& job) const

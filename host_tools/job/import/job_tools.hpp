@@ -34,6 +34,10 @@ public:
     // Those that its key `tools` names; empty where it is absent.
     std::vector<toolpath::Tool> tools(JobTable& table);
 
+    // The keys and the facts of the tool with that number, which has been chosen.
+    const JobTable& table_of(int number) const { return chosen(number).table; }
+    const job::ToolFacts& facts_of(int number) const { return chosen(number).read.facts; }
+
     // Puts the job's own tools, those chosen, and their facts into the job.
     void store(job::Job& job) const;
 
@@ -41,12 +45,15 @@ private:
     struct Entry {
         ReadTool read;
         bool used;
+        JobTable table;
     };
     void read_library(const std::string& name, const std::filesystem::path& folder);
+    const Entry& chosen(int number) const;
     Entry& by_number(const JobTable& table, const char* key, int number);
     Entry& by_name(const JobTable& table, const char* key, const std::string& name);
     const toolpath::Tool& use(const JobTable& table, const char* key, Entry& entry);
 
+    toml::table library_document_;
     std::vector<Entry> own_;
     std::vector<Entry> library_;
     std::string library_file_;

@@ -8,6 +8,7 @@
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/one_line_check.hpp"
+#include "host_tools/job/import/one_line_rates.hpp"
 #include "host_tools/job/import/placing.hpp"
 #include "host_tools/job/import/sheet_job.hpp"
 
@@ -152,9 +153,10 @@ OneLineChoice choose_rates(const OneLineRequest& request)
             three_digits(std::min(defaults.feed, defaults.feed_of_diameter * tool.diameter)));
         choice.feeds.push_back(feed);
         choice.plunge_feeds.push_back(request.plunge_feed.value_or(three_digits(feed / 4)));
+        choice.spindles.push_back(request.spindle.value_or(kSpindle));
     }
-    choice.spindle = request.spindle.value_or(kSpindle);
     choice.clearance = request.clearance.value_or(defaults.clearance);
+    put_rates(request, choice);
     return choice;
 }
 

@@ -19,7 +19,8 @@ struct OneLineChoice {
     double tolerance{};
     std::vector<double> feeds;  // a minute, of each tool
     std::vector<double> plunge_feeds;
-    double spindle{};  // rpm
+    std::vector<double> spindles;    // rpm, of each tool
+    std::vector<std::string> rated;  // by the material: of each tool, in words; else none
     double clearance{};
     PartExtent part;
     double top{};     // of the stock

@@ -43,6 +43,8 @@ struct OneLineRequest {
     std::string strategy;         // "": the first for parts, with a boundary for pockets
     std::string output{"lines"};  // "lines", "arcs", "nurbs"
     std::string post;             // "": the default
+    std::string machine;          // file of the machine; "": none
+    std::string material;         // a name or a file; "": none
 };
 
 struct OneLineJob {

@@ -69,6 +69,9 @@ Keys cutting_keys()
          "loop of an island in the pocket; may be repeated",
          {},
          "--island"},
+        {"material", &Request::material, "NAME",
+         "feeds and speeds by a maker's table: aluminium, brass, steel, acrylic, plywood, mdf, "
+         "softwood, hardwood, or a file .toml"},
         {"feed", &Request::feed, "FEED", "length a minute; default 200 diameters, at most 1200 mm"},
         {"plunge_feed", &Request::plunge_feed, "FEED", "default: a quarter of the feed"},
         {"spindle", &Request::spindle, "RPM", "default 12000"},

@@ -61,6 +61,9 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
     if (!request.post.empty()) {
         out += fmt::format("post = {}\n", quoted(request.post));
     }
+    if (!request.machine.empty()) {
+        out += fmt::format("machine = {}\n", quoted(request.machine));
+    }
     for (std::size_t i = 0; i < choice.tools.size(); ++i) {
         out += fmt::format("\n[[tool]]\nnumber = {}\nshape = \"{}\"\ndiameter = {}\n", i + 1,
                            choice.tools[i].shape, choice.tools[i].diameter);
@@ -70,13 +73,17 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
         if (choice.tools[i].tip_angle > 0) {
             out += fmt::format("tip_angle = {}\n", choice.tools[i].tip_angle);
         }
-        if (choice.feeds[i] != choice.feeds.back()) {
+        if (choice.feeds[i] != choice.feeds.back() ||
+            choice.plunge_feeds[i] != choice.plunge_feeds.back()) {
             out += fmt::format("feed = {}\nplunge_feed = {}\n", choice.feeds[i],
                                choice.plunge_feeds[i]);
         }
+        if (choice.spindles[i] != choice.spindles.back()) {
+            out += fmt::format("spindle = {}\n", choice.spindles[i]);
+        }
     }
     out += fmt::format("\n[cutting]\nfeed = {}\nplunge_feed = {}\nspindle = {}\n",
-                       choice.feeds.back(), choice.plunge_feeds.back(), choice.spindle);
+                       choice.feeds.back(), choice.plunge_feeds.back(), choice.spindles.back());
     return out;
 }
 
@@ -112,12 +119,16 @@ std::string said_feeds(const OneLineRequest& request, const OneLineChoice& choic
     note(request.feed, "--feed");
     note(request.plunge_feed, "--plunge-feed");
     note(request.spindle, "--spindle");
-    std::string out =
-        fmt::format("feed {} {}/min, plunge feed {}, spindle {:.6g} rpm",
-                    said_of_tools(request, choice, choice.feeds), choice.unit,
-                    said_of_tools(request, choice, choice.plunge_feeds), choice.spindle);
+    std::string out = fmt::format("feed {} {}/min, plunge feed {}, spindle {} rpm",
+                                  said_of_tools(request, choice, choice.feeds), choice.unit,
+                                  said_of_tools(request, choice, choice.plunge_feeds),
+                                  said_of_tools(request, choice, choice.spindles));
+    if (!choice.rated.empty() && !chosen.empty()) {
+        return fmt::format("{}\n{}", out, fmt::join(choice.rated, "\n"));
+    }
     if (!chosen.empty()) {
-        out += fmt::format(": defaults; set them for your material by {}", fmt::join(chosen, " "));
+        out += fmt::format(": defaults; set them for your material by --material, or by {}",
+                           fmt::join(chosen, " "));
     }
     return out;
 }

@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <system_error>
 
 #include "host_tools/base/files/files.hpp"
-#include "host_tools/base/files/program_data.hpp"
-#include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/data_file.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/job_table.hpp"
-#include "host_tools/job/import/nearest_name.hpp"
-#include "host_tools/job/import/path_ending.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -27,8 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolder = "posts";
-constexpr const char* kDefault = "cusp";
+constexpr DataKind kPosts{"post", "posts", "cusp"};
 constexpr std::size_t kLongestLine = 200;
 
 // A list of lines, and the fields that its lines may have.
@@ -176,41 +171,15 @@ std::string post_text(const Post& post)
     return fmt::format("{}\n    {}", post.about, fmt::join(parts, "; "));
 }
 
-std::vector<std::string> post_names()
-{
-    std::vector<std::string> names;
-    std::error_code failed;
-    if (const auto folder = files::program_data(kFolder, std::string{kDefault} + ".toml")) {
-        for (const fs::directory_entry& entry : fs::directory_iterator{*folder, failed}) {
-            if (entry.path().extension() == ".toml") {
-                names.push_back(entry.path().stem().string());
-            }
-        }
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
+std::vector<std::string> post_names() { return data_names(kPosts); }
 
 Post read_post(const std::string& name, const fs::path& folder)
 {
-    if (name == kDefault) {
+    if (name == kPosts.always) {
         return {};
     }
-    if (path_ending(name) == ".toml") {
-        return post_in(folder / name, fs::path{name}.stem().string());
-    }
-    const bool plain = name.find('/') == std::string::npos;
-    const auto found = plain ? files::program_data(kFolder, name + ".toml") : std::nullopt;
-    if (!found) {
-        const std::vector<std::string> names = post_names();
-        const auto nearest = nearest_names(name, names, 1);
-        throw InputError(fmt::format(
-            "post \"{}\": there is none of that name{}; there are: {}; a post of one's own is a "
-            "path that ends in .toml",
-            name, nearest.empty() ? "" : ", the nearest is \"" + nearest.front() + "\"",
-            fmt::join(names, ", ")));
-    }
-    return post_in(*found / (name + ".toml"), name);
+    const fs::path file = data_file(kPosts, name, folder);
+    return post_in(file, file.stem().string());
 }
 
 }  // namespace cusp::import

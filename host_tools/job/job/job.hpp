@@ -29,6 +29,7 @@
 #include "host_tools/geometry/toolpath/entry_kind.hpp"
 #include "host_tools/geometry/toolpath/post.hpp"
 #include "host_tools/geometry/toolpath/toolpath.hpp"
+#include "host_tools/job/job/machine_tool.hpp"
 #include "host_tools/job/job/prismatic_keys.hpp"
 #include "host_tools/job/job/setup.hpp"
 #include "host_tools/job/job/strategy.hpp"
@@ -194,6 +195,7 @@ struct Job {
     double spindle{};                     // rpm
     std::map<int, ToolFacts> tool_facts;  // by number, of tools that have any
     toolpath::Post post;
+    MachineTool machine;
     double stock_top{};
     // z of the highest point that operations without a boundary cut; no value: all have a boundary.
     std::optional<double> part_top;

@@ -43,13 +43,18 @@ std::string warning_of(const Job& job, const Operation& operation)
     return {};
 }
 
-bool goes_in_one_level(const Operation& operation)
+// mm: depth of the deepest level, where the first cut of a level is a slot as wide as the tool; 0 where it is not.
+double depth_of_slot(const Operation& operation)
 {
     const bool in_slots = operation.cuts(Region::kOutline) ||
                           operation.cuts(Region::kLevelPocket) || operation.cuts(Region::kTop) ||
                           operation.cuts(Region::kGrooves);
-    return in_slots && !operation.levels.max_depth && operation.levels.layers.empty() &&
-           !operation.passes.max_engagement;
+    if (!in_slots || operation.passes.max_engagement || !operation.levels.layers.empty()) {
+        return 0;
+    }
+    const double depth = operation.prismatic->depth;
+    const double most = operation.levels.max_depth.value_or(depth);
+    return depth / std::ceil(depth / most - kSameLevel);
 }
 
 // True if what an earlier operation or program left is all that there is to cut: how deep that is
@@ -67,22 +72,22 @@ bool is_cut_before(const Job& job, const Operation& operation)
            std::any_of(job.operations.begin(), job.operations.end(), cuts_it);
 }
 
-// A slot deeper than the mill is wide, cut at once.
+// A slot deeper than the mill is wide: makers of mills give that as the limit of full slots (Widia, Solid End Milling).
 std::string depth_warning(const Job& job, const Operation& operation)
 {
     const double across = 2 * operation.tool.radius;
     const double depth = operation.prismatic->depth;
-    if (depth <= across + kSameLevel || !goes_in_one_level(operation) ||
-        is_cut_before(job, operation)) {
+    const double level = depth_of_slot(operation);
+    if (level <= across + kSameLevel || is_cut_before(job, operation)) {
         return {};
     }
     const double levels = std::ceil(depth / across - kSameLevel);
+    const bool at_once = level > depth - kSameLevel;
     return fmt::format(
         "operation {} ({}): tool {} of {:.6g} mm cuts {:.6g} mm deep in one level, {:.3g} times "
-        "its "
-        "diameter: a max_depth of {:.6g} mm would make {:g} levels of {:.4g} mm",
-        operation.number, operation.name(), operation.tool.number, across, depth, depth / across,
-        across, levels, depth / levels);
+        "its diameter{}: a max_depth of {:.6g} mm would make {:g} levels of {:.4g} mm",
+        operation.number, operation.name(), operation.tool.number, across, level, level / across,
+        at_once ? "" : ", the limit of full slots", across, levels, depth / levels);
 }
 
 }  // namespace
