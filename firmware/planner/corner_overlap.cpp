@@ -31,16 +31,6 @@ float bend_jerk(const CornerSide& side, float u, float time, float filter_s) noe
     return 3.0F * side.bend * speed * u + side.change * speed * speed * speed + turn * u / filter_s;
 }
 
-// Mean of (h + t)^3/6 under the axis filters, 0 where h + t < 0: h^3/6 + h (a^2 + b^2)/24, and what
-// the cut-off adds where they reach farther than h.
-float mean_cube(float h, float first, float second) noexcept
-{
-    const float beyond = std::max(0.0F, 0.5F * (first + second) - h);
-    const float square = beyond * beyond;
-    return h * h * h / 6.0F + h * (first * first + second * second) / 24.0F +
-           square * square / (24.0F * first);
-}
-
 // The jerk of both sides together as a part of what the axes allow.
 float demand(const CornerSide& before,
              const CornerSide& after,
@@ -61,6 +51,16 @@ float demand(const CornerSide& before,
 }
 
 }  // namespace
+
+float mean_cube(float h, AxisFilter filter) noexcept
+{
+    const float first = static_cast<float>(filter.first) * kServoTick;
+    const float second = static_cast<float>(filter.second) * kServoTick;
+    const float beyond = std::max(0.0F, 0.5F * (first + second) - h);
+    const float square = beyond * beyond;
+    return h * h * h / 6.0F + h * (first * first + second * second) / 24.0F +
+           square * square / (24.0F * first);
+}
 
 CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept
 {
@@ -83,8 +83,6 @@ CornerOverlap corner_overlap(const CornerSide& before,
                              float deviation) noexcept
 {
     const float filter_s = static_cast<float>(path_filter) * kServoTick;
-    const float first = static_cast<float>(filter.first) * kServoTick;
-    const float second = static_cast<float>(filter.second) * kServoTick;
     const CornerOverlap full{0, acceleration_along(before.end.tangent, limits),
                              acceleration_along(after.end.tangent, limits), 0, 0};
     for (std::uint32_t ticks = std::min(path_filter, kMostTicks); ticks >= kFewestTicks; --ticks) {
@@ -100,7 +98,7 @@ CornerOverlap corner_overlap(const CornerSide& before,
         const float half = 0.5F * time;
         const Vec3f pull =
             after.end.tangent * overlap.speeding - before.end.tangent * overlap.braking;
-        const float cut = norm(pull) / filter_s * mean_cube(half, first, second);
+        const float cut = norm(pull) / filter_s * mean_cube(half, filter);
         const float square = 0.5F * kZoneMargin * (time + kServoTick) * (time + kServoTick);
         overlap.before = overlap.braking * square;
         overlap.after = overlap.speeding * square;

@@ -27,6 +27,10 @@ struct CornerSide {
     float change{0};  // and |d3P/ds3|, 1/mm^2
 };
 
+// Mean of (h + t)^3/6 under the axis filters, 0 where h + t < 0: h^3/6 + h (a^2 + b^2)/24, and what
+// the cut-off adds where they reach farther than h. h in s.
+float mean_cube(float h, AxisFilter filter) noexcept;
+
 // The side of which `block` is next to the corner.
 CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept;
 

@@ -13,6 +13,7 @@
 #include "firmware/interpolator/box_filter.hpp"
 #include "firmware/interpolator/law_player.hpp"
 #include "firmware/planner/law_check.hpp"
+#include "firmware/planner/law_corner.hpp"
 #include "firmware/planner/law_path.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/planner/station_spacing.hpp"
@@ -25,7 +26,9 @@ struct LawStretch {
     std::deque<planner::Block> blocks;
     std::vector<float> feeds;  // squared
     std::vector<float> centripetals;
+    std::vector<float> tolerances;        // mm, that pieces have left at corners
     std::vector<planner::LawCell> cells;  // with both elements
+    planner::LawOverlap overlap{};        // at its end
 };
 
 class LawRig {
@@ -50,8 +53,11 @@ public:
     std::vector<Position> run(const std::vector<path::Move>& moves)
     {
         cut(moves);
+        overlap_corners();
+        planner::StopChoice start = planner::full_stop(shared());
         for (LawStretch& stretch : stretches_) {
-            plan(stretch);
+            plan(stretch, start);
+            start = stretch.overlap.stop;
         }
         return play(moves.empty() ? Position{} : moves.front().start);
     }
@@ -115,7 +121,9 @@ private:
         const float first = static_cast<float>(block.filter.first);
         const float second = static_cast<float>(block.filter.second);
         const float square = (first * first + second * second - 2.0F) * 1e-6F / 24.0F;
+        const bool is_piece = block.shape == planner::BlockShape::kQuintic;
         LawStretch& stretch = stretches_.back();
+        stretch.tolerances.push_back((kCornerShare - (is_piece ? kPieceShare : 0.0F)) * tolerance);
         stretch.blocks.push_back(block);
         stretch.feeds.push_back(feed * feed);
         stretch.centripetals.push_back(std::max(kExactDeviation, kFilterShare * tolerance) /
@@ -144,24 +152,47 @@ private:
         bool ended{false};
     };
 
-    planner::StopChoice stop_choice() const
-    {
-        float longest = 0;
-        for (unsigned i = 0; i < 3; ++i) {
-            longest = std::max(longest, limits_.acceleration[i] / limits_.jerk[i]);
-        }
-        return {0.8F * longest, 1.0F};
-    }
-
-    void plan(LawStretch& stretch)
+    // Less what rounding takes.
+    MachineLimits shared() const
     {
         MachineLimits shared = limits_;
         shared.acceleration = shared.acceleration * kShare;
         shared.jerk = shared.jerk * kShare;
-        const auto planning = std::make_unique<Planning>(shared);
+        return shared;
+    }
+
+    void overlap_corners()
+    {
+        const auto side = [](const LawStretch& stretch, const planner::Block& block, float at) {
+            double length = 0;
+            for (const planner::Block& each : stretch.blocks) {
+                length +=
+                    static_cast<double>(each.length) / static_cast<double>(kPathUnitsPerMillimetre);
+            }
+            return planner::LawSide{planner::derivatives_at(block, at), static_cast<float>(length),
+                                    static_cast<float>(block.length) / kPathUnitsPerMillimetre};
+        };
+        for (std::size_t i = 0; i < stretches_.size(); ++i) {
+            LawStretch& stretch = stretches_[i];
+            const planner::Block& last = stretch.blocks.back();
+            const float end = static_cast<float>(last.length) / kPathUnitsPerMillimetre;
+            const planner::LawSide before = side(stretch, last, end);
+            const bool goes_on =
+                i + 1 < stretches_.size() && stretches_[i + 1].blocks.front().filter == last.filter;
+            const LawStretch& next = stretches_[goes_on ? i + 1 : i];
+            const float deviation =
+                goes_on ? std::min(stretch.tolerances.back(), next.tolerances.front()) : 0.0F;
+            stretch.overlap = planner::law_overlap(before, side(next, next.blocks.front(), 0),
+                                                   shared(), last.filter, deviation);
+        }
+    }
+
+    void plan(LawStretch& stretch, const planner::StopChoice& start)
+    {
+        const auto planning = std::make_unique<Planning>(shared());
         Planning& now = *planning;
-        now.spacing.begin(stop_choice(), {}, 0);
-        now.spacing.set_stop(stop_choice());
+        now.spacing.begin(start, {}, 0);
+        now.spacing.set_stop(stretch.overlap.stop);
         while (now.law.state() != planner::TimeLaw::State::kDone || !now.started) {
             give(now, stretch);
             const std::uint32_t before = now.law.steps();
@@ -170,7 +201,7 @@ private:
                                  ? 0.0F
                                  : static_cast<float>(now.law.end_cell() - now.law.first_cell());
             if (now.law.state() == planner::TimeLaw::State::kChecks) {
-                check(now, shared);
+                check(now, shared());
             }
             const bool is_late = now.windows >= windows_known_;
             if (is_late && now.law.has_plan() && !now.law.plans_the_end()) {
@@ -261,7 +292,7 @@ private:
         const std::int64_t rest = now.law.place_of_rest();
         planner::PathCursor cursor = now.checked;
         now.path.seek(cursor, rest);
-        now.spacing.begin(stop_choice(), cursor, rest);
+        now.spacing.begin(planner::full_stop(shared()), cursor, rest);
         now.started = false;
         now.ended = false;
     }
@@ -275,11 +306,11 @@ private:
         std::uint32_t offset{0};
         PathOffset place{};
 
-        // Goes on for some time, s. Returns the way gone.
-        PathOffset go(float time)
+        // Goes on for `left` seconds and lowers it by the time that this takes. Returns the way gone.
+        PathOffset go(float& left)
         {
             PathOffset gone{};
-            while (stretch != nullptr && time > 0) {
+            while (stretch != nullptr && left > 0) {
                 if (player.needs_cell()) {
                     if (next == stretch->cells.size()) {
                         stretch = nullptr;
@@ -289,9 +320,35 @@ private:
                     ++next;
                     continue;
                 }
-                gone = gone + travel(player.advance(time));
+                gone = gone + travel(player.advance(left));
             }
             return gone;
+        }
+
+        // How long before the end of this tick the stretch after it begins, s.
+        float head_of_next(float start_time) const
+        {
+            if (stretch == nullptr) {
+                return kServoTick;
+            }
+            Track after = *this;
+            float left = kServoTick;
+            (void)after.go(left);
+            const bool ends = after.stretch == nullptr || after.next == stretch->cells.size();
+            if (!ends) {
+                return 0;
+            }
+            const planner::LawCell& stop = stretch->cells.back();
+            float overlap = std::min(stretch->overlap.time, element_time(stop));
+            overlap = stretch->overlap.disjoint ? overlap : std::min(overlap, start_time);
+            const float rest = after.stretch == nullptr ? -left : after.player.time_to_rest();
+            return std::min(overlap - rest, kServoTick);
+        }
+
+        static float element_time(const planner::LawCell& cell)
+        {
+            return 3.0F * static_cast<float>(cell.travel) / kPathUnitsPerMillimetre /
+                   std::sqrt(cell.start.value);
         }
 
         PathOffset travel(std::uint32_t units)
@@ -318,36 +375,48 @@ private:
         std::vector<Position> samples;
         std::size_t idle = 0;
         std::size_t next = 0;
-        Track track;
+        std::array<Track, 2> tracks;  // they overlap at corners
+        std::size_t lead = 0;
         planner::AxisFilter filter{0, 0};  // none yet
         interpolator::RunningSum<PathOffset, 32> first;
         interpolator::RunningSum<PathOffset, 32> second;
         std::array<interpolator::ExactDivision, 3> division;
         while (idle < 3) {
-            if (track.stretch == nullptr && next < stretches_.size()) {
+            float head = 0;
+            if (next < stretches_.size() && tracks[1 - lead].stretch == nullptr) {
                 const planner::AxisFilter wanted = stretches_[next].blocks.front().filter;
-                const bool drained = first.drained() && second.drained();
-                if (wanted == filter || drained) {
-                    if (wanted != filter) {
-                        filter = wanted;
-                        first.set_length(filter.first);
-                        second.set_length(filter.second);
-                        const std::int32_t whole =
-                            kPathUnitsPerNanometre * filter.first * filter.second;
-                        for (interpolator::ExactDivision& axis : division) {
-                            axis.set(whole, whole / 2);
-                        }
+                const bool drained =
+                    tracks[lead].stretch == nullptr && first.drained() && second.drained();
+                if (wanted != filter && drained) {
+                    filter = wanted;
+                    first.set_length(filter.first);
+                    second.set_length(filter.second);
+                    const std::int32_t whole =
+                        kPathUnitsPerNanometre * filter.first * filter.second;
+                    for (interpolator::ExactDivision& axis : division) {
+                        axis.set(whole, whole / 2);
                     }
-                    track = Track{&stretches_[next], {}, 0, 0, 0, {}};
-                    ++next;
                 }
+                const float start_time = Track::element_time(stretches_[next].cells.front());
+                head = wanted == filter ? tracks[lead].head_of_next(start_time) : 0.0F;
             }
-            const PathOffset moved = second.add(first.add(track.go(kServoTick)));
+            PathOffset gone{};
+            for (Track& track : tracks) {
+                float left = kServoTick;
+                gone = gone + track.go(left);
+            }
+            if (head > 0) {
+                lead = 1 - lead;
+                tracks[lead] = Track{&stretches_[next], {}, 0, 0, 0, {}};
+                gone = gone + tracks[lead].go(head);
+                ++next;
+            }
+            const PathOffset moved = second.add(first.add(gone));
             at = at + Position{division[0].divide(moved.x), division[1].divide(moved.y),
                                division[2].divide(moved.z)};
             samples.push_back(at);
-            const bool still = track.stretch == nullptr && next == stretches_.size() &&
-                               first.drained() && second.drained();
+            const bool still = tracks[0].stretch == nullptr && tracks[1].stretch == nullptr &&
+                               next == stretches_.size() && first.drained() && second.drained();
             idle = still ? idle + 1 : 0;
         }
         return samples;
@@ -357,6 +426,8 @@ private:
     static constexpr float kGreatestSpeed = 2000.0F;
     static constexpr float kExactDeviation = 0.0009F;
     static constexpr float kFilterShare = 0.45F;
+    static constexpr float kCornerShare = 0.985F;  // of the tolerance
+    static constexpr float kPieceShare = 0.45F;
     static constexpr float kShare = 0.999F;
     static constexpr float kMostUse = 1.0005F;  // of the limits shared
 

@@ -151,7 +151,8 @@ TEST(LawPrograms, hold_the_limits_within_their_times)
     constexpr Row kRows[] = {
         {"circle", {1.29, 2.74, 0.475}}, {"liss", {9.33, 17.08, 2.51}},
         {"rsq", {3.99, 8.64, 1.208}},    {"sine3dec_0p03", {1.2, 2.38, 0.447}},
-        {"spiral", {9.5, 18.38, 3.0}},
+        {"spiral", {9.5, 18.38, 3.0}},   {"square", {2.47, 5.35, 0.85}},
+        {"surf3d", {20.2, 34.2, 6.2}},
     };
     Work work;
     for (const Row& row : kRows) {

@@ -1,5 +1,6 @@
 // The tool stays within the tolerance of the path, and comes within it of every corner.
 #include <cstdlib>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include "tests/generators/random_moves.hpp"
 #include "tests/judges/motion_limits.hpp"
+#include "tests/support/law_rig.hpp"
 
 using namespace cusp;
 using cusp::test::MotionRig;
@@ -102,7 +104,21 @@ double distance_to_samples(Vec3d p, const std::vector<Position>& samples)
     return least;
 }
 
-void check_program(std::uint64_t seed, double tolerance, bool shaped = false)
+using Moves = std::vector<path::Move>;
+using Samples = std::vector<Position>;
+
+Samples plain(const Moves& moves)
+{
+    MotionRig rig;
+    rig.start_at({});
+    return rig.run(moves);
+}
+
+Samples by_the_time_law(const Moves& moves) { return test::LawRig{MachineLimits{}}.run(moves); }
+
+void check_program(std::uint64_t seed,
+                   double tolerance,
+                   const std::function<Samples(const Moves&)>& run)
 {
     auto moves = RandomMoves{seed}.program();
     if (moves.empty()) {
@@ -113,12 +129,7 @@ void check_program(std::uint64_t seed, double tolerance, bool shaped = false)
         move.tolerance = static_cast<float>(tolerance);
         path.push_back(chords_of(move));
     }
-    MotionRig rig;
-    if (shaped) {
-        rig.planner->set_shaper(test::random_shaper(seed));
-    }
-    rig.start_at({});
-    const auto samples = rig.run(moves);
+    const Samples samples = run(moves);
     const double allowed = (tolerance > 0 ? tolerance : kExact) + kRounding;
     const std::string which = "seed " + std::to_string(seed);
     for (std::size_t i = 0; i < samples.size(); i += 3) {
@@ -142,20 +153,35 @@ TEST_GROUP(PathDeviation){};
 TEST(PathDeviation, StaysWithinTheTolerance)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
-        check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25));
+        check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25), plain);
+    }
+}
+
+TEST(PathDeviation, StaysWithinTheToleranceByTheTimeLaw)
+{
+    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
+        check_program(kSeed + i, i % 3 == 0 ? 0.0 : 0.002 * static_cast<double>(1 + i % 25),
+                      by_the_time_law);
     }
 }
 
 TEST(PathDeviation, StaysWithinTheToleranceBehindAnInputShaper)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
-        check_program(kSeed + i, i % 3 == 0 ? 0.0 : 0.002 * static_cast<double>(1 + i % 25), true);
+        const auto shaped = [i](const Moves& moves) {
+            MotionRig rig;
+            rig.planner->set_shaper(test::random_shaper(kSeed + i));
+            rig.start_at({});
+            return rig.run(moves);
+        };
+        check_program(kSeed + i, i % 3 == 0 ? 0.0 : 0.002 * static_cast<double>(1 + i % 25),
+                      shaped);
     }
 }
 
 TEST(PathDeviation, StaysOnTheExactPath)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
-        check_program(kSeed + i, 0.0);
+        check_program(kSeed + i, 0.0, plain);
     }
 }
