@@ -64,25 +64,33 @@ struct CellShape {
     float right_slope;
 };
 
-Parts advanced(const Parts& at, float travel) noexcept
-{
-    Parts to = at;
-    for (unsigned i = 0; i < 3; ++i) {
-        to.value[i] += travel * (at.slope[i] + 0.5F * travel * at.bend[i]);
-        to.slope[i] += travel * at.bend[i];
+// Gradient and Hessian by x, x' and x'' at the start of a cell.
+struct CellSums {
+    // Adds those of a place `t` mm further: x there is x + t x' + t^2/2 x'', x' is x' + t x''.
+    void add(const CellSums& at, float t) noexcept
+    {
+        const float half = 0.5F * t * t;
+        const float vs_there = at.vs + t * at.vv;
+        const float vb_there = at.vb + t * at.vs + half * at.vv;
+        const float sb_there = at.sb + t * at.ss + half * at.vs;
+        value += at.value;
+        slope += at.slope + t * at.value;
+        bend += at.bend + t * at.slope + half * at.value;
+        vv += at.vv;
+        vs += vs_there;
+        vb += vb_there;
+        ss += at.ss + t * (at.vs + vs_there);
+        sb += sb_there + t * vb_there;
+        bb += at.bb + t * (at.sb + sb_there) + half * (at.vb + vb_there);
     }
-    return to;
-}
-
-// Gradient and Hessian by x, x' and x'' at one place.
-struct PlaceSums {
-    std::array<float, 3> gradient;
-    float vv, vs, vb, ss, sb, bb;
+    float value{0}, slope{0}, bend{0};
+    float vv{0}, vs{0}, vb{0}, ss{0}, sb{0}, bb{0};
 };
 
 // The sums over all rows at a place, an axis a lane.
 struct RowSums {
-    // -log of both slacks, left - value and left + value.
+    // -log of both slacks, left - value and left + value. x'' is not in rows of acceleration.
+    template <bool kWithBend>
     void add(const LawRow& row, const LaneVec& moving) noexcept
     {
         const LaneVec above = row.left - row.value;
@@ -97,26 +105,23 @@ struct RowSums {
         const LaneVec& fall = row.fall;
         value = value + product(both, fall) + product(twist, row.by_value);
         slope = slope + product(twist, row.by_slope);
-        bend = bend + product(twist, row.by_bend);
         const LaneVec by_value = product(squares, row.by_value) + product(skew, fall);
         vv = vv + product(by_value, row.by_value) +
              product(product(squares, fall) + product(skew, row.by_value), fall);
         vs = vs + product(by_value, row.by_slope);
-        vb = vb + product(by_value, row.by_bend);
         const LaneVec by_slope = product(squares, row.by_slope);
         ss = ss + product(by_slope, row.by_slope);
-        sb = sb + product(by_slope, row.by_bend);
-        bb = bb + product(product(squares, row.by_bend), row.by_bend);
+        if constexpr (kWithBend) {
+            bend = bend + product(twist, row.by_bend);
+            vb = vb + product(by_value, row.by_bend);
+            sb = sb + product(by_slope, row.by_bend);
+            bb = bb + product(product(squares, row.by_bend), row.by_bend);
+        }
     }
-    PlaceSums of_axes() const noexcept
+    CellSums of_axes() const noexcept
     {
-        return {{sum(value), sum(slope), sum(bend)},
-                sum(vv),
-                sum(vs),
-                sum(vb),
-                sum(ss),
-                sum(sb),
-                sum(bb)};
+        return {sum(value), sum(slope), sum(bend), sum(vv), sum(vs),
+                sum(vb),    sum(ss),    sum(sb),   sum(bb)};
     }
 
     LaneVec value = all_lanes(0.0F);
@@ -138,21 +143,29 @@ Parts start_of(const LawSpline& spline, std::uint32_t k) noexcept
                           spline.coefficient(k + 2));
 }
 
-// Calls `begin` with the parts at each place of the cell, then `take` with each row there.
-template <class Begin, class Take>
-void for_rows(const LawSpline& spline, std::uint32_t k, Begin begin, Take take) noexcept
+// The rows at a place of a cell.
+struct PlaceRows {
+    float travel;  // mm from the start of the cell
+    LawRow jerk;
+    LawRow acceleration;
+    bool has_acceleration;
+};
+
+// Calls `take` with the rows at each place of the cell whose x is `start` at its start.
+template <class Take>
+void for_places(const LawSpline& spline,
+                std::uint32_t k,
+                const SquaredSpeed& start,
+                Take take) noexcept
 {
     const Station& station = spline.station(k);
-    const Parts start = start_of(spline, k);
     for (unsigned i = 0; i < kPlacesOfCell; ++i) {
-        const Parts parts = advanced(start, 0.5F * static_cast<float>(i) * station.length);
-        const SquaredSpeed x = sum_of(parts);
+        const float travel = 0.5F * static_cast<float>(i) * station.length;
+        const SquaredSpeed x = advanced(start, travel);
         const float root = std::sqrt(x.value);
-        begin(parts);
-        take(jerk_row(station.places[i], station.kept, x, root));
-        if (i + 1 < kPlacesOfCell || station.acceleration_at_end) {
-            take(acceleration_row(station.places[i], station.kept, spline.ratio, x, root));
-        }
+        take(PlaceRows{travel, jerk_row(station.places[i], station.kept, x, root),
+                       acceleration_row(station.places[i], station.kept, spline.ratio, x, root),
+                       i + 1 < kPlacesOfCell || station.acceleration_at_end});
     }
 }
 
@@ -184,7 +197,7 @@ private:
     };
     Line& line(std::uint32_t j) noexcept { return lines_[j - base_]; }
     const Line& line(std::uint32_t j) const noexcept { return lines_[j - base_]; }
-    void add_place(std::uint32_t k, const Parts& parts, const PlaceSums& sums, float mu) noexcept;
+    void add_sums(std::uint32_t k, const Parts& parts, const CellSums& sums, float mu) noexcept;
     void tie_ends() noexcept;
 
     LawWindow window_;
@@ -192,14 +205,14 @@ private:
     std::array<Line, kMostLocal> lines_{};
 };
 
-void NewtonSystem::add_place(std::uint32_t k, const Parts& p, const PlaceSums& s, float mu) noexcept
+void NewtonSystem::add_sums(std::uint32_t k, const Parts& p, const CellSums& s, float mu) noexcept
 {
     std::array<float, 3> by_value;
     std::array<float, 3> by_slope;
     std::array<float, 3> by_bend;
     for (unsigned i = 0; i < 3; ++i) {
-        line(k + i).gradient += mu * (s.gradient[0] * p.value[i] + s.gradient[1] * p.slope[i] +
-                                      s.gradient[2] * p.bend[i]);
+        line(k + i).gradient +=
+            mu * (s.value * p.value[i] + s.slope * p.slope[i] + s.bend * p.bend[i]);
         by_value[i] = mu * (s.vv * p.value[i] + s.vs * p.slope[i] + s.vb * p.bend[i]);
         by_slope[i] = mu * (s.vs * p.value[i] + s.ss * p.slope[i] + s.sb * p.bend[i]);
         by_bend[i] = mu * (s.vb * p.value[i] + s.sb * p.slope[i] + s.bb * p.bend[i]);
@@ -217,21 +230,18 @@ void NewtonSystem::add_place(std::uint32_t k, const Parts& p, const PlaceSums& s
 
 void NewtonSystem::add_cell(const LawSpline& spline, std::uint32_t k, float weight) noexcept
 {
-    Parts at{};
-    RowSums rows;
-    unsigned places = 0;
-    for_rows(
-        spline, k,
-        [&](const Parts& parts) {
-            if (places > 0) {
-                add_place(k, at, rows.of_axes(), weight);
-            }
-            ++places;
-            at = parts;
-            rows = RowSums{};
-        },
-        [&](const LawRow& row) { rows.add(row, spline.station(k).moving); });
-    add_place(k, at, rows.of_axes(), weight);
+    const Parts start = start_of(spline, k);
+    const LaneVec& moving = spline.station(k).moving;
+    CellSums sums;
+    for_places(spline, k, sum_of(start), [&](const PlaceRows& place) {
+        RowSums rows;
+        rows.add<true>(place.jerk, moving);
+        if (place.has_acceleration) {
+            rows.add<false>(place.acceleration, moving);
+        }
+        sums.add(rows.of_axes(), place.travel);
+    });
+    add_sums(k, start, sums, weight);
 }
 
 // A slack as small as rounding counts as that.
@@ -333,21 +343,22 @@ float NewtonSystem::longest(const LawSpline& spline) const noexcept
 {
     LaneVec worst = all_lanes(0.0F);
     for (std::uint32_t k = base_; k < window_.end_cell(); ++k) {
+        const Parts start = start_of(spline, k);
         SquaredSpeed change{};
-        for_rows(
-            spline, k,
-            [&](const Parts& parts) {
-                change = {};
-                for (unsigned i = 0; i < 3; ++i) {
-                    const float z = line(k + i).change;
-                    change.value += parts.value[i] * z;
-                    change.slope += parts.slope[i] * z;
-                    change.bend += parts.bend[i] * z;
-                }
-            },
-            [&](const LawRow& row) {
-                worst = larger(worst, product(approach(row, change), spline.station(k).moving));
-            });
+        for (unsigned i = 0; i < 3; ++i) {
+            const float z = line(k + i).change;
+            change.value += start.value[i] * z;
+            change.slope += start.slope[i] * z;
+            change.bend += start.bend[i] * z;
+        }
+        for_places(spline, k, sum_of(start), [&](const PlaceRows& place) {
+            const SquaredSpeed there = advanced(change, place.travel);
+            LaneVec nearer = approach(place.jerk, there);
+            if (place.has_acceleration) {
+                nearer = larger(nearer, approach(place.acceleration, there));
+            }
+            worst = larger(worst, product(nearer, spline.station(k).moving));
+        });
     }
     float most = greatest(kPartOfSlack, worst);
     for (std::uint32_t j = window_.begin; j < window_.end; ++j) {
@@ -405,9 +416,10 @@ float greatest_use(const LawSpline& spline, const LawWindow& window) noexcept
 {
     float most = 0;
     for (std::uint32_t k = window.first_cell(); k < window.end_cell(); ++k) {
-        for_rows(
-            spline, k, [](const Parts&) {},
-            [&most](const LawRow& row) { most = std::max(most, use(row)); });
+        for_places(spline, k, spline.at_start(k), [&most](const PlaceRows& place) {
+            const float also = place.has_acceleration ? use(place.acceleration) : 0.0F;
+            most = std::max({most, use(place.jerk), also});
+        });
     }
     for (std::uint32_t j = window.begin; j < window.end; ++j) {
         // A slack of speed may be as small as rounding.

@@ -10,6 +10,7 @@
 #include "hal/stm32f4/reset_reason.hpp"
 #include "hal/stm32f4/vectors.hpp"
 #include "tests/target/budget/instruction_meter.hpp"
+#include "tests/target/budget/law_budget.hpp"
 
 namespace {
 
@@ -27,6 +28,7 @@ pulse::PulseMaker pulse_maker{pulse::StepSettings{}};
 gcode::Interpreter lines;
 PulseFrame frame;
 hal::qemu::HostFile out;
+test::LawBudget law_budget;
 
 // QEMU has no DMA: the player's registers are plain memory.
 struct StillChip {
@@ -267,6 +269,7 @@ void cusp_main()
     count_look_ahead();
     count_three_ports();
     count_parsing();
+    test::count_law(law_budget, out);
     hal::qemu::exit_qemu(0);
 }
 
