@@ -77,7 +77,6 @@ void TimeLaw::begin(const StopElement& start) noexcept
     planned_ = 0;
     in_force_ = 0;
     final_ = 0;
-    taken_ = 0;
     ended_ = false;
     rests_ = false;
     extended_ = false;
@@ -297,18 +296,37 @@ BarrierWeight TimeLaw::weight() const noexcept
             mu_ > kTimeHessianUntil * last_mu_ ? kTimeHessian : 1.0F, 1.0F / station_time_};
 }
 
-void TimeLaw::accept() noexcept
+void TimeLaw::accept(LawPlans& plans) noexcept
 {
-    CUSP_ASSERT(state_ == State::kChecks);
-    in_force_ = planned_;
-    if (window_.end_factor > 0) {
-        final_ = planned_;
-        state_ = State::kDone;
+    CUSP_ASSERT(state_ == State::kChecks || state_ == State::kStays);
+    const bool ends = window_.end_factor > 0;
+    const std::uint32_t certain = ends ? stations_ : window_.begin + kLawAdvance - 2;
+    const auto units = [](float mm) {
+        return static_cast<std::uint32_t>(mm * kPathUnitsPerMillimetre + 0.5F);
+    };
+    if (!has_plan()) {
+        plans.add({spline_.at_start(0), units(start_.length), LawPiece::kStart});
+    }
+    for (std::uint32_t k = final_; k < open_end(); ++k) {
+        plans.add(cell(k));
+    }
+    if (ends) {
+        const SquaredSpeed last = spline_.at_start(stations_ - 1);
+        plans.add(
+            {advanced(last, station(stations_ - 1).length), units(stop_.length), LawPiece::kStop});
+    } else {
+        for (const LawCell& cell : stop_from_crawl(planned_)) {
+            plans.add(cell);
+        }
+    }
+    if (!plans.publish(certain - final_ + (has_plan() ? 0U : 1U) + (ends ? 1U : 0U))) {
+        rest();
         return;
     }
-    window_.begin += kLawAdvance;
-    final_ = window_.begin;
-    state_ = State::kWaits;
+    final_ = certain;
+    in_force_ = planned_;
+    window_.begin += ends ? 0 : kLawAdvance;
+    state_ = ends ? State::kDone : State::kWaits;
 }
 
 void TimeLaw::retreat() noexcept
@@ -317,7 +335,7 @@ void TimeLaw::retreat() noexcept
     restore();
     ++retreats_;
     if (retreats_ == kMostRetreats) {
-        accept();
+        state_ = State::kStays;
         return;
     }
     last_mu_ *= kHeavier;
@@ -336,19 +354,17 @@ void TimeLaw::restore() noexcept
 void TimeLaw::rest() noexcept
 {
     CUSP_ASSERT(has_plan() && !plans_the_end());
-    const bool is_at_work = state_ == State::kWorks || state_ == State::kChecks;
-    if (is_at_work && extended_) {
+    if (state_ != State::kWaits && extended_) {
         restore();
     }
     rests_ = true;
-    final_ = in_force_;
     state_ = State::kDone;
 }
 
 std::int64_t TimeLaw::place_of_rest() const noexcept
 {
     const Station& last = station(in_force_ - 3);
-    const std::array<LawCell, 2> stop = stop_from_crawl();
+    const std::array<LawCell, 2> stop = stop_from_crawl(in_force_);
     return last.begin + last.travel + stop[0].travel + stop[1].travel;
 }
 
@@ -360,9 +376,9 @@ void TimeLaw::restart() noexcept
 }
 
 // With jerk w half of the speed is lost in t = (v/w)^1/2, over 5/6 v t, and the rest over 1/6 v t.
-std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
+std::array<LawCell, 2> TimeLaw::stop_from_crawl(std::uint32_t planned) const noexcept
 {
-    const float x = spline_.coefficient(in_force_ - 1);
+    const float x = spline_.coefficient(planned - 1);
     const float speed = std::sqrt(x);
     const float time = std::sqrt(speed / (kJerkOfCrawlStop * least_jerk_));
     const auto units = [&](float part) {
@@ -370,19 +386,6 @@ std::array<LawCell, 2> TimeLaw::stop_from_crawl() const noexcept
     };
     return {LawCell{{x, 0.0F, 0.0F}, units(5.0F / 6.0F), LawPiece::kBrake},
             LawCell{{0.25F * x, 0.0F, 0.0F}, units(1.0F / 6.0F), LawPiece::kStop}};
-}
-
-bool TimeLaw::take(LawCell& cell) noexcept
-{
-    const std::uint32_t k = taken_;
-    const std::uint32_t end = std::min(std::max<std::uint32_t>(final_, 2) - 2, stations_);
-    const bool stops = rests_ && k >= end && k < end + 2;
-    if (k >= end && !stops) {
-        return false;
-    }
-    cell = stops ? stop_from_crawl()[k - end] : this->cell(k);
-    ++taken_;
-    return true;
 }
 
 }  // namespace cusp::planner

@@ -7,7 +7,7 @@
 //
 //   add() ... add() end()      stations, as long as there is room
 //   work()                     one Newton step a call, until nothing is left to do
-//   take()                     cells whose speeds are final
+//   accept()                   hands a plan over to the servo tick
 //
 // Source: docs/numerics.md, "The time law". Held by tests/unit/planner/time_law_test.cpp.
 #pragma once
@@ -18,6 +18,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/planner/barrier.hpp"
+#include "firmware/planner/law_plans.hpp"
 
 namespace cusp::planner {
 
@@ -37,8 +38,7 @@ public:
 
     bool has_room() const noexcept
     {
-        const std::uint32_t oldest = std::min(taken_, window_.first_cell());
-        return !ended_ && stations_ + 4 < oldest + kStations;
+        return !ended_ && stations_ + 4 < window_.first_cell() + kStations;
     }
 
     // The next station; the first is shorter than 1.4 times the element. Precondition: has_room().
@@ -52,6 +52,7 @@ public:
         kWaits,    // for stations
         kWorks,    // a window is on its way
         kChecks,   // a window is planned: to be judged by accept() or retreat()
+        kStays,    // it stays as the plan before it was, and a crawl: to be accepted
         kDone,     // all cells are final
         kBlocked,  // not even a crawl leads away from rest
     };
@@ -70,23 +71,23 @@ public:
 
     const Station& station(std::uint32_t k) const noexcept { return spline_.station(k); }
 
-    // Precondition: state() == kChecks. The window holds every limit: its first part becomes final.
-    void accept() noexcept;
+    // The window holds every limit: its plan is handed over, and its first part becomes final. If the
+    // plan before it is on its way to rest already, the law rests().
+    // Precondition: state() is kChecks or kStays, plans.room() >= plan_cells().
+    void accept(LawPlans& plans) noexcept;
     // It does not: the window is planned again by a heavier barrier, which keeps farther from every
-    // limit. The fourth time it stays as the plan before it was.
+    // limit. The fourth time it stays as the plan before it was. Precondition: state() == kChecks.
     void retreat() noexcept;
-
-    // The next final cell. False: there is none.
-    bool take(LawCell& cell) noexcept;
+    // Cells that accept() hands over, at most.
+    std::uint32_t plan_cells() const noexcept { return open_end() - final_ + kCellsAtEnds; }
 
     // True once a plan is in force, and if it reaches the stop element at the end; else it ends in a
     // crawl.
     bool has_plan() const noexcept { return in_force_ > 0; }
     bool plans_the_end() const noexcept { return ended_ && in_force_ == stations_ + 2; }
 
-    // No station comes in time: the plan in force becomes final to its end, and two cells more
-    // bring the tool from its crawl to rest. A plan that can't be continued ends like this by itself.
-    // Precondition: has_plan(), !plans_the_end().
+    // No station comes in time, or the plan in force can't be continued: it is played to its end,
+    // and the path goes on from there. Precondition: has_plan(), !plans_the_end().
     void rest() noexcept;
     bool rests() const noexcept { return rests_; }
     // Path units from the start of the stretch. Precondition: rests().
@@ -96,6 +97,9 @@ public:
     std::uint32_t steps() const noexcept { return steps_; }
 
 private:
+    static constexpr std::uint32_t kCellsAtEnds =
+        3;  // both elements, or one and two from the crawl
+
     bool waits() const noexcept;
     void begin_window() noexcept;
     void make_room_behind() noexcept;
@@ -106,7 +110,11 @@ private:
     void ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept;
     void restrict_crawl(const Station& station) noexcept;
     void restore() noexcept;
-    std::array<LawCell, 2> stop_from_crawl() const noexcept;
+    std::uint32_t open_end() const noexcept
+    {
+        return window_.end_factor > 0 ? stations_ : planned_ - 2;
+    }
+    std::array<LawCell, 2> stop_from_crawl(std::uint32_t planned) const noexcept;
     BarrierWeight weight() const noexcept;
 
     LawSpline spline_;
@@ -122,8 +130,7 @@ private:
     std::uint32_t stations_{0};  // added
     std::uint32_t planned_{0};   // coefficients that have a value
     std::uint32_t in_force_{0};  // those of the last plan accepted
-    std::uint32_t final_{0};     // those that keep theirs
-    std::uint32_t taken_{0};     // cells
+    std::uint32_t final_{0};     // cells handed over that will be played
     std::uint32_t steps_{0};
     float mu_{0};
     float last_mu_{0};  // of the window

@@ -15,6 +15,7 @@
 #include "firmware/planner/law_check.hpp"
 #include "firmware/planner/law_corner.hpp"
 #include "firmware/planner/law_path.hpp"
+#include "firmware/planner/law_plans.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/planner/station_spacing.hpp"
 #include "firmware/planner/time_law.hpp"
@@ -144,12 +145,13 @@ private:
         planner::LawPath path;
         planner::TimeLaw law;
         planner::StationSpacing spacing{path};
+        planner::LawPlans plans;
         planner::PathCursor checked{};
         std::size_t next{0};       // block
-        std::size_t first{0};      // cell from rest
         std::uint32_t windows{0};  // since then
         bool started{false};
         bool ended{false};
+        bool rests{false};  // the tick has played the last plan to its end
     };
 
     // Less what rounding takes.
@@ -200,19 +202,32 @@ private:
             station_steps += now.law.steps() == before
                                  ? 0.0F
                                  : static_cast<float>(now.law.end_cell() - now.law.first_cell());
-            if (now.law.state() == planner::TimeLaw::State::kChecks) {
-                check(now, shared());
+            if (accepts(now) && !now.law.rests()) {
+                play(now, stretch);
+                if (now.windows >= windows_known_ && !now.law.plans_the_end()) {
+                    play(now, stretch);
+                    now.rests = true;
+                }
             }
-            const bool is_late = now.windows >= windows_known_;
-            if (is_late && now.law.has_plan() && !now.law.plans_the_end()) {
-                now.law.rest();
+            if (now.law.rests()) {
+                go_on_from_rest(now, stretch);
             }
-            take(now, stretch);
             if (now.law.state() == planner::TimeLaw::State::kBlocked) {
                 ++blocked;
                 break;
             }
         }
+    }
+
+    // The tick plays up to its next choice.
+    static void play(Planning& now, LawStretch& stretch)
+    {
+        planner::LawCell cell;
+        do {
+            const bool plays = now.plans.next(cell);
+            CUSP_ASSERT(plays);
+            stretch.cells.push_back(cell);
+        } while (!now.plans.chooses());
     }
 
     // Blocks and stations, as many as there is room for.
@@ -229,10 +244,6 @@ private:
         planner::StopElement element;
         if (!now.started && now.spacing.start(element)) {
             now.law.begin(element);
-            now.first = stretch.cells.size();
-            const float length = element.length * kPathUnitsPerMillimetre;
-            stretch.cells.push_back(
-                {{}, static_cast<std::uint32_t>(length + 0.5F), planner::LawPiece::kStart});
             now.started = true;
         }
         planner::Station station;
@@ -246,48 +257,39 @@ private:
         }
     }
 
-    void check(Planning& now, const MachineLimits& limits)
+    // Checks the window that is planned, if one is. True: it is accepted.
+    bool accepts(Planning& now)
     {
-        ++windows;
-        ++now.windows;
         planner::TimeLaw& law = now.law;
-        while (law.state() == planner::TimeLaw::State::kChecks) {
+        if (law.state() == planner::TimeLaw::State::kChecks) {
             const std::int64_t begin = law.station(law.first_cell()).begin;
-            const float use = planner::greatest_use(law, now.path, now.checked, limits);
+            const float use = planner::greatest_use(law, now.path, now.checked, shared());
             now.path.seek(now.checked, begin);
-            if (use <= kMostUse) {
-                greatest_use = std::max(greatest_use, use);
-                law.accept();
-            } else {
+            if (use > kMostUse) {
                 ++retreats;
                 law.retreat();
+            } else {
+                greatest_use = std::max(greatest_use, use);
             }
         }
+        if (law.state() != planner::TimeLaw::State::kChecks &&
+            law.state() != planner::TimeLaw::State::kStays) {
+            return false;
+        }
+        ++windows;
+        ++now.windows;
+        law.accept(now.plans);
         now.path.drop_before(now.checked);
+        return true;
     }
 
-    // The final cells. After the last of them the stretch ends, or goes on from rest.
-    void take(Planning& now, LawStretch& stretch)
+    void go_on_from_rest(Planning& now, LawStretch& stretch)
     {
-        std::vector<planner::LawCell>& cells = stretch.cells;
-        planner::LawCell cell;
-        while (now.law.take(cell)) {
-            cells.push_back(cell);
-        }
-        if (!now.started || now.law.state() != planner::TimeLaw::State::kDone) {
-            return;
-        }
-        // The elements' inner ends have the speed of the cells beside them.
-        cells[now.first].start.value = cells[now.first + 1].start.value;
-        if (!now.law.rests()) {
-            const planner::LawCell& last = cells.back();
-            const float length = static_cast<float>(last.travel) / kPathUnitsPerMillimetre;
-            const float travel = now.spacing.stop().length * kPathUnitsPerMillimetre;
-            cells.push_back({advanced(last.start, length),
-                             static_cast<std::uint32_t>(travel + 0.5F), planner::LawPiece::kStop});
-            return;
+        if (!now.rests) {
+            play(now, stretch);
         }
         ++rests;
+        now.rests = false;
         now.windows = 0;
         const std::int64_t rest = now.law.place_of_rest();
         planner::PathCursor cursor = now.checked;

@@ -15,6 +15,7 @@ struct LawBudget {
     planner::LawPath path;
     planner::TimeLaw law;
     planner::StationSpacing spacing{path};
+    planner::LawPlans plans;
     std::array<planner::Block, 12> arcs;
 };
 
@@ -75,10 +76,10 @@ inline void count_law(LawBudget& now, const hal::qemu::HostFile& out)
             check.begin();
             CUSP_ASSERT(planner::greatest_use(now.law, now.path, cursor, limits) < 1.01F);
             check.end();
-            now.law.accept();
+            now.law.accept(now.plans);
         }
         planner::LawCell cell;
-        while (now.law.take(cell)) {
+        for (std::uint32_t i = 0; i < 16 && now.plans.next(cell); ++i) {
         }
     }
     station.report(out);

@@ -209,6 +209,7 @@ TEST(LawCheck, refuses_a_plan_whose_rows_miss_a_bend)
             law.add(station);
         }
         law.end(kElement);
+        LawPlans plans;
         float use = 0;
         while (law.state() != TimeLaw::State::kDone) {
             law.work();
@@ -216,7 +217,7 @@ TEST(LawCheck, refuses_a_plan_whose_rows_miss_a_bend)
             if (law.state() == TimeLaw::State::kChecks) {
                 PathCursor near = path->begin();
                 use = std::max(use, greatest_use(law, *path, near, MachineLimits{}));
-                law.accept();
+                law.accept(plans);
             }
         }
         CHECK_TEXT(has_bend == (use > 1.0F), std::to_string(use).c_str());

@@ -44,14 +44,15 @@ Stretch any_stretch(RandomStations& random)
     return made;
 }
 
-// Plays all stations through a law; some plans are thrown away. Final cells in order, without the
-// two that bring the tool to rest where the plan can't be continued.
+// Plays all stations through a law; some plans are thrown away. Cells that are certain, in order,
+// without the elements.
 std::vector<LawCell> plan(TimeLaw& law,
                           const Stretch& stretch,
                           RandomStations& random,
                           std::uint64_t refused_of_eight)
 {
     std::vector<LawCell> cells;
+    LawPlans plans;
     std::size_t next = 0;
     bool ended = false;
     law.begin(stretch.start);
@@ -65,20 +66,18 @@ std::vector<LawCell> plan(TimeLaw& law,
             ended = true;
         }
         law.work();
-        if (law.state() == TimeLaw::State::kChecks) {
-            const bool refused = random.number() % 8 < refused_of_eight;
-            while (refused && law.state() == TimeLaw::State::kChecks) {
-                law.retreat();
-            }
-            if (!refused) {
-                law.accept();
-            }
-        }
-        LawCell cell;
-        while (law.take(cell)) {
-            if (cell.piece == LawPiece::kCell) {
-                cells.push_back(cell);
-            }
+        if (law.state() == TimeLaw::State::kChecks && random.number() % 8 < refused_of_eight) {
+            law.retreat();
+        } else if (law.state() == TimeLaw::State::kChecks ||
+                   law.state() == TimeLaw::State::kStays) {
+            law.accept(plans);
+            LawCell cell;
+            do {
+                CHECK(plans.next(cell));
+                if (cell.piece == LawPiece::kCell) {
+                    cells.push_back(cell);
+                }
+            } while (!plans.chooses());
         }
     }
     return cells;
