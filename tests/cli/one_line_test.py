@@ -85,6 +85,7 @@ class OneLine(unittest.TestCase):
                                 timeout=300, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(0, result.returncode, result.stdout)
         self.assertIn("all bounds hold", result.stdout)
+        return result.stdout
 
     def refused(self, words, *arguments, output=("-o", "p.ngc")):
         result = self.plan(*arguments, *output)
@@ -145,6 +146,13 @@ class OneLine(unittest.TestCase):
         _, said = self.program("roof.stl", "--tool", "flat:6", "ball:4", "--scallop", 0.05)
         self.assertIn("part: 20 x 20 mm from above, 8 deep", said)
         self.verified()
+
+    def test_every_end_finishes_a_mesh(self):
+        self.write("pit.stl", mesh(-5))
+        for end in ("bull:4:1", "taper:4:8:0.8"):
+            _, said = self.program("pit.stl", "--tool", "flat:6", end, "--scallop", 0.05)
+            self.assertIn("scallop at most 0.0500 mm where the end can touch", said)
+            self.assertIn("scallop of tool 2 is proved where its end can touch", self.verified())
 
     def test_several_parts_are_one(self):
         self.write("roof.stl", mesh(8))
@@ -243,7 +251,8 @@ class OneLine(unittest.TestCase):
                 ("the diameter is -6", "ball:-6"), ("\"nan\" is no diameter", "ball:nan"),
                 ("the corner radius is 4, the tool's radius only 3", "bull:6:4"),
                 ("its diameter is 200 mm, the part is only 60 x 40", "ball:200"),
-                ("--tool flat:8: comes last and so finishes", "flat:8")):
+                ("a taper has a diameter, the angle", "taper:6:5"),
+                ("--tool taper:6:5:0.5: a taper only finishes", "taper:6:5:0.5")):
             self.refused(words, "ramp.json", "--tool", tool, "--scallop", "0.05")
         self.refused("--tool: is missing", "ramp.json", "--scallop", "0.05")
         self.refused("--tool: is missing", "ramp.json")

@@ -408,8 +408,9 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
 {
     check_spacing(job, operation);
     std::vector<PlannedOperation> out;
-    const bool mesh = !complete && !operation.part.mesh.empty();
-    const LevelFloors floors = level_floors(job, operation);
+    const Operation finished = complete ? operation : finishing::faceted(operation);
+    const bool mesh = !complete && !finished.part.mesh.empty();
+    const LevelFloors floors = level_floors(job, finished);
     std::optional<IsocurvePlanner> planner;
     if (!mesh) {
         const cancellation::Part part{"the model of ",
@@ -430,7 +431,7 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     };
     parallel::both(rough, [&] {
         const auto begin = std::chrono::steady_clock::now();
-        finish = mesh ? plan_mesh_isocurves(job, operation, floors) : planner->plan(complete);
+        finish = mesh ? plan_mesh_isocurves(job, finished, floors) : planner->plan(complete);
         finish.stats.planning_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     });

@@ -28,7 +28,7 @@ std::any read(const KeyValues& values, const Operation& /*operation*/, const Ref
 
 void check_isocurves(const Operation& operation, const Refuse& refuse)
 {
-    check_end(operation, refuse);
+    check_finishing_end(operation, refuse);
     need(finish_keys(operation).iso_distance || operation.tolerance.scallop, "iso_distance",
          "it or scallop", operation, refuse);
     check_adaptive_roughing(operation, refuse);

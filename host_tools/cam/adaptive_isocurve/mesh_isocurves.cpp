@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
+#include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/cam/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/cam/finishing/mesh_check.hpp"
 #include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
-#include "host_tools/cam/finishing/mesh_scallop_check.hpp"
+#include "host_tools/cam/finishing/scallop_at_point.hpp"
 #include "host_tools/cam/finishing/surface_operation.hpp"
-#include "host_tools/geometry/toolpath/stepover.hpp"
+#include "host_tools/geometry/part_model/tool_cap.hpp"
 
 #include "fmt/format.h"
 
@@ -19,7 +22,8 @@ namespace cusp::adaptive_isocurve {
 
 using finishing::kUprightNormal;
 using finishing::mesh_pencil_curves;
-using finishing::MeshScallopCheck;
+using finishing::MeshCheck;
+using finishing::MeshLeft;
 using finishing::Points;
 using finishing::report_uncovered_points;
 using finishing::report_walls_over_nothing;
@@ -27,13 +31,16 @@ using finishing::SurfaceOperation;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;
+using part_model::cap_reach;
 using part_model::PartModel;
+using part_model::ToolProfile;
 using toolpath::PlannedOperation;
-using toolpath::stepover;
+using toolpath::ToolShape;
 
 namespace {
 
 constexpr double kRowShare = 0.9;        // of the stepover on level ground
+constexpr double kWidest = 1.8;          // radii: the same
 constexpr double kSampleShare = 0.5;     // of it: between samples along a row
 constexpr double kNarrowest = 1.0 / 64;  // of it: between neighbours
 // Share of the scallop allowed in the middle between neighbours: the ridge is a little higher.
@@ -60,10 +67,15 @@ struct MeshStrip {
 };
 
 // The scallop of passes iso_distance apart on level ground, the tolerance included.
-double scallop_of(const Operation& operation, double outward)
+double scallop_of(const Job& job, const Operation& operation, double outward)
 {
     if (!finish_keys(operation).iso_distance) {
         return *operation.tolerance.scallop;
+    }
+    if (operation.tool.shape != ToolShape::kBall) {
+        throw InputError(fmt::format(
+            "{}: {}: iso_distance goes with a ball; give the scallop for tool {}, which is {}",
+            job.file, operation.name(), operation.tool.number, name_of(operation.tool.shape)));
     }
     const double radius = operation.tool.radius;
     const double half = std::min(0.5 * *finish_keys(operation).iso_distance, 0.95 * radius);
@@ -76,9 +88,11 @@ public:
         : job_{job},
           operation_{operation},
           work_{job, operation, {}},
-          radius_{work_.path_fitter().offset_tool().radius},
-          scallop_{scallop_of(operation, work_.outward())},
-          scallop_check_{operation.part.mesh, work_.path_fitter(), scallop_, work_.path_off()}
+          tool_{work_.path_fitter().offset_tool()},
+          radius_{tool_.radius},
+          scallop_{scallop_of(job, operation, work_.outward())},
+          scallop_check_{finishing::mesh_check(
+              operation.part.mesh, work_.path_fitter(), scallop_, work_.path_off())}
     {
         leave_out(floors, work_);
         const Vec3d low = work_.model().box_low();
@@ -90,7 +104,9 @@ public:
         origin_ = {low.x, low.y, 0};
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
-        row_ = kRowShare * stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
+        row_ = kRowShare * std::min(kWidest * operation.tool.radius,
+                                    2 * cap_reach(ToolProfile{operation.tool}, {0, 0, 1}, {1, 0, 0},
+                                                  scallop_ - work_.outward()));
         if (finish_keys(operation).iso_distance) {
             row_ = std::min(row_, 0.999 * *finish_keys(operation).iso_distance);
         }
@@ -101,8 +117,8 @@ public:
     {
         add_rows();
         add_pencil_passes();
-        scallop_check_.check();
-        scallop_check_.add_missing_passes([&](const Points& tips) { add_pass(tips); });
+        scallop_check_->check();
+        scallop_check_->add_missing_passes([&](const Points& tips) { add_pass(tips); });
         return finished();
     }
 
@@ -112,7 +128,7 @@ private:
         job_.report_progress(share, operation_.passes.roughing ? kRoughingDone : 0);
     }
 
-    using Dropped = PartModel::DroppedBall;
+    using Dropped = PartModel::DroppedTool;
 
     Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
 
@@ -121,24 +137,23 @@ private:
     std::optional<Dropped> drop_at(double s, double t) const
     {
         const Vec3d at = place(s, t);
-        std::optional<Dropped> found = work_.model().drop_ball(at.x, at.y, radius_);
-        if (found &&
-            ((!work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) ||
-             !work_.area().holds(found->point, (found->centre - found->point) / radius_))) {
+        std::optional<Dropped> found = work_.model().drop_tool(tool_, at.x, at.y);
+        if (found && ((!work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) ||
+                      !work_.area().holds(found->point, found->lean))) {
             return std::nullopt;
         }
         return found;
     }
 
-    // Beside the mesh, a ball that touches a rim or a wall only has nothing to cut.
+    // Beside the mesh, a tool that touches a rim or a wall only has nothing to cut.
     bool is_on(const Dropped& at, double s, double t) const
     {
-        const double facing = dot(at.centre - at.point, at.normal) / radius_;
+        const double facing = dot(at.lean, at.normal);
         const bool outside = s < 0 || s > length_ || t < 0 || t > width_;
         return outside ? facing >= kOutside && at.normal.z >= kUprightNormal : facing >= kFacing;
     }
 
-    void add_pass(const Points& tips) { scallop_check_.add(work_.add_pass(tips)); }
+    void add_pass(const Points& tips) { scallop_check_->add(work_.add_pass(tips)); }
 
     void add_rows()
     {
@@ -168,8 +183,8 @@ private:
     {
         std::vector<std::vector<Range>> missing(strips.size());
         for (std::size_t first = 0; first < 2; ++first) {
-            scallop_check_.share_out(
-                (strips.size() + 1 - first) / 2, [&](const MeshScallopCheck& check, std::size_t k) {
+            scallop_check_->share_out(
+                (strips.size() + 1 - first) / 2, [&](const MeshCheck& check, std::size_t k) {
                     missing[2 * k + first] = missing_in(strips[2 * k + first], check);
                 });
             std::vector<Cut> cuts;
@@ -191,7 +206,7 @@ private:
         return out;
     }
 
-    std::vector<Range> missing_in(const MeshStrip& strip, const MeshScallopCheck& check) const
+    std::vector<Range> missing_in(const MeshStrip& strip, const MeshCheck& check) const
     {
         std::vector<Range> missing;
         if (strip.high - strip.low >= kNarrowest * row_) {
@@ -205,7 +220,7 @@ private:
     // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
     void find_missing(const Range& range,
                       const MeshStrip& strip,
-                      const MeshScallopCheck& check,
+                      const MeshCheck& check,
                       std::vector<Range>& missing) const
     {
         const int samples =
@@ -225,14 +240,13 @@ private:
         }
     }
 
-    bool is_missing(double s, const MeshStrip& strip, const MeshScallopCheck& check) const
+    bool is_missing(double s, const MeshStrip& strip, const MeshCheck& check) const
     {
         const std::optional<Dropped> here = drop_at(s, 0.5 * (strip.low + strip.high));
         if (!here) {
             return false;
         }
-        return !check.is_covered(here->point, (here->centre - here->point) / radius_,
-                                 kMiddleShare) ||
+        return !check.is_covered(here->point, here->lean, kMiddleShare) ||
                (finish_keys(operation_).iso_distance && too_far_apart(s, strip));
     }
 
@@ -246,7 +260,7 @@ private:
             const double way = norm(b - a);
             return way > delta && way < delta + 4 * (strip.high - strip.low);
         };
-        return low && high && (far(low->centre, high->centre) || far(low->point, high->point));
+        return low && high && (far(low->tip, high->tip) || far(low->point, high->point));
     }
 
     // A part of a row.
@@ -269,7 +283,7 @@ private:
         work_.model().forget_queries();
         for (std::vector<SurfaceOperation::FittedPass>& some : passes) {
             for (SurfaceOperation::FittedPass& pass : some) {
-                scallop_check_.add(work_.add(std::move(pass)));
+                scallop_check_->add(work_.add(std::move(pass)));
                 ++curves_;
             }
         }
@@ -326,19 +340,12 @@ private:
 
     PlannedOperation finished()
     {
-        const double radius = operation_.tool.radius;
-        const bool unseen = scallop_check_.overflowed();
-        PlannedOperation planned =
-            work_.finish(row_, unseen ? radius : std::max(scallop_, scallop_check_.most_left()));
-        report_uncovered_points(planned.stats, scallop_check_.uncovered(), unseen);
-        report_walls_over_nothing(planned.stats, scallop_check_.over_nothing());
-        constexpr double kShown = 1e-2;  // mm2
-        if (scallop_check_.blocked_area() > kShown) {
-            planned.stats.warnings.push_back(fmt::format(
-                "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
-                "undercuts, valleys narrower than the ball): stock is left there",
-                scallop_check_.blocked_area()));
-        }
+        const MeshLeft left = scallop_check_->left();
+        PlannedOperation planned = work_.finish(
+            row_, left.overflowed ? operation_.tool.radius : std::max(scallop_, left.most_left));
+        report_uncovered_points(planned.stats, left.uncovered, left.overflowed);
+        report_walls_over_nothing(planned.stats, left.over_nothing);
+        report_blocked(planned.stats, left, operation_.tool);
         planned.stats.counts.emplace_back("isocurves", curves_);
         planned.stats.counts.emplace_back("triangles",
                                           static_cast<double>(operation_.part.mesh.size()));
@@ -348,9 +355,10 @@ private:
     const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
-    double radius_;
+    toolpath::Tool tool_;  // with the band's offset
+    double radius_;        // mm, of that
     double scallop_;
-    MeshScallopCheck scallop_check_;
+    std::unique_ptr<MeshCheck> scallop_check_;
     Vec3d along_{1, 0, 0};
     Vec3d across_{0, 1, 0};
     Vec3d origin_;

@@ -8,11 +8,11 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Algorithm 1 of Elber & Cohen on the exact offset of the mesh: a ball dropped on the triangles of
+// Algorithm 1 of Elber & Cohen on the exact offset of the mesh: a tool dropped on the triangles of
 // `operation.mesh`. Isocurves run along x (`direction` "v": along y). If two neighbours leave
 // more than the scallop half way between them, that part of the middle isocurve is added, and so
 // on. Passes along mesh_pencil_curves() follow, then those over uncovered cells of
-// `MeshScallopCheck`, then those along vertical walls that it finds with stock left.
+// `MeshCheck`, then those along vertical walls that it finds with stock left.
 //
 // Not claimed by the scallop bound: vertical walls beside which the ball has nothing below it.
 toolpath::PlannedOperation plan_mesh_isocurves(const job::Job& job,

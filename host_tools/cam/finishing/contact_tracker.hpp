@@ -1,5 +1,5 @@
-// A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
-// the only one. If that fails, the whole model is searched.
+// A tool dropped at neighbouring points. Over surfaces it is a ball: its contact is tracked and proved to
+// be the only one. If that fails, and over a mesh, the whole model is searched.
 #pragma once
 
 #include <optional>
@@ -13,22 +13,22 @@ class ContactTracker {
 public:
     explicit ContactTracker(const GougeFreePathFitter& path_fitter) : path_fitter_{path_fitter} {}
 
-    struct BallPosition {
+    struct Position {
         Vec3d tip;
         CcParameters contact;
-        // Cosine of the angle between the normal at the contact and the direction to the centre:
-        // less than 1 on a rim or a crease, 0 on a trimmed edge.
+        // Cosine of the angle between the normal at the contact and the direction into the tool: less
+        // than 1 on a rim or a crease, 0 on a trimmed edge.
         double facing{1};
         Vec3d point{};  // of the model, where it touches
-        Vec3d lean{};   // unit, from there into the ball
+        Vec3d lean{};   // unit, from there into the tool
     };
 
-    // The ball of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
+    // The tool of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
     // only. Quickest near the last point.
-    std::optional<BallPosition> at(double x, double y);
+    std::optional<Position> at(double x, double y);
 
 private:
-    std::optional<BallPosition> beside(double x, double y);
+    std::optional<Position> beside(double x, double y);
 
     const GougeFreePathFitter& path_fitter_;
     CcParameters last_;

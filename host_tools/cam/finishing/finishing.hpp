@@ -1,4 +1,4 @@
-// Finishing with a ball: passes free of gouges, links between them, and the proof of the scallop.
+// Finishing: passes free of gouges, links between them, and the proof of the scallop.
 //
 //     const part_model::PartModel model{surfaces};
 //     GougeFreePathFitter fitter{model, ball, make_tolerance_band(0.01, true)};
@@ -20,11 +20,12 @@
 // move it proves a lower bound of the clearance from the model. ContactTracker drops the ball at
 // neighbouring places. Passes are linked along the model, or over it (link_passes).
 //
-// Scallops. SweptVolume is what the moves of all passes remove. ScallopCheck divides surfaces into
-// cells, MeshScallopCheck divides triangles, until one move proves each cell or the cell is known
-// to be uncovered. UncutWalls looks at vertical facets of either. ScallopAtPoint measures a single
-// point. If the ball cannot touch a point, ReachableHeight searches for its lowest position there,
-// LowerPositionProof proves that there is none lower, and VisibilityFromAbove excludes what other
+// Scallops. SweptVolume is what the moves of all passes of a ball remove, SweptTool those of any end.
+// ScallopCheck divides surfaces into cells, a MeshCheck divides triangles, until one move proves each cell
+// or the cell is known to be uncovered: MeshScallopCheck for a ball, EndScallopCheck for other ends.
+// UncutWalls looks at vertical facets. ScallopAtPoint measures a single point for a ball, MeshGround for
+// any end over a mesh. If the ball cannot touch a point, ReachableHeight searches for its lowest position
+// there, LowerPositionProof proves that there is none lower, and VisibilityFromAbove excludes what other
 // surfaces hide.
 #pragma once
 

@@ -29,6 +29,7 @@ constexpr double kSampleShare = 0.08;   // of the band: deviation between sample
 constexpr double kEdgeMargin = 1.05;    // of the band
 constexpr double kShortestLine = 0.01;  // mm
 constexpr double kContactSlack = 5e-6;  // mm: rounding of the contact itself
+constexpr double kDepthless = 1e-6;     // mm
 
 double distance_to_chord(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -131,6 +132,11 @@ bool GougeFreePathFitter::clears_edges(Vec3d a, Vec3d b) const
     return !edges_ || edges_->clears(a, b);
 }
 
+double GougeFreePathFitter::least_allowed() const
+{
+    return tool_.corner_radius > 0 ? -band_.max_gouge : std::max(kDepthless, -band_.max_gouge);
+}
+
 bool GougeFreePathFitter::is_clear(Vec3d tip) const
 {
     // The contact may lie on a trimmed edge, whose polyline deviates from it by edge_error().
@@ -213,18 +219,19 @@ Points GougeFreePathFitter::sample(const std::function<Vec3d(double)>& at,
 
 Points GougeFreePathFitter::sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc_parameters) const
 {
-    ContactTracker ball{*this};
+    ContactTracker tool{*this};
     std::map<double, CcParameters> contact_at;
     const auto tip = [&](double t) {
         const Vec3d p = a + (b - a) * t;
-        const auto found = ball.at(p.x, p.y);
+        const auto found = tool.at(p.x, p.y);
         if (cc_parameters != nullptr && found) {
             contact_at[t] = found->contact;
         }
         return found ? found->tip : Vec3d{p.x, p.y, std::min(a.z, b.z)};
     };
     const double length = elementary::hypot(b.x - a.x, b.y - a.y);
-    const double dip = std::sqrt(8 * tool_.radius * band_.half_width);
+    const double round = tool_.corner_radius > 0 ? tool_.corner_radius : tool_.radius;
+    const double dip = std::sqrt(8 * round * band_.half_width);
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / (kDropPiece * dip))));
     std::vector<double> breaks;
     for (int k = 0; k <= pieces; ++k) {
@@ -241,9 +248,9 @@ Points GougeFreePathFitter::sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc
 
 bool GougeFreePathFitter::is_line_clear(Vec3d a, Vec3d b)
 {
-    const double bound = model_.move_clearance(tool_, a, b, -band_.max_gouge,
+    const double bound = model_.move_clearance(tool_, a, b, least_allowed(),
                                                std::max(1e-6, 0.02 * band_.half_width));
-    if (bound < -band_.max_gouge - 1e-9) {
+    if (bound < least_allowed() - 1e-9) {
         return false;
     }
     least_clearance_ = std::min(least_clearance_, bound);
@@ -275,8 +282,9 @@ void GougeFreePathFitter::append_clear_line(Vec3d a, Vec3d b, int depth, Points&
         const double up = std::max(length, kShortestLine);
         const double top = std::max(a.z, b.z) + up;
         for (const Vec3d& next : {Vec3d{a.x, a.y, top}, Vec3d{b.x, b.y, top}, b}) {
-            least_clearance_ =
-                std::min(least_clearance_, model_.move_clearance(tool_, out.back(), next, 0, 1e-6));
+            least_clearance_ = std::min(
+                least_clearance_, model_.move_clearance(tool_, out.back(), next,
+                                                        std::max(0.0, least_allowed()), 1e-6));
             out.push_back(next);
         }
         return;
@@ -291,7 +299,7 @@ void GougeFreePathFitter::append_clear_line(Vec3d a, Vec3d b, int depth, Points&
 
 Vec3d GougeFreePathFitter::raised_clear(Vec3d tip) const
 {
-    if (model_.distance(tool_, tip, -band_.max_gouge + 1e-9).distance >= -band_.max_gouge - 1e-9) {
+    if (model_.distance(tool_, tip, least_allowed() + 1e-9).distance >= least_allowed() - 1e-9) {
         return tip;
     }
     const std::optional<Vec3d> on_model = drop(tip.x, tip.y);
@@ -391,7 +399,7 @@ bool GougeFreePathFitter::is_curve_clear(const std::array<Vec3d, 4>& b,
         return is_curve_clear({b[0], m0, q0, c}, depth + 1, least) &&
                is_curve_clear({c, q1, m2, b[3]}, depth + 1, least);
     }
-    const double sufficient = bow - band_.max_gouge;
+    const double sufficient = bow + least_allowed();
     const double bound = model_.move_clearance(tool_, b[0], b[3], sufficient,
                                                std::max(1e-6, 0.02 * band_.half_width));
     least = std::min(least, bound - bow);

@@ -25,7 +25,8 @@ class FinishArea;
 struct ToleranceBand {
     double offset{};
     double half_width{};
-    double max_gouge{};  // how deep the tool may cut into the model: 0 for a one-sided tolerance
+    // How deep the tool may cut into the model: 0 for a one-sided tolerance; < 0: it keeps off by that.
+    double max_gouge{};
 };
 
 // One-sided: the tool never cuts into the model and stays within `tolerance` of it; a fifth of the
@@ -34,7 +35,7 @@ ToleranceBand make_tolerance_band(double tolerance, bool one_sided);
 
 using Points = std::vector<Vec3d>;
 
-// The contact of a tip: the ball is `offset` off the surface there, along the normal, within a
+// The contact of a tip over surfaces: the ball is `offset` off the surface there, along the normal, within a
 // fiftieth of the band. Ends of lines are exact.
 struct CcParameters {
     int surface{-1};  // -1: not known
@@ -73,6 +74,10 @@ public:
     // The tool grown by the band's offset.
     const toolpath::Tool& offset_tool() const { return offset_tool_; }
     const part_model::PartModel& model() const { return model_; }
+
+    // mm: the clearance that moves need; > 0 for a tool without a corner radius, whose depth nothing
+    // measures.
+    double least_allowed() const;
 
     // True if the tool is at least `offset` off the whole model.
     bool is_clear(Vec3d tip) const;

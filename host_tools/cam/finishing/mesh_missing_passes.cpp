@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/finishing/joined_tips.hpp"
 #include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 #include "host_tools/cam/finishing/shares_of_neighbours.hpp"
 
@@ -30,7 +31,7 @@ struct MeshScallopCheck::Neighbours {
         found.reset();
         while (!over() && !found) {
             const std::size_t k = cells[next++];
-            if (const std::optional<Place> place = search->uncovered_point(open[k])) {
+            if (const std::optional<MeshPlace> place = search->uncovered_point(open[k])) {
                 found = k;
                 trace = search->longest_trace(*place);
             }
@@ -38,14 +39,13 @@ struct MeshScallopCheck::Neighbours {
     }
 };
 
-Points MeshScallopCheck::longest_trace(const Place& from) const
+Points MeshScallopCheck::longest_trace(const MeshPlace& from) const
 {
     if (from.normal.z < kUprightNormal) {
         return trace_level(from);
     }
-    Points one = trace(from, {1, 0, 0});
-    Points other = trace(from, {0, 1, 0});
-    return length_of(other) > length_of(one) ? other : one;
+    return longest_over_mesh(from, path_fitter_.model(), step(),
+                             [&](const MeshPlace& at) { return missing_tip(at, true); });
 }
 
 // Passes cut meanwhile only lower the stock: what misses none now misses none later.
@@ -53,7 +53,7 @@ std::vector<MeshScallopCheck::Neighbours> MeshScallopCheck::missing_by_neighbour
     const std::vector<Cell>& open)
 {
     std::vector<char> missing(open.size());
-    share_out(open.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+    work_of_copies(open.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
         missing[k] = copy.uncovered_point(open[k]).has_value() ? 1 : 0;
     });
     std::vector<std::size_t> cells;
@@ -99,7 +99,7 @@ std::vector<MeshScallopCheck::Cell> MeshScallopCheck::cut_missing(
             }
             has_cut = true;
             changed.push_back(*some.found);
-            for (const Points& run : places_.runs_of(some.trace)) {
+            for (const Points& run : joined_tips(some.trace, path_fitter_, step())) {
                 cut(run);
             }
         }

@@ -27,7 +27,7 @@ constexpr int kCrossingHalvings = 6;      // between two crossings
 constexpr double kShortestCrease = 0.05;  // radii
 constexpr std::size_t kMostGrid = 700;
 
-using Dropped = PartModel::DroppedBall;
+using Dropped = PartModel::DroppedTool;
 
 class PencilCurveFinder {
 public:
@@ -89,20 +89,19 @@ private:
 
     std::optional<Dropped> drop_at(Vec2d at) const
     {
-        return path_fitter_.model().drop_ball(at.x, at.y, radius_);
+        return path_fitter_.model().drop_tool(path_fitter_.offset_tool(), at.x, at.y);
     }
 
-    // Distance of two contacts less that of their centres.
+    // Distance of two contacts less that of the tips.
     static double jump(const Dropped& a, const Dropped& b)
     {
-        return norm(b.point - a.point) - norm(b.centre - a.centre);
+        return norm(b.point - a.point) - norm(b.tip - a.tip);
     }
 
     bool turned(const Dropped& a, const Dropped& b) const
     {
-        const double square = radius_ * radius_;
-        return dot(a.centre - a.point, b.centre - b.point) < kTurned * square &&
-               norm(b.point - a.point) > kApart * radius_ && jump(a, b) > 0;
+        return dot(a.lean, b.lean) < kTurned && norm(b.point - a.point) > kApart * radius_ &&
+               jump(a, b) > 0;
     }
 
     std::optional<Crossing> crossing(Vec2d from, Vec2d to) const
@@ -133,8 +132,9 @@ private:
         if (!turned(a, b)) {
             return std::nullopt;
         }
-        const Vec3d centre = a.centre.z < b.centre.z ? a.centre : b.centre;
-        return Crossing{from, to, centre - Vec3d{0, 0, path_fitter_.tool().radius}};
+        return Crossing{
+            from, to,
+            (a.tip.z < b.tip.z ? a.tip : b.tip) + Vec3d{0, 0, path_fitter_.band().offset}};
     }
 
     // The crossings of all sides of the grid.

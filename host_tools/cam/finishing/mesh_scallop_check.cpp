@@ -25,7 +25,6 @@ constexpr std::size_t kMostGaps = 300000;
 constexpr std::size_t kShares = 64;           // of a search on several threads
 constexpr std::size_t kEnoughFacets = 40000;  // effort of a copy, which then gives half of the rest
 constexpr double kSharedFacet = 4;  // in steps: larger ones are divided before they are shared
-constexpr int kFacetSharedHalvings = 24;
 constexpr int kWaysAround = 12;
 constexpr double kFallsOff = 0.5;  // radii
 
@@ -34,7 +33,7 @@ Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corne
 
 }  // namespace
 
-MeshScallopCheck::MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& triangles,
+MeshScallopCheck::MeshScallopCheck(const std::vector<Corners>& triangles,
                                    const GougeFreePathFitter& path_fitter,
                                    double scallop,
                                    double path_off)
@@ -165,8 +164,7 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
     }
     if (verdict != Verdict::kHalve || depth == 0) {
         if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && checking_) {
-            blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
-                                              cell.corners[2] - cell.corners[0]));
+            blocked_area_ += area_of(cell.corners);
         }
         // If the tool cannot touch there is usually no lower position. Rough meshes have very
         // many such cells.
@@ -180,43 +178,8 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
         }
         return;
     }
-    for (const Cell& half : halves_of(cell, longest_side(cell.corners).side)) {
-        check_cell(half, depth - 1);
-    }
-}
-
-MeshScallopCheck::LongSide MeshScallopCheck::longest_side(const std::array<Vec3d, 3>& corners)
-{
-    LongSide out{0, 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double length = norm(corners[(k + 1) % 3] - corners[k]);
-        if (k == 0 || length > out.length) {
-            out = {length, k};
-        }
-    }
-    return out;
-}
-
-std::array<MeshScallopCheck::Cell, 2> MeshScallopCheck::halves_of(const Cell& cell,
-                                                                  std::size_t side)
-{
-    const std::array<Vec3d, 3>& at = cell.corners;
-    const Vec3d half = (at[side] + at[(side + 1) % 3]) * 0.5;
-    const Vec3d across = at[(side + 2) % 3];
-    return {Cell{{at[side], half, across}, cell.normal},
-            Cell{{half, at[(side + 1) % 3], across}, cell.normal}};
-}
-
-// Cells that several threads share must not be too large for one.
-void MeshScallopCheck::divide(const Cell& cell, int depth, std::vector<Cell>& out) const
-{
-    const LongSide longest = longest_side(cell.corners);
-    if (depth == 0 || longest.length <= kSharedFacet * step()) {
-        out.push_back(cell);
-        return;
-    }
-    for (const Cell& half : halves_of(cell, longest.side)) {
-        divide(half, depth - 1, out);
+    for (const Corners& half : halves_of(cell.corners, longest_side(cell.corners).side)) {
+        check_cell({half, cell.normal}, depth - 1);
     }
 }
 
@@ -231,8 +194,7 @@ MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*ta
 {
 }
 
-ReachableHeight::Drops MeshScallopCheck::work_at(
-    OpenShare& share, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const
+ReachableHeight::Drops MeshScallopCheck::work_at(OpenShare& share, const CopyWork& work) const
 {
     MeshScallopCheck copy{*this, ForThread{}};
     copy.places_.begin_with(share.take_known());
@@ -249,7 +211,12 @@ ReachableHeight::Drops MeshScallopCheck::work_at(
 }
 
 void MeshScallopCheck::share_out(std::size_t count,
-                                 const std::function<void(MeshScallopCheck&, std::size_t)>& work)
+                                 const std::function<void(const MeshCheck&, std::size_t)>& work)
+{
+    work_of_copies(count, [&](const MeshScallopCheck& copy, std::size_t k) { work(copy, k); });
+}
+
+void MeshScallopCheck::work_of_copies(std::size_t count, const CopyWork& work)
 {
     std::vector<Share> shares(std::min(count, kShares));
     for (std::size_t k = 0; k < shares.size(); ++k) {
@@ -274,7 +241,9 @@ void MeshScallopCheck::check()
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
         if (!is_upright(facet.normal)) {
-            divide({corners, facet.normal}, kFacetSharedHalvings, cells);
+            for (const Corners& part : parts_of(corners, kSharedFacet * step())) {
+                cells.push_back({part, facet.normal});
+            }
         }
     }
     struct Finding {
@@ -283,7 +252,7 @@ void MeshScallopCheck::check()
         bool overflowed;
     };
     std::vector<Finding> found(cells.size());
-    share_out(cells.size(), [&](MeshScallopCheck& copy, std::size_t k) {
+    work_of_copies(cells.size(), [&](MeshScallopCheck& copy, std::size_t k) {
         copy.blocked_area_ = 0;
         copy.check_cell(cells[k], kFacetHalvings);
         found[k] = {std::move(copy.uncovered_), copy.blocked_area_, copy.overflowed_};
@@ -305,7 +274,7 @@ void MeshScallopCheck::check()
 
 // A tip that would cut the stock over a point down to the scallop; none where the point is covered,
 // or where the tool cannot touch it and `where_blocked` is false.
-std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
+std::optional<Vec3d> MeshScallopCheck::missing_tip(const MeshPlace& at, bool where_blocked) const
 {
     const bool steep = at.normal.z < kUprightNormal;
     const bool covered = steep ? places_.is_wall_cut(at.point, at.normal, kPlaceShare)
@@ -321,15 +290,15 @@ std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_b
 }
 
 // A point of the cell where a pass is missing.
-std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const Cell& cell) const
+std::optional<MeshPlace> MeshScallopCheck::uncovered_point(const Cell& cell) const
 {
-    const Place middle{cell.middle(), cell.normal};
+    const MeshPlace middle{cell.middle(), cell.normal};
     if (missing_tip(middle, true)) {
         return middle;
     }
     const bool falls_off = falls_off_beside(middle.point);
     for (const Vec3d& corner : cell.corners) {
-        const Place place{place_beside(corner, middle.point), cell.normal};
+        const MeshPlace place{place_beside(corner, middle.point), cell.normal};
         if (missing_tip(place, falls_off)) {
             return place;
         }
@@ -364,36 +333,6 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
     });
 }
 
-// The missing tips along a line over the mesh in plan, both ways, as far as tips are missing.
-Points MeshScallopCheck::trace(const Place& from, Vec3d way) const
-{
-    Points out;
-    for (const double sign : {-1.0, 1.0}) {
-        Place at = from;
-        for (int k = 0; k < kMostTraced; ++k) {
-            const std::optional<Vec3d> tip = missing_tip(at, true);
-            if (!tip) {
-                break;
-            }
-            if (k > 0 || sign < 0) {
-                out.push_back(*tip);
-            }
-            const double slant = dot(at.normal, way) / at.normal.z;
-            const Vec3d next =
-                at.point + way * (sign * kTraceStep * step() / std::sqrt(1 + slant * slant));
-            const auto top = path_fitter_.model().height_at(next.x, next.y);
-            if (!top) {
-                break;
-            }
-            at = {top->point, top->normal};
-        }
-        if (sign < 0) {
-            std::reverse(out.begin(), out.end());
-        }
-    }
-    return out;
-}
-
 void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&)>& cut)
 {
     for (int round = 0; round < kFacetRounds && !uncovered_.empty(); ++round) {
@@ -410,7 +349,7 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
 void MeshScallopCheck::measure_left()
 {
     std::vector<double> left(uncovered_.size());
-    share_out(uncovered_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+    work_of_copies(uncovered_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
         left[k] = copy.left_over(uncovered_[k]);
     });
     std::vector<Cell> kept;
@@ -424,10 +363,16 @@ void MeshScallopCheck::measure_left()
     most_left_ = std::max(most_left_, walls_.measure_left());
 }
 
+MeshLeft MeshScallopCheck::left() const
+{
+    return {blocked_area_, std::nullopt, uncovered_.size() + walls_.size(),
+            overflowed_,   most_left_,   over_nothing_};
+}
+
 // mm: the stock left where a pass is missing, above what the tool can reach; negative: none is.
 double MeshScallopCheck::left_over(const Cell& cell) const
 {
-    const std::optional<Place> place = uncovered_point(cell);
+    const std::optional<MeshPlace> place = uncovered_point(cell);
     if (!place) {
         return -1;
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 
 namespace cusp::finishing {
@@ -81,32 +80,37 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
     return {guess.radius, beside_edges, 0};
 }
 
-double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
-                           const GougeFreePathFitter& path_fitter,
-                           double path_off,
-                           const std::vector<Points>& cut,
-                           const ScallopGuess& guess)
+MeshLeft proved_mesh_scallop(const std::vector<Corners>& mesh,
+                             const GougeFreePathFitter& path_fitter,
+                             double path_off,
+                             const std::vector<Points>& cut,
+                             const ScallopGuess& guess)
 {
     double bound = first_bound(guess);
     double more = kMoreExpected;
     while (bound < guess.radius) {
-        MeshScallopCheck cells{mesh, path_fitter, bound, path_off};
+        const std::unique_ptr<MeshCheck> cells = mesh_check(mesh, path_fitter, bound, path_off);
         for (const Points& pass : cut) {
-            cells.add(pass);
+            cells->add(pass);
         }
-        cells.check();
-        if (cells.overflowed()) {
+        cells->check();
+        MeshLeft left = cells->left();
+        if (left.overflowed) {
             bound *= more;
             more *= more;
             continue;
         }
-        cells.measure_left();
-        if (cells.uncovered() == 0) {
-            return bound;
+        cells->measure_left();
+        left = cells->left();
+        if (left.uncovered == 0) {
+            left.most_left = bound;
+            return left;
         }
-        bound = kProvedMore * std::max(bound, cells.most_left());
+        bound = kProvedMore * std::max(bound, left.most_left);
     }
-    return guess.radius;
+    MeshLeft all;
+    all.most_left = guess.radius;
+    return all;
 }
 
 }  // namespace cusp::finishing

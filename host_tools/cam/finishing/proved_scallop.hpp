@@ -1,10 +1,10 @@
 // The scallop proved for passes at a given distance, where the job requests no scallop.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
+#include "host_tools/cam/finishing/mesh_check.hpp"
 
 namespace cusp::finishing {
 
@@ -34,11 +34,12 @@ ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
                              const std::vector<Points>& cut,
                              const ScallopGuess& guess);
 
-// The same for a mesh, by `MeshScallopCheck`; where the tool cannot touch, nothing is added.
-double proved_mesh_scallop(const std::vector<std::array<Vec3d, 3>>& mesh,
-                           const GougeFreePathFitter& path_fitter,
-                           double path_off,
-                           const std::vector<Points>& cut,
-                           const ScallopGuess& guess);
+// The same for a mesh and any end, by `MeshCheck`: `most_left` is the bound. Where the tool cannot touch,
+// nothing is added.
+MeshLeft proved_mesh_scallop(const std::vector<Corners>& mesh,
+                             const GougeFreePathFitter& path_fitter,
+                             double path_off,
+                             const std::vector<Points>& cut,
+                             const ScallopGuess& guess);
 
 }  // namespace cusp::finishing

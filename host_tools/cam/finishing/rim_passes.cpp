@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_tools/cam/finishing/finish_area.hpp"
+#include "host_tools/cam/finishing/joined_tips.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 #include "host_tools/geometry/part_model/surface_length.hpp"
 
@@ -52,7 +53,7 @@ void ScallopCheck::add_pass_over_rim(int surface,
     Points run;
     const auto close = [&] {
         if (!run.empty()) {
-            for (const Points& pass : places_.runs_of(run)) {
+            for (const Points& pass : joined_tips(run, path_fitter_, places_.step())) {
                 cut(pass);
             }
         }

@@ -18,9 +18,6 @@ constexpr double kDropAccuracy = 1e-4;
 constexpr double kLeastDropShare = 0.001;
 constexpr double kMostDropShare = 0.005;
 constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of searches
-constexpr double kTraceApart = 0.3;  // in stepovers: tips that one line may join
-constexpr double kFarApart = 0.5;    // radii: tips that one pass may join
-constexpr double kShortest = 1e-3;   // mm
 constexpr double kLevelWall = 1e-9;  // z of a normal: a wall has no height
 constexpr int kLeftHalvings = 20;
 
@@ -242,34 +239,6 @@ ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double
     const std::optional<ReachableHeight::Position> kept =
         reach_.lowest_clear_of_edges(point, *best, exact_below);
     return {kept ? over(kept->height) : 0, over(best->height)};
-}
-
-std::vector<Points> ScallopAtPoint::runs_of(const Points& tips) const
-{
-    // Drops are accurate to a micrometre only: a point at the limit may have had a tip in one query
-    // and none in the next.
-    if (tips.empty()) {
-        return {};
-    }
-    std::vector<Points> out{{tips.front()}};
-    for (std::size_t k = 1; k < tips.size(); ++k) {
-        const double apart = norm(tips[k] - out.back().back());
-        if (apart > kFarApart * radius_) {
-            out.push_back({tips[k]});
-            continue;
-        }
-        if (apart > kTraceApart * step_) {
-            const Points between = path_fitter_.sample_dropped(out.back().back(), tips[k]);
-            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
-        }
-        out.back().push_back(tips[k]);
-    }
-    for (Points& run : out) {
-        if (run.size() == 1) {
-            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
-        }
-    }
-    return out;
 }
 
 }  // namespace cusp::finishing

@@ -41,6 +41,9 @@ constexpr double kTraceStep = 0.125;
 constexpr int kMostTraced = 4000;
 // mm: how far a surface has to lie over a point to hide it.
 constexpr double kHidden = 1e-3;
+constexpr double kHiddenBeside = 1e-5;  // the same beside a wall: vertices of files are rounded
+// z of a normal: less is a vertical facet, which has no height.
+constexpr double kLevelFacet = 1e-9;
 
 // Not for use by two threads at once.
 
@@ -129,10 +132,6 @@ public:
     // The stock left at a point, along the normal; at most the radius. Values below `resolution`
     // may be inexact, which saves most of the search.
     Uncut uncut_at(Vec3d point, Vec3d normal, double resolution) const;
-
-    // Passes through the best tips of neighbouring points. Tips may lie apart (on two sides of a
-    // ridge): then the pass follows the model between them, or ends.
-    std::vector<Points> runs_of(const Points& tips) const;
 
 private:
     double left_from(Vec3d point, Vec3d normal, double height, double now) const;

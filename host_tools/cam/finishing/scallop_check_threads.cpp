@@ -5,6 +5,7 @@
 
 #include "host_tools/base/cancellation/cancellation.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
+#include "host_tools/cam/finishing/joined_tips.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 #include "host_tools/cam/finishing/shares_of_neighbours.hpp"
 
@@ -216,7 +217,7 @@ void ScallopCheck::cut_missing(OpenCells& open,
     }
     while (!by_surface.empty()) {
         for (const Points& one : next_traces(by_surface, open)) {
-            for (const Points& run : places_.runs_of(one)) {
+            for (const Points& run : joined_tips(one, path_fitter_, places_.step())) {
                 cut(run);
             }
         }

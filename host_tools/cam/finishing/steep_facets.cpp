@@ -9,18 +9,6 @@ namespace cusp::finishing {
 
 using part_model::Facet;
 
-namespace {
-
-constexpr double kLevelFacet = 1e-9;    // z of a normal: a facet has no height
-constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
-
-Vec3d level_along(Vec3d normal)
-{
-    return Vec3d{-normal.y, normal.x, 0} / elementary::hypot(normal.x, normal.y);
-}
-
-}  // namespace
-
 // True if the facet is so steep that nothing thicker than the scallop would fit between it and a
 // vertical line if it were as high as the model. Less than that would not do: the facets under it
 // lean out farther, and the tool passes at their foot.
@@ -32,7 +20,7 @@ bool MeshScallopCheck::is_upright(Vec3d normal) const
 }
 
 // On a steep wall rounding may raise the wall itself over the point.
-bool MeshScallopCheck::is_hidden(const Place& at) const
+bool MeshScallopCheck::is_hidden(const MeshPlace& at) const
 {
     if (at.normal.z >= kUprightNormal) {
         return is_hidden(at.point);
@@ -55,12 +43,12 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
             return Verdict::kCovered;
         }
     }
-    std::array<Place, 4> places;
+    std::array<MeshPlace, 4> places;
     for (std::size_t k = 0; k < 3; ++k) {
         places[k] = {cell.corners[k], cell.normal};
     }
     places[3] = {cell.middle(), cell.normal};
-    const auto hidden = [&](const Place& place) {
+    const auto hidden = [&](const MeshPlace& place) {
         return is_hidden(place);
     };
     if (longest >= kBlockedCell * step()) {
@@ -70,7 +58,7 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
     }
     bool clear = true;
     bool covered = true;
-    for (const Place& place : places) {
+    for (const MeshPlace& place : places) {
         if (!places_.is_wall_cut(place.point, place.normal, kPlaceShare) && !is_hidden(place)) {
             covered = false;
             clear = clear && path_fitter_.is_clear(places_.touching_tip(place.point, place.normal));
@@ -82,39 +70,26 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
     return clear ? Verdict::kUncovered : Verdict::kBlocked;
 }
 
-std::optional<MeshScallopCheck::Place> MeshScallopCheck::place_on(Vec3d at) const
-{
-    const auto top = path_fitter_.model().height_at(at.x, at.y);
-    return top ? std::optional{Place{top->point, top->normal}} : std::nullopt;
-}
-
 // The missing tips along a wall at the height of a point on it, both ways. If the wall turns, the
 // next point returns to that height.
-Points MeshScallopCheck::trace_level(const Place& from) const
+Points MeshScallopCheck::trace_level(const MeshPlace& from) const
 {
-    Points out;
-    for (const double sign : {-1.0, 1.0}) {
-        std::optional<Place> at = from;
-        for (int k = 0; k < kMostTraced && at && at->normal.z < kUprightNormal; ++k) {
-            const std::optional<Vec3d> tip = missing_tip(*at, true);
-            if (!tip) {
-                break;
+    const part_model::PartModel& model = path_fitter_.model();
+    const auto on_wall = [&](std::optional<MeshPlace> at) {
+        return at && at->normal.z < kUprightNormal ? at : std::nullopt;
+    };
+    return traced(
+        from, [&](const MeshPlace& at) { return missing_tip(at, true); },
+        [&](const MeshPlace& last, Vec3d /*tip*/, double way) {
+            const std::optional<MeshPlace> at = on_wall(place_on_mesh(
+                model, last.point + level_along(last.normal) * (way * kTraceStep * step())));
+            if (!at) {
+                return at;
             }
-            if (k > 0 || sign < 0) {
-                out.push_back(*tip);
-            }
-            at = place_on(at->point + level_along(at->normal) * (sign * kTraceStep * step()));
-            if (at && at->normal.z < kUprightNormal) {
-                const Vec3d n = at->normal;
-                const double back = (at->point.z - from.point.z) * n.z / (n.x * n.x + n.y * n.y);
-                at = place_on(at->point + Vec3d{n.x, n.y, 0} * back);
-            }
-        }
-        if (sign < 0) {
-            std::reverse(out.begin(), out.end());
-        }
-    }
-    return out;
+            const Vec3d n = at->normal;
+            const double back = (at->point.z - from.point.z) * n.z / (n.x * n.x + n.y * n.y);
+            return on_wall(place_on_mesh(model, at->point + Vec3d{n.x, n.y, 0} * back));
+        });
 }
 
 std::vector<WallFacet> MeshScallopCheck::vertical_facets() const

@@ -7,6 +7,7 @@
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/finishing/contact_tracker.hpp"
+#include "host_tools/geometry/part_model/certified_facets.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
@@ -39,6 +40,8 @@ constexpr double kOverStock = 1.0;     // mm above the stock at which rapids end
 constexpr double kLeastSize = 1e-6;    // mm
 constexpr double kLeastFacing = 1e-6;  // z of a normal
 constexpr double kChordOfBand = 0.2;   // of the band: between arcs or curves and their chords
+constexpr double kFacetShare = 0.1;    // of the tolerance: less than what passes keep of it
+constexpr double kShownArea = 1e-2;    // mm2
 constexpr double kAreaMargin = 0.25;   // of the stepover on level ground
 
 std::string file_of(const Operation& operation)
@@ -72,6 +75,24 @@ void check_clearance(const Job& job, const Operation& operation, const PartModel
     }
 }
 
+Operation faceted(const Operation& operation)
+{
+    Operation out = operation;
+    if (operation.tool.shape == ToolShape::kBall || operation.part.floor.empty()) {
+        return out;
+    }
+    const double scallop = operation.tolerance.scallop.value_or(operation.tolerance.floor);
+    const double error = kFacetShare * std::min(operation.tolerance.floor, scallop);
+    out.part.mesh = part_model::certified_facets(operation.part.floor, error);
+    out.part.floor.clear();
+    out.part.facet_error = error;
+    out.tolerance.floor -= error;
+    if (out.tolerance.scallop) {
+        *out.tolerance.scallop -= error;
+    }
+    return out;
+}
+
 SurfaceOperation::SurfaceOperation(const Job& job,
                                    const Operation& operation,
                                    std::vector<Surface> surfaces)
@@ -83,11 +104,11 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.part.mesh)
                                : std::make_unique<PartModel>(surfaces_);
     check_clearance(job, operation, *model_);
-    path_fitter_ = std::make_unique<GougeFreePathFitter>(
-        *model_, operation.tool,
-        make_tolerance_band(
-            operation.tolerance.floor,
-            surfaces_.empty() || operation.tolerance.side == ToleranceSide::kOutside));
+    ToleranceBand band = make_tolerance_band(
+        operation.tolerance.floor,
+        surfaces_.empty() || operation.tolerance.side == ToleranceSide::kOutside);
+    band.max_gouge -= operation.part.facet_error;
+    path_fitter_ = std::make_unique<GougeFreePathFitter>(*model_, operation.tool, band);
     path_fitter_->check_edge_gouges(surfaces_);
     path_fitter_->limit_to(std::make_shared<FinishArea>(operation, margin_of(operation)));
 }
@@ -127,13 +148,11 @@ void SurfaceOperation::check_form() const
 void SurfaceOperation::check_tool() const
 {
     const Tool& tool = operation_.tool;
-    if (tool.shape != ToolShape::kBall) {
+    if (tool.shape != ToolShape::kBall && !surfaces_.empty()) {
         throw InputError(fmt::format(
-            "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
-            "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
-            "grid_pocket finish with them)",
-            job_.file, operation_.name(), tool.number,
-            tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
+            "{}: {} finishes with a ball; tool {} has shape = \"{}\"; parallel_planes, waterline, "
+            "steep_shallow and adaptive_isocurve take any end",
+            job_.file, operation_.name(), tool.number, name_of(tool.shape)));
     }
     if (!(operation_.tolerance.floor < tool.radius)) {
         throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
@@ -359,7 +378,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound, 
     stats.cl_points = linked.points;
     stats.retracts = linked.retracts;
     stats.gouge_bound_mm = std::max(0.0, -path_fitter_->least_clearance());
-    stats.scallop_bound_mm = scallop_bound;
+    stats.scallop_bound_mm = scallop_bound + operation_.part.facet_error;
     stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
     if (upright_ > 0) {
         stats.warnings.push_back(fmt::format(
@@ -421,6 +440,20 @@ void report_left_beside_edges(OperationStats& stats, double beside_edges, double
             "tolerance_side = \"both\" passes keep clear of edges that the ball would gouge "
             "from the side",
             beside_edges));
+    }
+}
+
+void report_blocked(OperationStats& stats, const MeshLeft& left, const Tool& tool)
+{
+    stats.left_measured_mm = left.measured;
+    if (left.blocked_area > kShownArea) {
+        stats.warnings.push_back(fmt::format(
+            "on {:.3g} mm2 the {} does not touch the mesh (feet of walls, concave edges, "
+            "undercuts, valleys narrower than the tool): {}",
+            left.blocked_area, name_of(tool.shape),
+            left.measured ? fmt::format("up to {:.3g} mm is left there, measured and not proved",
+                                        *left.measured)
+                          : "stock is left there"));
     }
 }
 

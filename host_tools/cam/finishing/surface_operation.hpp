@@ -11,6 +11,7 @@
 
 #include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/finishing.hpp"
+#include "host_tools/cam/finishing/mesh_check.hpp"
 #include "host_tools/cam/finishing/passes_in_stock.hpp"
 #include "host_tools/job/job/job.hpp"
 
@@ -21,6 +22,10 @@ void check_clearance(const job::Job& job,
                      const job::Operation& operation,
                      const part_model::PartModel& model);
 
+// An operation that finishes with another end than a ball, over triangles in place of its surfaces. How
+// far they are off is taken from the tolerance and the scallop.
+job::Operation faceted(const job::Operation& operation);
+
 class SurfaceOperation {
 public:
     // surfaces  empty: the operation's mesh, for which a tolerance is always one-sided
@@ -28,8 +33,8 @@ public:
     // The scallop is proved, and passes are made, in the operation's FinishArea: its boundary, islands,
     // slopes and heights.
     //
-    // Throws InputError for a job that it cannot plan: another end than a ball, a surface without
-    // area, a part higher than the clearance height.
+    // Throws InputError for a job that it cannot plan: another end than a ball over surfaces (see
+    // faceted()), a surface without area, a part higher than the clearance height.
     SurfaceOperation(const job::Job& job,
                      const job::Operation& operation,
                      std::vector<nurbs::Surface> surfaces);
@@ -125,6 +130,11 @@ void report_left_beside_edges(toolpath::OperationStats& stats,
 // uncovered  number of uncovered cells
 // unseen     whether the check ended early
 void report_uncovered_points(toolpath::OperationStats& stats, std::size_t uncovered, bool unseen);
+
+// Adds a warning of ground that the tool can't touch, and what was measured there.
+void report_blocked(toolpath::OperationStats& stats,
+                    const MeshLeft& left,
+                    const toolpath::Tool& tool);
 
 // mm of walls beside which a ball has nothing of the part below.
 void report_walls_over_nothing(toolpath::OperationStats& stats, double length);

@@ -29,6 +29,13 @@ Json moves_of(const MoveCounts& moves)
             {"rapids", moves.rapids}};
 }
 
+void add_measured_to(Json& out, const OperationStats& stats)
+{
+    if (stats.left_measured_mm) {
+        out["left_measured_mm"] = *stats.left_measured_mm;
+    }
+}
+
 Json operation_stats(const PlannedOperation& operation, const PathMeasure& measured)
 {
     const OperationStats& stats = operation.stats;
@@ -51,6 +58,7 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
         const bool whole = value == std::floor(value) && std::abs(value) < kMostWhole;
         out[name] = whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
     }
+    add_measured_to(out, stats);
     if (stats.rest) {
         out["rest_machining"] = {{"programs", stats.rest->programs},
                                  {"removed_mm", stats.rest->removed_mm},
@@ -89,20 +97,33 @@ Json totals(const PlannedProgram& program)
         stats.gouge_bound_mm = std::max(stats.gouge_bound_mm, s.gouge_bound_mm);
         if (!finished || !s.roughing) {
             stats.scallop_bound_mm = std::max(stats.scallop_bound_mm, s.scallop_bound_mm);
+            stats.left_measured_mm = std::max(stats.left_measured_mm, s.left_measured_mm);
         }
     }
-    return {{"strategy", program.operations.front().stats.strategy},
-            {"passes", stats.passes},
-            {"levels", stats.levels},
-            {"cl_points", stats.cl_points},
-            {"moves", moves_of(moves)},
-            {"cut_length_mm", sum.cut_length_mm},
-            {"rapid_length_mm", sum.rapid_length_mm},
-            {"retracts", stats.retracts},
-            {"planning_s", stats.planning_s},
-            {"gouge_bound_mm", stats.gouge_bound_mm},
-            {"scallop_bound_mm", stats.scallop_bound_mm},
-            {"estimated_s", sum.estimated_s}};
+    Json out{{"strategy", program.operations.front().stats.strategy},
+             {"passes", stats.passes},
+             {"levels", stats.levels},
+             {"cl_points", stats.cl_points},
+             {"moves", moves_of(moves)},
+             {"cut_length_mm", sum.cut_length_mm},
+             {"rapid_length_mm", sum.rapid_length_mm},
+             {"retracts", stats.retracts},
+             {"planning_s", stats.planning_s},
+             {"gouge_bound_mm", stats.gouge_bound_mm},
+             {"scallop_bound_mm", stats.scallop_bound_mm},
+             {"estimated_s", sum.estimated_s}};
+    add_measured_to(out, stats);
+    return out;
+}
+
+// How far the bound of the scallop is proved.
+std::string words_of_measured(const Json& all)
+{
+    const auto measured = all.find("left_measured_mm");
+    return measured == all.end()
+               ? ""
+               : fmt::format(" where the end can touch, {:.4f} mm measured elsewhere",
+                             measured->get<double>());
 }
 
 }  // namespace
@@ -112,11 +133,11 @@ std::string summary_text(const PlannedProgram& program)
     const Json all = totals(program);
     return fmt::format(
         "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s\n"
-        "gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
+        "gouge at most {:.4f} mm, scallop at most {:.4f} mm{}; planned in {:.2f} s\n",
         all["cut_length_mm"].get<double>(), all["rapid_length_mm"].get<double>(),
         counted(all["retracts"].get<std::size_t>(), "retract"), all["estimated_s"].get<double>(),
         all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
-        all["planning_s"].get<double>());
+        words_of_measured(all), all["planning_s"].get<double>());
 }
 
 std::string statistics_json(const job::Job& job, const PlannedProgram& program)

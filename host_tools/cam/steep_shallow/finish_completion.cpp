@@ -5,7 +5,6 @@
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
-#include "host_tools/cam/finishing/mesh_scallop_check.hpp"
 #include "host_tools/cam/finishing/proved_scallop.hpp"
 #include "host_tools/cam/finishing/scallop_check.hpp"
 
@@ -14,9 +13,10 @@
 namespace cusp::steep_shallow {
 
 using finishing::CcParameterList;
-using finishing::MeshScallopCheck;
+using finishing::MeshCheck;
 using finishing::Points;
 using finishing::ProvedScallop;
+using finishing::report_blocked;
 using finishing::report_left_beside_edges;
 using finishing::report_uncovered_points;
 using finishing::report_walls_over_nothing;
@@ -57,9 +57,12 @@ PlannedOperation FinishCompletion::finished(double step, double lead_in)
     cut_.clear();
     job_.report_progress(kCompleted);
     PlannedOperation planned =
-        work_.finish(step, unseen_ ? operation_.tool.radius : bound_, lead_in);
-    report_uncovered_points(planned.stats, uncovered_, unseen_);
-    report_walls_over_nothing(planned.stats, over_nothing_);
+        work_.finish(step, left_.overflowed ? operation_.tool.radius : bound_, lead_in);
+    report_uncovered_points(planned.stats, left_.uncovered, left_.overflowed);
+    report_walls_over_nothing(planned.stats, left_.over_nothing);
+    if (left_.measured) {
+        report_blocked(planned.stats, left_, operation_.tool);
+    }
     report_left_beside_edges(planned.stats, beside_edges_, bound_);
     return planned;
 }
@@ -73,11 +76,12 @@ void FinishCompletion::prove(double step)
                                       {0, step, operation_.tool.radius, work_.outward()});
         bound_ = proved.bound;
         beside_edges_ = proved.beside_edges;
-        over_nothing_ = proved.over_nothing;
+        left_.over_nothing = proved.over_nothing;
     } else {
-        bound_ = finishing::proved_mesh_scallop(operation_.part.mesh, work_.path_fitter(),
-                                                work_.path_off(), cut_,
-                                                {0, step, operation_.tool.radius, work_.outward()});
+        left_ = finishing::proved_mesh_scallop(operation_.part.mesh, work_.path_fitter(),
+                                               work_.path_off(), cut_,
+                                               {0, step, operation_.tool.radius, work_.outward()});
+        bound_ = left_.most_left;
     }
 }
 
@@ -97,37 +101,35 @@ void FinishCompletion::complete_surfaces()
     for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
         cells.add_rim_passes(static_cast<int>(k), cut);
     }
-    take(cells);
+    left_ = {0,
+             std::nullopt,
+             cells.uncovered(),
+             cells.overflowed(),
+             cells.most_left(),
+             cells.over_nothing()};
+    bound_ = std::max(*operation_.tolerance.scallop, left_.most_left);
     beside_edges_ = cells.left_beside_edges();
 }
 
 void FinishCompletion::complete_mesh()
 {
-    MeshScallopCheck cells{operation_.part.mesh, work_.path_fitter(), *operation_.tolerance.scallop,
-                           work_.path_off()};
+    const std::unique_ptr<MeshCheck> cells = finishing::mesh_check(
+        operation_.part.mesh, work_.path_fitter(), *operation_.tolerance.scallop, work_.path_off());
     for (const Points& pass : cut_) {
-        cells.add(pass);
+        cells->add(pass);
     }
     // Along creases the proof is quick where a pass is: nothing lower is to be found.
     for (const Points& crease :
-         finishing::mesh_pencil_curves(work_.path_fitter(), kCreasePitch * cells.step())) {
+         finishing::mesh_pencil_curves(work_.path_fitter(), kCreasePitch * cells->step())) {
         for (const Points& pass : work_.creases_in_area(crease)) {
-            cells.add(work_.add_pass(pass));
+            cells->add(work_.add_pass(pass));
         }
     }
-    cells.check();
+    cells->check();
     job_.report_progress(kChecked);
-    cells.add_missing_passes([&](const Points& pass) { cells.add(work_.add_pass(pass)); });
-    take(cells);
-}
-
-template <typename Check>
-void FinishCompletion::take(const Check& cells)
-{
-    bound_ = std::max(*operation_.tolerance.scallop, cells.most_left());
-    uncovered_ = cells.uncovered();
-    unseen_ = cells.overflowed();
-    over_nothing_ = cells.over_nothing();
+    cells->add_missing_passes([&](const Points& pass) { cells->add(work_.add_pass(pass)); });
+    left_ = cells->left();
+    bound_ = std::max(*operation_.tolerance.scallop, left_.most_left);
 }
 
 void FinishCompletion::report(double from, double to, double share) const

@@ -26,7 +26,7 @@ public:
     void cut(finishing::SurfaceOperation::FittedPass pass);
 
     // Links all passes. With `step_over` the scallop that they keep is proved; else the passes are
-    // added that the scallop lacks. For other ends than a ball what is left is measured, and told.
+    // added that the scallop lacks.
     //
     // step     mm: of neighbouring passes
     // lead_in  mm: radius of level entries and exits
@@ -36,8 +36,6 @@ private:
     void prove(double step);
     void complete_surfaces();
     void complete_mesh();
-    template <typename Check>
-    void take(const Check& cells);
     void report(double from, double to, double share) const;
 
     const job::Job& job_;
@@ -46,9 +44,7 @@ private:
     std::vector<finishing::Points> cut_;
     double bound_{};         // mm: of the scallop
     double beside_edges_{};  // mm
-    double over_nothing_{};  // mm
-    std::size_t uncovered_{};
-    bool unseen_{};
+    finishing::MeshLeft left_;
 };
 
 // Share of the progress at which all planes and levels are made.

@@ -23,6 +23,7 @@ using waterline_slices::SliceSettings;
 namespace {
 
 constexpr double kPitch = 1.0 / 6;    // radii: of slices
+constexpr double kCorners = 3;        // corner radii: the same, where that is less
 constexpr int kMostTurns = 12;        // of Newton's method
 constexpr double kNear = 0.03;        // of the band: how exact
 constexpr double kLeastFlat = 0.05;   // cosine: flatter ground is not followed
@@ -35,15 +36,18 @@ constexpr double kShortest = 1e-6;    // mm
 
 SliceSettings settings_of(const SurfaceOperation& work)
 {
-    const double radius = work.path_fitter().tool().radius;
-    const double pitch = kPitch * radius;
+    const Tool& tool = work.path_fitter().tool();
+    const double radius = tool.radius;
+    const double pitch =
+        kPitch *
+        (tool.corner_radius > 0 ? std::min(radius, kCorners * tool.corner_radius) : radius);
     const double around = kAround * radius;
     const Vec3d low = work.model().box_low();
     const Vec3d high = work.model().box_high();
     SliceSettings out;
     out.clearance = work.path_fitter().band().offset;
     // So that the slices are no finer than that.
-    const double least = work.path_fitter().tool().corner_radius + out.clearance;
+    const double least = tool.corner_radius + out.clearance;
     out.excess = std::sqrt(least * least + pitch * pitch / 2) - least;
     out.least_pitch = pitch;
     out.field = {low.x - around, low.y - around, high.x + around, high.y + around};
@@ -94,7 +98,12 @@ LevelCurves::Touch LevelCurves::touch(Vec2d near, double z) const
         const double reach = norm(into);
         const double over = found.distance - wanted;
         if (!(reach > kShortest)) {
-            break;
+            // In the part, with no way out to be seen: back to where the tool was clear.
+            if (!(best_over < kInfinite)) {
+                break;
+            }
+            at = (at + Vec2d{best.tip.x, best.tip.y}) * 0.5;
+            continue;
         }
         if (over >= -exact && over < best_over) {
             best = {tip, found.nearest, into / reach};
@@ -120,6 +129,7 @@ bool LevelCurves::rests(Vec3d tip) const
     Tool thin = work_.path_fitter().tool();
     thin.radius *= kClearOfWall;
     thin.corner_radius *= kClearOfWall;
+    thin.tip_radius *= kClearOfWall;
     return work_.model().drop_height(thin, tip.x, tip.y).has_value();
 }
 

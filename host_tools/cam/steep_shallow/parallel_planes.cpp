@@ -17,6 +17,7 @@ namespace cusp::steep_shallow {
 
 using finishing::CcParameterList;
 using finishing::ContactTracker;
+using finishing::faceted;
 using finishing::FinishArea;
 using finishing::Points;
 using finishing::SurfaceOperation;
@@ -34,6 +35,7 @@ constexpr double kShortestPlaneRun = 1e-3;  // mm
 // Share of the stepover on level ground: points that require less (75 degrees steep, or nearly as
 // hollow as the ball) do not count; they get passes of their own.
 constexpr double kLeastPlaneShare = 0.25;
+constexpr double kSteepestAcross = 0.96;  // sine of the slope of facets, likewise
 constexpr double kMostPlanes = 20000;
 
 class PlanePasses {
@@ -113,8 +115,10 @@ private:
             const Vec3d normal = n / (n.z < 0 ? -norm(n) : norm(n));
             const Vec3d middle = (facet[0] + facet[1] + facet[2]) / 3.0;
             const double size = norm(facet[1] - facet[0]) + norm(facet[2] - facet[0]);
-            if (!area_.is_beyond(middle, size, normal, 0)) {
-                ask(section.on_facet(normal, across_));
+            const double sine = dot(normal, across_);
+            if (sine * sine < kSteepestAcross * kSteepestAcross &&
+                !area_.is_beyond(middle, size, normal, 0)) {
+                least = std::min(least, section.on_facet(normal, across_));
             }
         }
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
@@ -148,10 +152,10 @@ private:
 
     // The tool dropped there, where it touches the model. Beyond the model's box it may overhang the
     // rim by a step, since the last pass is less than a step from the rim.
-    std::optional<ContactTracker::BallPosition> touching(double s, double t)
+    std::optional<ContactTracker::Position> touching(double s, double t)
     {
         const Vec3d at = place(s, t);
-        std::optional<ContactTracker::BallPosition> found = tool_.at(at.x, at.y);
+        std::optional<ContactTracker::Position> found = tool_.at(at.x, at.y);
         const bool over_box =
             at.x >= low_.x && at.x <= high_.x && at.y >= low_.y && at.y <= high_.y;
         if (found && !over_box && found->facing < least_facing_) {
@@ -252,10 +256,11 @@ double cut_planes(const Job& job,
     return PlanePasses{job, operation, work, area, passes}.cut();
 }
 
-std::vector<PlannedOperation> plan_parallel_planes(const Job& job, const Operation& operation)
+std::vector<PlannedOperation> plan_parallel_planes(const Job& job, const Operation& given)
 {
     const auto begin = std::chrono::steady_clock::now();
-    check_sizes(job, operation);
+    check_sizes(job, given);
+    const Operation operation = faceted(given);
     SurfaceOperation work{job, operation, operation.part.floor};
     FinishCompletion passes{job, operation, work};
     const double step = cut_planes(job, operation, work, work.area(), passes);

@@ -18,7 +18,7 @@ extern const job::Strategy kParallelPlanes;
 // `plan_adaptive_isocurve`.
 //
 // With `scallop` alone, passes are added where the planes leave more, as `ScallopCheck` and
-// `MeshScallopCheck` find; scallop_bound_mm is what they prove. With `step_over` none are added, and
+// `MeshCheck` find; scallop_bound_mm is what they prove. With `step_over` none are added, and
 // it is a bound of what the planes leave, at most the tool's radius.
 //
 // Errors: InputError as `SurfaceOperation`; neither step_over nor scallop given; more than 20 000

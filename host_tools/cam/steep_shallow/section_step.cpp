@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/geometry/part_model/tool_cap.hpp"
 #include "host_tools/geometry/toolpath/stepover.hpp"
 
 namespace cusp::steep_shallow {
 
 using nurbs::SurfacePoint;
+using part_model::cap_reach;
 using toolpath::stepover;
 
 namespace {
 
 constexpr double kMeshShare = 0.9;      // of the stepover on a flat facet: meshes bend
+constexpr double kWidest = 1.8;         // radii
 constexpr double kScallopShare = 0.99;  // the rest is for bends along the path
 
 // The projection of a unit vector onto the tangent plane: its length is the cosine of their angle.
@@ -23,10 +26,21 @@ Vec3d along_ground(Vec3d across, Vec3d normal) { return across - normal * dot(ac
 
 SectionStep::SectionStep(const finishing::SurfaceOperation& work, double scallop)
     : work_{work},
-      radius_{work.path_fitter().tool().corner_radius},
+      profile_{work.path_fitter().tool()},
+      radius_{work.path_fitter().tool().radius},
       height_{kScallopShare * (scallop - work.outward())},
-      widest_{stepover(radius_, height_, 0)}
+      widest_{width({0, 0, 1}, {1, 0, 0})}
 {
+}
+
+// mm: between passes of any end over a plane, along a unit vector in it. What a flank reaches up a wall
+// counts as no more than the end does on level ground.
+double SectionStep::width(Vec3d normal, Vec3d way) const
+{
+    const double level = cap_reach(profile_, {0, 0, 1}, {1, 0, 0}, height_);
+    return std::min(kWidest * radius_,
+                    std::min(level, cap_reach(profile_, normal, way, height_)) +
+                        std::min(level, cap_reach(profile_, normal, -way, height_)));
 }
 
 std::optional<double> SectionStep::at(
@@ -58,7 +72,9 @@ std::optional<double> SectionStep::at(
 
 double SectionStep::on_facet(Vec3d normal, Vec3d across) const
 {
-    return kMeshShare * widest_ * norm(along_ground(across, normal));
+    const Vec3d step = along_ground(across, normal);
+    const double cosine = norm(step);
+    return cosine > 0 ? kMeshShare * width(normal, step / cosine) * cosine : 0;
 }
 
 }  // namespace cusp::steep_shallow

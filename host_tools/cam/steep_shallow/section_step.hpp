@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "host_tools/cam/finishing/surface_operation.hpp"
+#include "host_tools/geometry/part_model/facet_drop.hpp"
 
 namespace cusp::steep_shallow {
 
@@ -22,12 +23,15 @@ public:
     std::optional<double> at(
         int surface, double u, double v, Vec3d across, double least_cosine = 1e-6) const;
 
-    // Likewise on flat ground of this normal, or on a facet of a mesh, which bends.
+    // Likewise on flat ground of this normal, or on a facet of a mesh, which bends; for any end.
     double on_facet(Vec3d normal, Vec3d across) const;
 
 private:
+    double width(Vec3d normal, Vec3d way) const;
+
     const finishing::SurfaceOperation& work_;
-    double radius_;  // mm: of the ball, or of the corner
+    part_model::ToolProfile profile_;
+    double radius_;  // mm: of the ball
     double height_;  // mm, of the scallop between passes on the path itself
     double widest_;
 };

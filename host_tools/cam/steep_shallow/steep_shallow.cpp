@@ -10,6 +10,7 @@
 
 namespace cusp::steep_shallow {
 
+using finishing::faceted;
 using finishing::FinishArea;
 using finishing::SurfaceOperation;
 using job::Job;
@@ -48,20 +49,22 @@ std::vector<PlannedOperation> timed(PlannedOperation planned,
 
 }  // namespace
 
-std::vector<PlannedOperation> plan_waterline(const Job& job, const Operation& operation)
+std::vector<PlannedOperation> plan_waterline(const Job& job, const Operation& given)
 {
     const auto begin = std::chrono::steady_clock::now();
-    check_sizes(job, operation);
+    check_sizes(job, given);
+    const Operation operation = faceted(given);
     SurfaceOperation work{job, operation, operation.part.floor};
     FinishCompletion passes{job, operation, work};
     const double step = cut_levels(job, operation, work, work.area(), passes);
     return timed(passes.finished(step, kLeadIn * operation.tool.radius), begin);
 }
 
-std::vector<PlannedOperation> plan_steep_shallow(const Job& job, const Operation& operation)
+std::vector<PlannedOperation> plan_steep_shallow(const Job& job, const Operation& given)
 {
     const auto begin = std::chrono::steady_clock::now();
-    check_sizes(job, operation);
+    check_sizes(job, given);
+    const Operation operation = faceted(given);
     const double steep_from = finish_keys(operation).steep_from;
     SurfaceOperation work{job, operation, operation.part.floor};
     FinishCompletion passes{job, operation, work};

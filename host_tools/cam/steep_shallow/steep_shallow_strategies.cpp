@@ -47,7 +47,7 @@ std::any read_both(const KeyValues& values, const Operation& operation, const Re
 
 void check_planes(const Operation& operation, const Refuse& refuse)
 {
-    check_end(operation, refuse);
+    check_finishing_end(operation, refuse);
     need(operation.passes.step_over || operation.tolerance.scallop, "step_over", "it or scallop",
          operation, refuse);
     check_adaptive_roughing(operation, refuse);
@@ -55,7 +55,7 @@ void check_planes(const Operation& operation, const Refuse& refuse)
 
 void check_levels(const Operation& operation, const Refuse& refuse)
 {
-    check_end(operation, refuse);
+    check_finishing_end(operation, refuse);
     need(operation.tolerance.scallop.has_value(), "scallop",
          "the height of the scallops that may remain", operation, refuse);
     check_adaptive_roughing(operation, refuse);

@@ -91,6 +91,8 @@ struct OperationStats {
     int retracts{};
     double gouge_bound_mm{};
     double scallop_bound_mm{};
+    // Most stock over ground that the tool can't touch, where it is measured and the bound not proved.
+    std::optional<double> left_measured_mm{};
     double planning_s{};
     // loops, isocurves, layers, cells, backtracks...
     std::vector<std::pair<std::string, double>> counts;

@@ -245,11 +245,21 @@ void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& to
                         "give two at most",
                         request.tools[1]));
     }
-    if (!request.boundary && tools.back().shape != "ball") {
+    // What roughs: all but the last one, or that alone.
+    const std::size_t rough = tools.size() > 1 ? tools.size() - 1 : request.roughing ? 1 : 0;
+    for (std::size_t i = 0; i < rough; ++i) {
+        if (tools[i].taper_angle > 0) {
+            throw InputError(fmt::format(
+                "--tool {}: a taper only finishes: give a flat end, a bull or a ball before it, or "
+                "--no-roughing",
+                request.tools[i]));
+        }
+    }
+    if (request.boundary && tools.back().taper_angle > 0) {
         throw InputError(fmt::format(
-            "--tool {}: comes last and so finishes, for which a part needs a ball: --tool {} "
-            "ball:6; inside a --boundary any tool finishes",
-            request.tools.back(), request.tools.back()));
+            "--tool {}: a taper finishes whole parts; inside a --boundary a ball, flat or "
+            "bull does",
+            request.tools.back()));
     }
 }
 

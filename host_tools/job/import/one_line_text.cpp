@@ -70,6 +70,9 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
         if (choice.tools[i].corner_radius > 0) {
             out += fmt::format("corner_radius = {}\n", choice.tools[i].corner_radius);
         }
+        if (choice.tools[i].taper_angle > 0) {
+            out += fmt::format("taper_angle = {}\n", choice.tools[i].taper_angle);
+        }
         if (choice.tools[i].tip_angle > 0) {
             out += fmt::format("tip_angle = {}\n", choice.tools[i].tip_angle);
         }

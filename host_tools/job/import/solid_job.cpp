@@ -2,6 +2,7 @@
 #include "host_tools/job/import/solid_job.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -31,6 +32,7 @@ namespace {
 constexpr double kLeastSlant = 0.05;  // mm^2
 constexpr double kLeastUncut = 1.0;   // mm^2
 constexpr double kPeckFrom = 3;       // diameters
+constexpr std::array<const char*, 3> kFinishing{"ball", "bull", "taper"};
 
 bool has_shape(const OneLineRequest& request, const char* shape)
 {
@@ -67,8 +69,8 @@ public:
         const Vec3d size = ground.box.size();
         check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
         const bool slants = ground.slanted > kLeastSlant;
-        const bool has_ball = has_shape(request_, "ball");
-        // A ball finishes slanted ground, and a part of which nothing is below its top.
+        const bool has_ball = !finishing_end().empty();
+        // A ball, a bull or a taper finishes slanted ground, and a part of which nothing is below its top.
         cuts_.is_all = !(has_ball && (slants || ground.openings.empty()));
         if (cuts_.is_all && flats_.empty()) {
             throw InputError(
@@ -118,6 +120,15 @@ private:
         return fmt::format(
             "\n[[operation]]\nstrategy = \"{}\"\n{}", strategy_for(region, strategies_).name,
             boundary.empty() ? "" : fmt::format("boundary = {}\n", quoted(boundary)));
+    }
+
+    // The shape of a tool of the call that finishes slanted ground; empty: there is none.
+    std::string finishing_end() const
+    {
+        const auto found =
+            std::find_if(kFinishing.begin(), kFinishing.end(),
+                         [&](const char* shape) { return has_shape(request_, shape); });
+        return found == kFinishing.end() ? "" : *found;
     }
 
     // The vertical holes of a model that a tool of the call has the diameter of.
@@ -277,7 +288,8 @@ private:
             }
         }
         if (!slants && has_ball) {
-            cuts_.said.push_back("all ground is level: the ball is not used");
+            cuts_.said.push_back(
+                fmt::format("all ground is level: the {} is not used", finishing_end()));
         }
     }
 

@@ -69,6 +69,8 @@ double angle_of(const std::string& text, const std::string& field)
     return found->value;
 }
 
+constexpr const char* kTaper = "taper";
+
 bool has_tip(const std::string& shape) { return shape == "drill" || shape == "vee"; }
 
 void check_fields(const std::string& text, const std::string& shape, std::size_t count)
@@ -76,6 +78,15 @@ void check_fields(const std::string& text, const std::string& shape, std::size_t
     if (count > 3 && has_tip(shape)) {
         refuse(text,
                fmt::format("a {} has a diameter and the angle of its tip: {}:6:90", shape, shape));
+    }
+    if (shape == kTaper) {
+        if (count != 4) {
+            refuse(
+                text,
+                "a taper has a diameter, the angle of its flank from the axis, and the radius of "
+                "the ball at its tip: taper:6:5:0.5");
+        }
+        return;
     }
     const bool bull = shape == "bull";
     if (count > (bull ? 3U : 2U) && !has_tip(shape)) {
@@ -95,10 +106,12 @@ NamedTool tool_of_text(const std::string& text, bool inch)
     NamedTool tool;
     tool.shape = fields[0];
     const bool bull = tool.shape == "bull";
-    if (tool.shape != "ball" && tool.shape != "flat" && !bull && !has_tip(tool.shape)) {
+    if (tool.shape != "ball" && tool.shape != "flat" && !bull && !has_tip(tool.shape) &&
+        tool.shape != kTaper) {
         refuse(text,
                fmt::format("no shape is named \"{}\": ball:DIAMETER, flat:DIAMETER or "
-                           "bull:DIAMETER:CORNER_RADIUS; for drawings also drill:DIAMETER and "
+                           "bull:DIAMETER:CORNER_RADIUS; as a last tool "
+                           "taper:DIAMETER:ANGLE:BALL_RADIUS; for drawings also drill:DIAMETER and "
                            "vee:DIAMETER:ANGLE",
                            tool.shape));
     }
@@ -108,11 +121,15 @@ NamedTool tool_of_text(const std::string& text, bool inch)
     if (has_tip(tool.shape)) {
         const bool known = tool.shape == "drill" && fields.size() == 2;
         tool.tip_angle = known ? kDrillTip : angle_of(text, last);
-    } else if (bull) {
-        tool.corner_radius = length_of(text, "corner radius", last, inch);
-        if (tool.corner_radius > tool.diameter / 2) {
-            refuse(text, fmt::format("the corner radius is {:g}, the tool's radius only {:g}",
-                                     tool.corner_radius, tool.diameter / 2));
+    } else if (bull || tool.shape == kTaper) {
+        const bool tapers = !bull;
+        tool.taper_angle = tapers ? angle_of(text, last) : 0;
+        tool.corner_radius = length_of(text, "corner radius", tapers ? fields[3] : last, inch);
+        if (tool.corner_radius > tool.diameter / 2 || (tapers && !(tool.taper_angle < 90))) {
+            refuse(text, tapers && !(tool.taper_angle < 90)
+                             ? "the angle of a taper's flank from the axis is below 90 degrees"
+                             : fmt::format("the corner radius is {:g}, the tool's radius only {:g}",
+                                           tool.corner_radius, tool.diameter / 2));
         }
     }
     return tool;
@@ -122,7 +139,10 @@ std::string words_of(const NamedTool& tool, bool inch)
 {
     const char* unit = inch ? "inch" : "mm";
     std::string words = fmt::format("{} {:.6g} {}", tool.shape, tool.diameter, unit);
-    if (tool.corner_radius > 0) {
+    if (tool.taper_angle > 0) {
+        words += fmt::format(" of {:g} degrees with a ball of {:.6g} {}", tool.taper_angle,
+                             2 * tool.corner_radius, unit);
+    } else if (tool.corner_radius > 0) {
         words += fmt::format(" with corners of {:.6g} {}", tool.corner_radius, unit);
     }
     if (tool.shape == "vee") {

@@ -65,6 +65,8 @@ struct CutPart {
     std::vector<std::string> intersect_files;
     // The triangles, where all of the floor is STL and the strategy takes a mesh; `floor` is empty then.
     std::vector<std::array<Vec3d, 3>> mesh;
+    // mm: how far triangles may be off surfaces that they stand for.
+    double facet_error{};
 };
 
 // The loops in which it is cut, seen from above.

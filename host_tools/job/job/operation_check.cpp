@@ -1,6 +1,8 @@
 // Checks an operation as a whole, strategy by strategy.
 #include "host_tools/job/job/operation_check.hpp"
 
+#include <algorithm>
+
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/job/level_floor.hpp"
@@ -128,6 +130,20 @@ void check_end(const Operation& operation, const Refuse& refuse)
         refuse("tool",
                fmt::format("tool {} is {}: {} needs a ball, flat or bull end",
                            operation.tool.number, name_of(operation.tool.shape), operation.name()));
+    }
+}
+
+void check_finishing_end(const Operation& operation, const Refuse& refuse)
+{
+    const auto is_taper = [](const Tool& tool) {
+        return tool.shape == toolpath::ToolShape::kTaper;
+    };
+    if (!is_taper(operation.tool)) {
+        check_end(operation, refuse);
+    }
+    if (operation.passes.roughing &&
+        std::any_of(operation.tools.begin(), operation.tools.end(), is_taper)) {
+        refuse("tools", "has a taper, which does not rough: name a flat, bull or ball end");
     }
 }
 

@@ -24,8 +24,10 @@ double flank_height(const toolpath::Tool& tool);
 void check_sideways(const Operation& operation, const Refuse& refuse);
 // The depth is given, and a tool with vertical flanks.
 void check_level(const Operation& operation, const Refuse& refuse);
-// Cones cut no surfaces.
+// A ball, flat or bull end.
 void check_end(const Operation& operation, const Refuse& refuse);
+// The same or a taper: what finishes parts. A taper does not rough.
+void check_finishing_end(const Operation& operation, const Refuse& refuse);
 // Strategies that always finish: min_depth needs layers.
 void check_least_depth(const Operation& operation, const Refuse& refuse);
 // Pockets with walls: boundary, scallop, layers and roughing.

@@ -78,6 +78,20 @@ const Tool& tool_of(const Job& job, int number, const std::string& program)
     throw InputError(fmt::format("{}: T{} is no tool of the job {}", program, number, job.file));
 }
 
+std::vector<int> measured_tools_of(const Job& job)
+{
+    std::vector<int> out;
+    for (const Operation& operation : job.operations) {
+        const int number = operation.tool.number;
+        if (operation.tolerance.scallop && job::finishes_ground(operation) &&
+            operation.tool.shape != toolpath::ToolShape::kBall &&
+            std::find(out.begin(), out.end(), number) == out.end()) {
+            out.push_back(number);
+        }
+    }
+    return out;
+}
+
 ToolFigures& figures_of(const Tool& tool, VerifyFigures& figures)
 {
     for (ToolFigures& known : figures.tools) {
@@ -98,6 +112,7 @@ void read_positions(Verifying& work)
     program = read_program(work.job, work.program_file, work.job.stock_top + kStartAbove);
     VerifyFigures& figures = work.result.figures;
     figures.moves = program.counts;
+    figures.measured_tools = measured_tools_of(work.job);
     work.spacing = work.settings.spacing.value_or(position_spacing(work.job));
     std::vector<ToolPositions>& runs = work.runs;
     int current = -1;

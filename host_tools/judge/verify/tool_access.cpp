@@ -23,6 +23,7 @@ constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
 // every kAgain-th point.
 constexpr int kMostFailures = 4;
 constexpr int kAgain = 8;
+constexpr int kConeGrid = 6;  // places a radius
 
 }  // namespace
 
@@ -101,15 +102,59 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, 
     return rest;
 }
 
+double ToolAccess::lowest_of_cone(Cutter& cutter, Vec3d place, Vec2d touching)
+{
+    const Tool& tool = cutter.tool;
+    double lowest = kInfinite;
+    Vec2d best = touching;
+    const auto try_at = [&](Vec2d at) {
+        const double away = norm(at - Vec2d{place.x, place.y});
+        if (!(away <= tool.radius)) {
+            return false;
+        }
+        const double end = drop_at(cutter, at.x, at.y).centre.z;
+        const double height =
+            end - cutter.grown_tool.corner_radius + path_clearance_ + profile_height(tool, away);
+        if (!(height < lowest)) {
+            return false;
+        }
+        lowest = height;
+        best = at;
+        return true;
+    };
+    try_at(touching);
+    if (lowest <= place.z + kTouches + path_clearance_) {
+        return lowest;
+    }
+    for (int i = -kConeGrid; i <= kConeGrid; ++i) {
+        for (int j = -kConeGrid; j <= kConeGrid; ++j) {
+            const double pitch = tool.radius / kConeGrid;
+            try_at({place.x + i * pitch, place.y + j * pitch});
+        }
+    }
+    for (double step = 0.5 * tool.radius / kConeGrid; step > kAgrees;) {
+        bool better = false;
+        for (const Vec2d way : {Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{-1, 0}, Vec2d{0, -1}}) {
+            better = try_at(best + way * step) || better;
+        }
+        step *= better ? 1 : 0.5;
+    }
+    return lowest;
+}
+
 double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
 {
     double lowest = kInfinite;
     for (Cutter& cutter : cutters_) {
         // the position of a tool that touches the point
         const double level = elementary::hypot(normal.x, normal.y);
-        const double flat = cutter.tool.radius - cutter.tool.corner_radius;
+        const double flat = flat_radius(cutter.tool);
         const double out = cutter.grown_tool.corner_radius + (level > 0 ? flat / level : 0.0);
         const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};
+        if (is_conical(cutter.tool)) {
+            lowest = std::min(lowest, lowest_of_cone(cutter, place, touching));
+            continue;
+        }
         const double touched =
             place.z + kTouches + (1 / std::max(normal.z, 0.05)) * path_clearance_;
         const double lower = std::min(exact_below, lowest);

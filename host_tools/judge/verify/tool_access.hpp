@@ -54,6 +54,9 @@ private:
                                                                    double y) const;
     drop_cutter::LowestPositionSearch::DroppedTool drop_at(Cutter& cutter, double x, double y);
 
+    // Of a cone: the best of drops on a grid round the place, then of ever smaller steps from there.
+    double lowest_of_cone(Cutter& cutter, Vec3d place, Vec2d touching);
+
     const std::vector<nurbs::Surface>& surfaces_;
     const std::vector<std::array<Vec3d, 3>>& mesh_;
     const PocketBoundaries& walls_;

@@ -101,6 +101,9 @@ struct VerifyFigures {
     double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;
+    // Numbers of tools that finish ground with another end than a ball: where such an end can't touch, the
+    // stock is measured here, and no plan proves it.
+    std::vector<int> measured_tools;
     // Stock left above the surface, or above the reachable height. Along the normal; the greatest
     // is no more than the distance of the stock's top from what stays under or beside it.
     double scallop_max{};

@@ -6,6 +6,7 @@
 #include "host_tools/base/json_text/json_text.hpp"
 
 #include "fmt/format.h"
+#include "fmt/ranges.h"
 #include "nlohmann/json.hpp"
 
 namespace cusp::verify {
@@ -125,6 +126,9 @@ Json stats_of(const Verification& result)
     if (f.scallop_bound) {
         out["scallop_bound_mm"] = *f.scallop_bound;
         out["uncovered_share"] = rounded(f.uncovered_share);
+        if (!f.measured_tools.empty()) {
+            out["measured_tools"] = f.measured_tools;
+        }
         if (f.thickest_left) {
             const auto& [thickness, at] = *f.thickest_left;
             out["left_thickness_mm"] = rounded(thickness);
@@ -149,6 +153,16 @@ Json stats_of(const Verification& result)
     return out;
 }
 
+std::string words_of_measured(const Verification& result)
+{
+    const std::vector<int>& tools = result.figures.measured_tools;
+    return tools.empty() ? ""
+                         : fmt::format(
+                               "; the scallop of tool {} is proved where its end can touch, "
+                               "measured elsewhere",
+                               fmt::join(tools, ", "));
+}
+
 }  // namespace
 
 std::string statistics_json(const Verification& result)
@@ -168,7 +182,8 @@ std::string verification_text(const Verification& result)
     for (const std::string& broken : result.broken) {
         text += fmt::format("broken: {}\n", broken);
     }
-    return text + (result.broken.empty() ? "all bounds hold\n" : "");
+    return text +
+           (result.broken.empty() ? "all bounds hold" + words_of_measured(result) + "\n" : "");
 }
 
 }  // namespace cusp::verify

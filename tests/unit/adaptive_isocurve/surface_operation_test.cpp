@@ -30,10 +30,12 @@ TEST_GROUP(SurfaceOperation)
     Operation& operation = job.operations.front();
 };
 
-TEST(SurfaceOperation, RefusesAToolThatIsNoBall)
+TEST(SurfaceOperation, RefusesAnotherEndThanABallOverSurfaces)
 {
     operation.tool = {1, ToolShape::kFlat, 2, 0};
-    refused(job, "finishes with a ball");
+    const std::string text =
+        test::refusal([&] { plan_complete_isocurves(job, job.operations.front()); });
+    STRCMP_CONTAINS("finishes with a ball", text.c_str());
 }
 
 TEST(SurfaceOperation, RefusesASurfaceWithoutArea)

@@ -49,7 +49,7 @@ std::vector<Points> missing_passes(const Triangles& part, std::size_t& uncovered
         passes.push_back(tips);
         check.add(tips);
     });
-    uncovered = check.uncovered();
+    uncovered = check.left().uncovered;
     return passes;
 }
 

@@ -238,10 +238,8 @@ TEST(OneLineJob, RefusesToolsThatCannotFinish)
         return refused([&](OneLineRequest& asked) { asked.tools = names; });
     };
     STRCMP_CONTAINS("--tool: is missing", tools({}).c_str());
-    STRCMP_CONTAINS(
-        "--tool flat:8: comes last and so finishes, for which a part needs a ball: "
-        "--tool flat:8 ball:6",
-        tools({"ball:6", "flat:8"}).c_str());
+    STRCMP_CONTAINS("--tool taper:6:5:0.5: a taper only finishes",
+                    tools({"taper:6:5:0.5", "ball:6"}).c_str());
     STRCMP_CONTAINS("--tool ball:61: its diameter is 61 mm, the part is only 60 x 40",
                     tools({"ball:61"}).c_str());
     STRCMP_CONTAINS("give one tool, which finishes", refused([](OneLineRequest& asked) {
