@@ -27,6 +27,7 @@ constexpr Stage kStages[]{
     measure_paths,
     prove_travel,
     prove_reach,
+    find_air,
     warn,
     find_engagement,
     write_gcode,

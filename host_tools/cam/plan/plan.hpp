@@ -58,11 +58,19 @@ struct PlanOptions {
         true};  // of operations that bound it: air, volume, time over the bound
 };
 
+// s of an operation.
+struct TimeShares {
+    double cutting{};
+    double air{};  // at feed: links, and moves that meet no stock (verify/path_air.hpp)
+    double rapid{};
+};
+
 struct PlannedProgram {
     std::string gcode;
     std::vector<toolpath::PlannedOperation> operations;  // not empty
     std::vector<toolpath::PathMeasure> measures;  // of each operation; times are the controller's
-    std::vector<std::string> warnings;            // on the whole job
+    std::vector<TimeShares> shares;     // of each operation; empty where they are not known
+    std::vector<std::string> warnings;  // on the whole job
 
     // The job's warnings, then those of each operation.
     std::vector<std::string> all_warnings() const;

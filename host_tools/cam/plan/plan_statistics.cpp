@@ -71,6 +71,36 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
     return out;
 }
 
+void add_shares_to(Json& out, const TimeShares& shares)
+{
+    out["cutting_s"] = shares.cutting;
+    out["air_s"] = shares.air;
+    out["rapid_s"] = shares.rapid;
+}
+
+TimeShares sum_of(const std::vector<TimeShares>& all)
+{
+    TimeShares sum;
+    for (const TimeShares& each : all) {
+        sum.cutting += each.cutting;
+        sum.air += each.air;
+        sum.rapid += each.rapid;
+    }
+    return sum;
+}
+
+// " (cutting 71 %, air 4 %, rapid 25 %)"; "" where they are not known.
+std::string shares_text(const PlannedProgram& program)
+{
+    constexpr double kPercent = 100;
+    const TimeShares sum = sum_of(program.shares);
+    const double all = sum.cutting + sum.air + sum.rapid;
+    return all > 0 ? fmt::format(" (cutting {:.0f} %, air {:.0f} %, rapid {:.0f} %)",
+                                 kPercent * sum.cutting / all, kPercent * sum.air / all,
+                                 kPercent * sum.rapid / all)
+                   : "";
+}
+
 // Totals of the program, under the keys of an operation's figures.
 Json totals(const PlannedProgram& program)
 {
@@ -132,17 +162,21 @@ std::string summary_text(const PlannedProgram& program)
 {
     const Json all = totals(program);
     return fmt::format(
-        "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s\n"
+        "cut {:.1f} mm, rapid {:.1f} mm, {}; about {:.0f} s{}\n"
         "gouge at most {:.4f} mm, scallop at most {:.4f} mm{}; planned in {:.2f} s\n",
         all["cut_length_mm"].get<double>(), all["rapid_length_mm"].get<double>(),
         counted(all["retracts"].get<std::size_t>(), "retract"), all["estimated_s"].get<double>(),
-        all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
-        words_of_measured(all), all["planning_s"].get<double>());
+        shares_text(program), all["gouge_bound_mm"].get<double>(),
+        all["scallop_bound_mm"].get<double>(), words_of_measured(all),
+        all["planning_s"].get<double>());
 }
 
 std::string statistics_json(const job::Job& job, const PlannedProgram& program)
 {
     Json stats = totals(program);
+    if (!program.shares.empty()) {
+        add_shares_to(stats, sum_of(program.shares));
+    }
     stats.update(Json{
         {"job", job.file}, {"units", job.inch ? "inch" : "mm"}, {"bytes", program.gcode.size()}});
     if (job.setup) {
@@ -157,6 +191,9 @@ std::string statistics_json(const job::Job& job, const PlannedProgram& program)
     }
     for (std::size_t i = 0; i < program.operations.size(); ++i) {
         stats["operations"].push_back(operation_stats(program.operations[i], program.measures[i]));
+        if (!program.shares.empty()) {
+            add_shares_to(stats["operations"].back(), program.shares[i]);
+        }
     }
     return json_text::written(stats, 1) + "\n";
 }

@@ -46,6 +46,7 @@ struct Planning {
     std::vector<std::optional<double>> limits{};
     std::vector<verify::PathEngagement> engagement{};
     std::vector<FeedRange> feeds{};
+    std::vector<double> air{};  // of each operation, the share of its time at feed
 
     // Says what begins. Throws Cancelled.
     void begin(const std::string& work) const;

@@ -35,13 +35,15 @@ void measure_paths(Planning& planning);
 void prove_travel(Planning& planning);
 // Refuses shanks and holders in stock.
 void prove_reach(Planning& planning);
+// Finds what of the feed moves is in air.
+void find_air(Planning& planning);
 // Warns of what may not be meant: air, overlaps, levels, tools that are too short.
 void warn(Planning& planning);
 // Measures the engagement of the tools where the job bounds it, or feeds by it.
 void find_engagement(Planning& planning);
 // Writes the G-code, unless it is written.
 void write_gcode(Planning& planning);
-// Replaces estimated times by simulated ones.
+// Replaces estimated times by simulated ones, and parts them into cutting, air and rapid moves.
 void put_times(Planning& planning);
 // Sets the feeds of operations with chip_load by their engagement.
 void put_feeds_by_load(Planning& planning);

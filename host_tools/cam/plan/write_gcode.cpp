@@ -8,6 +8,7 @@
 #include "host_tools/geometry/toolpath/gcode_writer.hpp"
 #include "host_tools/geometry/toolpath/post.hpp"
 #include "host_tools/judge/verify/between_sides.hpp"
+#include "host_tools/judge/verify/path_air.hpp"
 
 namespace cusp::plan {
 
@@ -57,13 +58,23 @@ void put_times(Planning& planning)
         return;
     }
     planning.begin("timing the program");
-    if (const auto seconds =
+    program.shares.clear();
+    if (const auto times =
             simulate::simulated_times(program.gcode, planning.begins, planning.reports("timing"),
                                       simulate::kUsualPart, planning.settings)) {
         for (std::size_t i = 0; i < program.measures.size(); ++i) {
-            program.measures[i].estimated_s = (*seconds)[i];
+            const auto& [seconds, rapid] = (*times)[i];
+            const double air = planning.air[i] * (seconds - rapid);
+            program.measures[i].estimated_s = seconds;
+            program.shares.push_back({seconds - rapid - air, air, rapid});
         }
     }
+}
+
+void find_air(Planning& planning)
+{
+    planning.begin("looking for moves in air");
+    planning.air = verify::air_shares(planning.job, paths_of(planning.program));
 }
 
 void warn_of_thin_floors(Planning& planning)

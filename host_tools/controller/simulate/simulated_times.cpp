@@ -2,8 +2,10 @@
 #include "host_tools/controller/simulate/simulated_times.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <mutex>
+#include <string_view>
 
 #include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
@@ -34,15 +36,59 @@ RunOptions options_for_times(const machine::Settings& settings)
     return options;
 }
 
-// Servo ticks of each operation.
-using Ticks = std::vector<std::uint64_t>;
+// Servo ticks of an operation.
+struct OperationTicks {
+    std::uint64_t all{0};
+    std::uint64_t rapid{0};
+};
+using Ticks = std::vector<OperationTicks>;
+
+// The motion of the last G word of a line, such as 0 or 83; none where it has none.
+std::optional<int> motion_of(std::string_view line)
+{
+    constexpr int kCurves = 6;   // G5 and G6 and their likes
+    constexpr int kCycles = 73;  // and more: of drills
+    std::optional<int> motion;
+    for (std::size_t at = 0; at < line.size() && line[at] != '(' && line[at] != ';'; ++at) {
+        if (line[at] != 'G' && line[at] != 'g') {
+            continue;
+        }
+        int code = -1;
+        std::from_chars(line.data() + at + 1, line.data() + line.size(), code);
+        const bool is_motion =
+            (code >= 0 && code <= kCurves && code != 4) || (code >= kCycles && code < 90);
+        motion = is_motion ? std::optional{code} : motion;
+    }
+    return motion;
+}
+
+// Of each line, from 1: whether it moves at the rapid rate.
+std::vector<bool> rapid_lines(std::string_view program)
+{
+    std::vector<bool> rapid{false};
+    bool is_rapid = false;
+    while (!program.empty()) {
+        const std::size_t end = std::min(program.find('\n'), program.size());
+        if (const auto motion = motion_of(program.substr(0, end))) {
+            is_rapid = *motion == 0;
+        }
+        rapid.push_back(is_rapid);
+        program.remove_prefix(std::min(end + 1, program.size()));
+    }
+    return rapid;
+}
+
+// What lines are to the times.
+struct LineKinds {
+    std::vector<std::uint32_t> first_lines;  // of all operations but the first
+    std::vector<bool> rapid;
+};
 
 // The ticks on the counted lines of one part.
 class PartTicks {
 public:
-    //   first_lines  of all operations but the first
-    PartTicks(const ProgramPart& part, const std::vector<std::uint32_t>& first_lines)
-        : part_{part}, first_lines_{first_lines}, ticks_(first_lines.size() + 1, 0)
+    PartTicks(const ProgramPart& part, const LineKinds& lines)
+        : part_{part}, lines_{lines}, ticks_(lines.first_lines.size() + 1)
     {
     }
 
@@ -54,12 +100,15 @@ public:
             const std::uint32_t line = part_.line_of(line_of_part);
             counts_ = line >= part_.first_counted;
             over_ = part_.end_counted != 0 && line >= part_.end_counted;
+            const auto& first_lines = lines_.first_lines;
             operation_ = static_cast<std::size_t>(
-                std::upper_bound(first_lines_.begin(), first_lines_.end(), line) -
-                first_lines_.begin());
+                std::upper_bound(first_lines.begin(), first_lines.end(), line) -
+                first_lines.begin());
+            is_rapid_ = line < lines_.rapid.size() && lines_.rapid[line];
         }
         if (counts_ && !over_) {
-            ++ticks_[operation_];
+            ++ticks_[operation_].all;
+            ticks_[operation_].rapid += is_rapid_ ? 1 : 0;
         }
     }
 
@@ -69,10 +118,11 @@ public:
 
 private:
     const ProgramPart& part_;
-    const std::vector<std::uint32_t>& first_lines_;
+    const LineKinds& lines_;
     Ticks ticks_;
     std::uint32_t line_of_part_{0};
     std::size_t operation_{0};
+    bool is_rapid_{false};
     bool counts_{part_.head_lines == 0};  // the first part from its start on
     bool over_{false};
 };
@@ -107,12 +157,12 @@ private:
 // done  receives the machine's time so far, s
 std::optional<Ticks> ticks_of(const std::string& program,
                               const ProgramPart& part,
-                              const std::vector<std::uint32_t>& first_lines,
+                              const LineKinds& lines,
                               const machine::Settings& settings,
                               const std::function<void(double)>& done)
 {
     constexpr std::uint64_t kBetween = 1 << 16;  // ticks
-    PartTicks counted{part, first_lines};
+    PartTicks counted{part, lines};
     RunOptions options = options_for_times(settings);
     options.set_point = [&counted](const program_run::SetPoint& point) {
         counted.add(point.line);
@@ -135,16 +185,17 @@ std::optional<Ticks> ticks_of(const std::string& program,
 
 }  // namespace
 
-std::optional<std::vector<double>> simulated_times(const std::string& program,
-                                                   const std::vector<std::size_t>& begins,
-                                                   const std::function<void(double)>& progress,
-                                                   double part,
-                                                   const machine::Settings& settings)
+std::optional<std::vector<OperationTime>> simulated_times(
+    const std::string& program,
+    const std::vector<std::size_t>& begins,
+    const std::function<void(double)>& progress,
+    double part,
+    const machine::Settings& settings)
 {
-    std::vector<std::uint32_t> first_lines;  // of all operations but the first
+    LineKinds lines{{}, rapid_lines(program)};
     for (std::size_t k = 1; k < begins.size(); ++k) {
         const auto from = program.begin() + static_cast<std::ptrdiff_t>(begins[k]);
-        first_lines.push_back(
+        lines.first_lines.push_back(
             static_cast<std::uint32_t>(1 + std::count(program.begin(), from, '\n')));
     }
     const std::vector<ProgramPart> parts = program_parts(program, part);
@@ -158,19 +209,20 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
         const auto done = [&](double seconds) {
             shares.set(k, std::min(seconds, parts[k].seconds) / estimate);
         };
-        ticks[k] = ticks_of(program, parts[k], first_lines, settings, done);
+        ticks[k] = ticks_of(program, parts[k], lines, settings, done);
         done(parts[k].seconds);
     });
-    std::vector<double> seconds(begins.size(), 0);
+    std::vector<OperationTime> times(begins.size());
     for (const std::optional<Ticks>& counts : ticks) {
         if (!counts) {
             return std::nullopt;
         }
         for (std::size_t k = 0; k < begins.size(); ++k) {
-            seconds[k] += static_cast<double>((*counts)[k]) / kServoTicksPerSecond;
+            times[k].seconds += static_cast<double>((*counts)[k].all) / kServoTicksPerSecond;
+            times[k].rapid_s += static_cast<double>((*counts)[k].rapid) / kServoTicksPerSecond;
         }
     }
-    return seconds;
+    return times;
 }
 
 }  // namespace cusp::simulate

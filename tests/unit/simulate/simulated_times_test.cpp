@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "CppUTest/TestHarness.h"
 
@@ -135,9 +138,9 @@ std::string difference(unsigned seed, std::size_t& parts)
         return fmt::format("seed {}: refused", seed);
     }
     for (std::size_t k = 0; k < begins.size(); ++k) {
-        if (std::fabs((*found)[k] - whole[k]) > most_difference(program)) {
+        if (std::fabs((*found)[k].seconds - whole[k]) > most_difference(program)) {
             return fmt::format("seed {}: operation {} takes {} s, by parts {}", seed, k, whole[k],
-                               (*found)[k]);
+                               (*found)[k].seconds);
         }
     }
     return "";
@@ -160,7 +163,11 @@ TEST(SimulatedTimes, AreTheSameForAnyNumberOfThreads)
     std::vector<std::vector<double>> found;
     for (const int threads : {1, 2, 5}) {
         parallel::set_threads(threads);
-        found.push_back(simulated_times(program, begins, {}, kPart).value());
+        std::vector<double>& seconds = found.emplace_back();
+        const auto times = simulated_times(program, begins, {}, kPart);
+        for (const auto& [all, rapid] : times.value()) {
+            seconds.insert(seconds.end(), {all, rapid});
+        }
     }
     CHECK(found[0] == found[1]);
     CHECK(found[0] == found[2]);
@@ -198,6 +205,33 @@ TEST(SimulatedTimes, TheHeadOfAPartRestoresTheState)
     LONGS_EQUAL(7, parts.at(1).head_lines);
     LONGS_EQUAL(0, parts.at(1).line_of(7));
     LONGS_EQUAL(parts.at(1).first_line, parts.at(1).line_of(8));
+}
+
+// Each line of such a program has its own motion word, so the line alone says what it is.
+TEST(SimulatedTimes, RapidMovesAreThoseOfTheLinesThatSayG0)
+{
+    const std::string program =
+        lifts_after("") + "G0 Z5\nX3 (G1 no move)\nG17 G0 Y20\nG1 Y10\nG4 P0.1\n";
+    double rapid = 0;
+    program_run::RunOptions options;
+    std::vector<bool> is_rapid{false};
+    std::istringstream lines{program};
+    for (std::string line; std::getline(lines, line);) {
+        is_rapid.push_back(line.find("G0") != std::string::npos || line[0] == 'X');
+    }
+    std::uint32_t at = 0;
+    options.set_point = [&](const program_run::SetPoint& point) {
+        at = point.line != 0 ? point.line : at;
+        rapid += is_rapid[at] ? 1.0 / kServoTicksPerSecond : 0.0;
+    };
+    auto source = dialect::LineSource::of_text("the program", program);
+    program_run::ProgramRun run{source, options};
+    while (run.advance()) {
+    }
+    CHECK(run.result().good());
+    const auto found = simulated_times(program, {0}, {});
+    DOUBLES_EQUAL(rapid, found.value()[0].rapid_s, 1e-9);
+    CHECK(rapid > 1 && rapid < found.value()[0].seconds - 10);
 }
 
 TEST(SimulatedTimes, ARefusedProgramHasNone)
