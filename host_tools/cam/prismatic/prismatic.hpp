@@ -22,6 +22,7 @@ namespace cusp::prismatic {
 extern const job::Strategy kProfile;
 extern const job::Strategy kDrill;
 extern const job::Strategy kBore;
+extern const job::Strategy kThreadMill;
 extern const job::Strategy kSlot;
 extern const job::Strategy kFace;
 extern const job::Strategy kEngrave;

@@ -12,6 +12,7 @@ set(CUSP_STRATEGIES
   prismatic::kProfile
   prismatic::kDrill
   prismatic::kBore
+  prismatic::kThreadMill
   prismatic::kSlot
   prismatic::kFace
   prismatic::kEngrave

@@ -19,6 +19,7 @@
 #include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
+#include "host_tools/job/job/thread.hpp"
 
 #include "fmt/format.h"
 
@@ -138,6 +139,26 @@ void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
             "operation {}: drill: {} of {} {} wider than tool {} of {:g} mm: {} its diameter",
             operation.number, larger, counted(cut.holes.size(), "hole"), larger == 1 ? "is" : "are",
             tool.number, 2 * tool.radius, larger == 1 ? "it gets" : "they get"));
+    }
+}
+
+// Threads are as wide as their grooves, whatever is drawn. Holes whose tool moves in them have a loop each.
+void settle_widths(const JobTable& table, Operation& operation, PartFiles& parts)
+{
+    Prismatic& cut = *operation.prismatic;
+    const job::Thread* const thread = thread_of(operation);
+    for (Hole& hole : cut.holes) {
+        hole.diameter = thread == nullptr ? hole.diameter : thread->wall();
+    }
+    if (thread == nullptr || !thread->outside) {
+        check_holes(table, operation, parts);
+    }
+    if (!is_bored(operation)) {
+        return;
+    }
+    cut.side = ProfileSide::kInside;
+    for (const Hole& hole : cut.holes) {
+        cut.loops.push_back({{arc_curve(hole.at, hole.diameter / 2, 0, 2 * kPi)}, cut.file, false});
     }
 }
 
@@ -272,14 +293,7 @@ void read_drawing(JobTable& table,
             choice.takes_all()
                 ? parts.holes(file, unit, range, cut.diameters.has_value() || is_bored(operation))
                 : chosen_holes(table, choice, shapes, range);
-        check_holes(table, operation, parts);
-        if (is_bored(operation)) {
-            cut.side = ProfileSide::kInside;
-            for (const Hole& hole : cut.holes) {
-                cut.loops.push_back(
-                    {{arc_curve(hole.at, hole.diameter / 2, 0, 2 * kPi)}, file, false});
-            }
-        }
+        settle_widths(table, operation, parts);
         if (!cut.given_depth && !cut.holes.front().span) {
             table.refuse("depth", fmt::format("is missing: {} needs how deep it cuts where the "
                                               "holes are those of a drawing",

@@ -11,6 +11,7 @@
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
+#include "host_tools/job/job/thread.hpp"
 #include "host_tools/judge/verify/machined_stock.hpp"
 #include "host_tools/judge/verify/part_heights.hpp"
 
@@ -49,6 +50,20 @@ double half_width(const Operation& operation)
 {
     return std::max(operation.tool.radius,
                     operation.cuts(job::Region::kGrooves) ? operation.prismatic->width / 2 : 0.0);
+}
+
+bool is_round_bolts(const Operation& operation)
+{
+    const job::Thread* const thread = thread_of(operation);
+    return thread != nullptr && thread->outside;
+}
+
+// mm: of a mill's way round a bolt, from the grooves out to where it comes on and off.
+double ring_width(const Operation& operation)
+{
+    constexpr double kLeads = 1.0;  // mm over the blank
+    const job::Thread& thread = *thread_of(operation);
+    return (thread.blank() - thread.wall()) / 2 + 2 * operation.tool.radius + kLeads;
 }
 
 // A closed loop on an open chain: no line from its end to its start.
@@ -274,10 +289,25 @@ RegionAt CutRegion::profile_at(double x, double y) const
     return {std::min(away, widest(*operation_) - away), bottom};
 }
 
+// The nearest bolt: the ring that a thread mill clears around its grooves.
+RegionAt CutRegion::ring_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    double inside = -kUnbounded;
+    for (const Hole& hole : cut.holes) {
+        const double away = norm(Vec2d{x, y} - hole.at) - hole.diameter / 2;
+        inside = std::max(inside, std::min(away, ring_width(*operation_) - away));
+    }
+    return {inside, cut.top - cut.depth};
+}
+
 // The nearest hole's wall: drilled as wide as the tool, bored as wide as drawn.
 RegionAt CutRegion::hole_at(double x, double y) const
 {
     const Prismatic& cut = *operation_->prismatic;
+    if (is_round_bolts(*operation_)) {
+        return ring_at(x, y);
+    }
     const Tool& tool = operation_->tool;
     double beyond = kUnbounded;
     double tip = cut.top - cut.depth;
@@ -399,10 +429,13 @@ std::optional<PlanBox> prismatic_box(const Job& job)
         if (!operation.prismatic) {
             continue;
         }
-        const double around = operation.cuts(job::Region::kOutline) &&
-                                      operation.prismatic->side != ProfileSide::kInside
-                                  ? widest(operation)
-                                  : half_width(operation);
+        const double around =
+            operation.cuts(job::Region::kOutline) &&
+                    operation.prismatic->side != ProfileSide::kInside
+                ? widest(operation)
+            : is_round_bolts(operation)
+                ? operation.prismatic->holes.front().diameter / 2 + ring_width(operation)
+                : half_width(operation);
         const auto add = [&](const Chain& chain) {
             for (const Vec2d p : loop_polyline(chain, kBoxChord)) {
                 widen(p, around);

@@ -56,6 +56,7 @@ private:
     // mm from the line that is nearest, on the side that is cut; nothing beyond its ends. Far away: from it.
     std::optional<double> beside_lines(double x, double y) const;
     RegionAt profile_at(double x, double y) const;
+    RegionAt ring_at(double x, double y) const;
     RegionAt hole_at(double x, double y) const;
     RegionAt carved_at(double x, double y) const;
     RegionAt engraved_at(double x, double y) const;

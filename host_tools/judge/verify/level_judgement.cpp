@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/job/job/thread.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/distance_transform.hpp"
 #include "host_tools/judge/verify/wall_gouge.hpp"
@@ -36,7 +37,7 @@ public:
     {
         find_gouges();
         for (const CutRegion& region : regions_) {
-            if (region.operation().prismatic) {
+            if (region.operation().prismatic && thread_of(region.operation()) == nullptr) {
                 find_left(region);
             }
         }

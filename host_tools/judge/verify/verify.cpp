@@ -36,8 +36,8 @@ void judge_bounds(Verifying& work)
 }
 
 constexpr void (*kStages[])(Verifying&){
-    read_positions,         cut_program,    measure_engagement, end_cutting,  judge_surfaces,
-    judge_level_operations, judge_fixtures, judge_sides,        judge_bounds,
+    read_positions,         cut_program,   measure_engagement, end_cutting, judge_surfaces,
+    judge_level_operations, judge_threads, judge_fixtures,     judge_sides, judge_bounds,
 };
 
 }  // namespace

@@ -21,6 +21,9 @@ void judge_surfaces(Verifying& work);
 // replace those of the surfaces.
 void judge_level_operations(Verifying& work);
 
+// Screw threads: pitch, hand and depth of their helices. Their diameters are walls of 2.5-D operations.
+void judge_threads(Verifying& work);
+
 // Tools that touch a fixture.
 void judge_fixtures(Verifying& work);
 
