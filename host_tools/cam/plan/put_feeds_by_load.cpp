@@ -31,6 +31,8 @@ using verify::StepKind;
 
 namespace {
 
+constexpr double kMostOfFeed = 2;  // where the job has no feed_max
+
 constexpr double kChange = 1.05;        // smaller changes of the feed are not written
 constexpr double kShortStretch = 0.25;  // radii: faster ones that are shorter are not worth a word
 constexpr double kSecondsPerMinute = 60.0;
@@ -188,7 +190,7 @@ double feed_by_load(double feed, double degrees, const ChipLoad& limits)
 {
     constexpr double kSlot = 0.5;  // of the feed
     const double low = limits.feed_min.value_or(feed);
-    const double high = std::max(low, limits.feed_max.value_or(2 * feed));
+    const double high = std::max(low, limits.feed_max.value_or(kMostOfFeed * feed));
     const double share = degrees <= 90.0
                              ? 1.0 / std::max(1e-6, elementary::sin(degrees / 180.0 * kPi))
                              : 1.0 - (1.0 - kSlot) * (degrees - 90.0) / 90.0;
@@ -227,8 +229,12 @@ void put_feeds_by_load(Planning& planning)
     planning.feeds.resize(program.operations.size());
     for (std::size_t k = 0; k < program.operations.size(); ++k) {
         PlannedOperation& planned = program.operations[k];
-        const auto& chip_load = operation_of(job, planned).passes.chip_load;
+        auto chip_load = operation_of(job, planned).passes.chip_load;
         if (chip_load && planned.path.tool.shape == ToolShape::kFlat && !planned.path.cycle) {
+            if (const auto most = job.machine.most_feed()) {
+                chip_load->feed_max = std::min(
+                    most->value, chip_load->feed_max.value_or(kMostOfFeed * planned.path.feed));
+            }
             planning.feeds[k] = put_feeds(planning.engagement[k], *chip_load, planned.path);
             planning.is_written = false;
         }

@@ -106,7 +106,7 @@ const KeyTable& machine_table()
           job::kFeedRange},
          {"acceleration", Kind::kLengths, "unknown",
           "`[x, y, z]`, lengths a second and second: for the time that a program takes", kPositive},
-         {"spindle", Kind::kInterval, "unknown", "rpm, `[least, greatest]`; 0 is always allowed",
+         {"spindle", Kind::kNumbers, "unknown", "rpm, `[least, greatest]`; 0 is always allowed",
           kNotNegative},
          {"post", Kind::kText, "cusp", "of jobs that name none; a path is relative to this file"}}};
     return kTable;

@@ -182,20 +182,15 @@ void JobRates::choose_tools(JobTable& table, Operation& operation) const
 void JobRates::read_load(JobTable& table, Operation& operation) const
 {
     read_chip_load(table, unit_, operation);
-    const auto most = job_.machine.most_feed();
-    if (!operation.passes.chip_load || !most) {
+    if (!operation.passes.chip_load) {
         return;
     }
-    constexpr double kMostOfFeed = 2;  // where there is no feed_max
-    auto& [least, greatest] = *operation.passes.chip_load;
+    const auto& [least, greatest] = *operation.passes.chip_load;
     for (const auto& [key, value] :
          {std::pair{"feed_min", least}, std::pair{"feed_max", greatest}}) {
         if (value) {
             bounded(&table, key, *value);
         }
-    }
-    if (!greatest) {
-        greatest = std::min(most->value, kMostOfFeed * rates_of(job_, operation.tool).feed);
     }
 }
 
