@@ -59,6 +59,11 @@ inline WideVec smaller(WideVec a, WideVec b) noexcept
 inline WideVec product(WideVec a, WideVec b) noexcept { return {a.lanes * b.lanes}; }
 inline WideVec quotient(WideVec a, WideVec b) noexcept { return {a.lanes / b.lanes}; }
 
+inline Vec3f larger(Vec3f a, Vec3f b) noexcept
+{
+    return {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
+}
+
 inline Vec3f smaller(Vec3f a, Vec3f b) noexcept
 {
     return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};

@@ -106,11 +106,6 @@ struct TwoFalls {
 
 }  // namespace
 
-Vec3f larger(Vec3f a, Vec3f b) noexcept
-{
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept
 {
     return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};

@@ -36,7 +36,6 @@ inline PathDerivatives to_vec(const LaneDerivatives& a) noexcept
 }
 
 // The larger of both, axis by axis.
-Vec3f larger(Vec3f a, Vec3f b) noexcept;
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
 inline LaneDerivatives larger(const LaneDerivatives& a, const LaneDerivatives& b) noexcept
 {
