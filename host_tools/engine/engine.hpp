@@ -11,7 +11,7 @@
 // Arguments, [those that may be absent], and results. `job` is the text of a job, `name` its file: paths in it are relative
 // to the folder of that name. A `block` names a block of the answer. Lengths are mm.
 //
-//     keys      {} -> version, threads, cad, schema (that of cusp plan --schema), strategies, posts, errors and alarms of Grbl
+//     keys      {} -> version, threads, cad, schema (that of cusp plan --schema), strategies, suggest (the options of suggest), posts, errors and alarms of Grbl
 //     describe  files [units, tolerance, facets] -> files (as cusp info --stats), text, facets: file, triangles, block
 //     suggest   parts, tools [the options of a plan without a job, by their names] -> job, said
 //     check     job [name, facets] -> faults, warnings, setups: name, offset, unit, stock, tools, operations, facets

@@ -6,6 +6,7 @@
 #include "host_tools/controller/dialect/answer.hpp"
 #include "host_tools/engine/calls.hpp"
 #include "host_tools/job/import/job_schema.hpp"
+#include "host_tools/job/import/one_line_keys.hpp"
 #include "host_tools/job/import/post_reader.hpp"
 
 namespace cusp::engine {
@@ -24,6 +25,23 @@ Json texts_of(std::string_view (*text_of)(int))
         }
     }
     return texts;
+}
+
+// The arguments of a suggestion: how their values are written, what they are for.
+Json suggestions()
+{
+    constexpr const char* kUses[]{"any", "surfaces", "drawings"};
+    Json keys = Json::array();
+    for (const import::OneLineKey& key : import::one_line_keys(strategies::all())) {
+        constexpr const char* kKinds[]{"number", "text", "text", "numbers", "texts"};
+        keys.push_back({{"name", key.name},
+                        {"kind", kKinds[key.place.index()]},
+                        {"type", key.type},
+                        {"help", key.help},
+                        {"choices", key.choices},
+                        {"use", kUses[static_cast<int>(key.use)]}});
+    }
+    return keys;
 }
 
 }  // namespace
@@ -49,6 +67,7 @@ Json keys_call(Call& call)
             {"cad", CUSP_READS_CAD != 0},
             {"schema", Json::parse(import::job_schema(strategies::all()))},
             {"strategies", strategies},
+            {"suggest", suggestions()},
             {"posts", import::post_names()},
             {"errors", texts_of(dialect::error_text)},
             {"alarms", texts_of(dialect::alarm_text)}};

@@ -48,6 +48,30 @@ async function suggested(page, file, tools, scallop) {
   await page.waitForFunction(() => window.cusp.state().job.includes("[[operation]]"));
 }
 
+test("a drawing is cut to a depth: its own fields, layers and tabs; what does not suit it is not asked for", async () => {
+  const { page, faults, close } = await openStudio();
+  await choose(page, path.join(top, "examples", "plate", "plate.dxf"));
+  await step(page, "Operations");
+  assert.equal(await page.locator("#suggest-scallop").count(), 0);
+  await page.getByLabel("Tools", { exact: true }).fill("flat:6 drill:5 vee:6:60");
+  await page.getByLabel("Depth", { exact: true }).fill("deep");
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.getByText("depth: \"deep\" is not a number").waitFor();
+  await page.getByLabel("Depth", { exact: true }).fill("6");
+  await page.getByLabel("Tabs", { exact: true }).fill("4");
+  await page.locator(".suggest summary").click();
+  await page.getByLabel("Side", { exact: true }).selectOption("outside");
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.waitForFunction(() => window.cusp.state().job.includes("[[operation]]"));
+  const { job } = await state(page);
+  const told = spawnSync(cusp, ["plan", path.join(top, "examples", "plate", "plate.dxf"), "--tool", "flat:6", "drill:5", "vee:6:60", "--depth", "6", "--tabs", "4", "--side", "outside",
+    "--print-job"], { encoding: "utf8" });
+  const plain = (text) => text.replaceAll(/[^"\s]*plate\.dxf/g, "plate.dxf");
+  assert.equal(plain(job), plain(told.stdout));
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("from a part to G-code that is cusp plan's own, byte for byte, then to the virtual mill", async () => {
   const { page, faults, close } = await openStudio();
   assert.equal(await page.evaluate(() => location.hash), "#part", "the token has left the address");

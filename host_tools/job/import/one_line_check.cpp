@@ -8,6 +8,7 @@
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
+#include "host_tools/job/import/one_line_keys.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/job/keys.hpp"
 
@@ -16,14 +17,12 @@
 namespace cusp::import {
 namespace {
 
-using Offered = std::pair<const char*, bool>;
-
-// Refuses the first option that is given and does not go with the parts.
-void refuse_given(const std::vector<Offered>& options, const char* what)
+// Refuses the first option that is given for other parts than these.
+void refuse_use(const OneLineRequest& request, OneLineUse refused, const char* what)
 {
-    for (const auto& [option, given] : options) {
-        if (given) {
-            throw InputError(fmt::format("{}: is for {}", option, what));
+    for (const OneLineKey& key : one_line_keys({})) {
+        if (key.use == refused && is_given(request, key)) {
+            throw InputError(fmt::format("{}: is for {}", option_of(key), what));
         }
     }
 }
@@ -148,12 +147,8 @@ const job::Strategy& strategy_of(const OneLineRequest& request, const job::Strat
 void check_solid_request(const OneLineRequest& request)
 {
     check_parts(request);
-    refuse_given({{"--depth", request.depth.has_value()},
-                  {"--layer", !request.layers.empty()},
-                  {"--tabs", !request.tabs.empty()},
-                  {"--side", !request.side.empty()},
-                  {"--join-gaps", request.join_gaps.has_value()}},
-                 "drawings, such as cusp plan plate.dxf --tool flat:3 --depth 6");
+    refuse_use(request, OneLineUse::kDrawings,
+               "drawings, such as cusp plan plate.dxf --tool flat:3 --depth 6");
     if (request.tools.empty()) {
         throw InputError(
             "--tool: is missing: the tools in the order of their use, such as --tool ball:6 or "
@@ -176,14 +171,11 @@ void check_request(const OneLineRequest& request, const job::Strategies& strateg
 
 void check_sheet_request(const OneLineRequest& request)
 {
-    refuse_given({{"--scallop", request.scallop.has_value()},
-                  {"--tolerance", request.tolerance.has_value()},
-                  {"--boundary", request.boundary.has_value()},
-                  {"--island", !request.islands.empty()},
-                  {"--strategy", !request.strategy.empty()},
-                  {"--up", !request.up.empty()},
-                  {"--no-roughing", !request.roughing}},
-                 "surfaces; a drawing is cut to --depth, and --layer says how");
+    const char* const what = "surfaces; a drawing is cut to --depth, and --layer says how";
+    refuse_use(request, OneLineUse::kSurfaces, what);
+    if (!request.roughing) {
+        throw InputError(fmt::format("--no-roughing: is for {}", what));
+    }
     if (request.tools.empty()) {
         throw InputError(
             "--tool: is missing: the tools in the order of their use, such as --tool flat:3 or "

@@ -11,6 +11,9 @@
 
 namespace cusp::import {
 
+// What a key is for.
+enum class OneLineUse { kAny, kSurfaces, kDrawings };
+
 struct OneLineKey {
     using Place = std::variant<std::optional<double> OneLineRequest::*,
                                std::optional<std::string> OneLineRequest::*,
@@ -22,6 +25,7 @@ struct OneLineKey {
     Place place;       // of the value in the request
     const char* type;  // in words: "FEED"; "": a number, or a text
     std::string help;
+    OneLineUse use{OneLineUse::kAny};
     std::vector<std::string> choices{};  // empty: any
     const char* option{nullptr};         // on a command line, if not as `name`
     int least_values{1};                 // of a list of numbers
@@ -31,7 +35,10 @@ struct OneLineKey {
 // "--max-depth"
 std::string option_of(const OneLineKey& key);
 
-// In the order of `cusp plan --help`. All but `parts`, the unit, roughing and the post.
+// True if the request has a value for the key; the form of moves always has one.
+bool is_given(const OneLineRequest& request, const OneLineKey& key);
+
+// In the order of `cusp plan --help`, those of most calls first. All but `parts`, the unit, roughing and the post.
 std::vector<OneLineKey> one_line_keys(const job::Strategies& strategies);
 
 }  // namespace cusp::import

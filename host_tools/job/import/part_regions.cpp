@@ -2,13 +2,13 @@
 #include "host_tools/job/import/part_regions.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/base/number_text/number_text.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/offset/shadow.hpp"
 #include "host_tools/geometry/waterline_slices/fitted_edges.hpp"
@@ -48,14 +48,13 @@ RegionName read_name(const std::string& name, double millimetres)
     }
     if (has_height) {
         const std::string height = text.substr(std::min(colon + 1, text.size()));
-        const char* const end = height.data() + height.size();
-        const auto [stop, error] = std::from_chars(height.data(), end, read.z);
-        if (error != std::errc{} || stop != end || !std::isfinite(read.z)) {
+        const auto z = number_text::number_of(height);
+        if (!z || !std::isfinite(*z)) {
             throw InputError(
                 fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4", name,
                             height, read.kind));
         }
-        read.z *= millimetres;
+        read.z = *z * millimetres;
     }
     return read;
 }

@@ -20,6 +20,8 @@ export interface Setup {
   tools: PlacedTool[]; operations: { number: number; strategy: string; tool: number }[]; facets?: { triangles: number; block: string };
 }
 
+/** An option of a suggestion; `type` is its value in words, or a unit: LENGTH, FEED, RPM, DEGREES. */
+export interface SuggestKey { name: string; kind: "number" | "text" | "numbers" | "texts"; type: string; help: string; choices: string[]; use: "any" | "surfaces" | "drawings" }
 export interface StrategyFacts { name: string; help: string; one_line: boolean; is_pocket: boolean; surfaces: boolean; keys: string[] }
 
 /** Texts of Grbl's codes, by their numbers. */
@@ -30,7 +32,7 @@ export interface Way { line: number; tool: number; point: [number, number, numbe
 
 /** Arguments and results of each call; host_tools/engine/engine.hpp describes them. Lengths are in mm. */
 export interface Calls {
-  keys: { args: Record<string, never>; result: { version: string; threads: number; cad: boolean; schema: unknown; strategies: StrategyFacts[]; posts: string[]; errors: CodeTexts; alarms: CodeTexts } };
+  keys: { args: Record<string, never>; result: { version: string; threads: number; cad: boolean; schema: unknown; strategies: StrategyFacts[]; suggest: SuggestKey[]; posts: string[]; errors: CodeTexts; alarms: CodeTexts } };
   describe: {
     args: { files: string[]; units?: string; facets?: boolean };
     result: { text: string; facets?: { file: string; triangles: number; block: string }[] };

@@ -6,12 +6,26 @@ import { resultOf } from "./engine";
 import type { Answer, AnswerLine, Calls, CallOptions, Engine, EngineFacts, FileSet } from "./engine";
 import type { FromEngineWorker, ToEngineWorker } from "./engine_messages";
 
+// Settles as `before` does; rejects as soon as the signal is given.
+function waited(before: Promise<void>, signal?: AbortSignal): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const abort = (): void => reject(new DOMException("cancelled", "AbortError"));
+    if (signal?.aborted) abort();
+    signal?.addEventListener("abort", abort, { once: true });
+    void before.then(() => {
+      signal?.removeEventListener("abort", abort);
+      resolve();
+    });
+  });
+}
+
 /** True in pages that hold the planners. */
 export const holdsEngine = packed !== "";
 
 export class WasmEngine implements Engine {
   private worker: Worker | null = null;
   private module: Promise<WebAssembly.Module> | null = null;
+  private turn: Promise<void> = Promise.resolve();  // of the next call: the worker answers one at a time
 
   private compiled(): Promise<WebAssembly.Module> {
     this.module ??= inflate(Uint8Array.from(atob(packed), (character) => character.charCodeAt(0)))
@@ -40,6 +54,19 @@ export class WasmEngine implements Engine {
   }
 
   async call<K extends keyof Calls>(name: K, args: Calls[K]["args"], files: FileSet, options: CallOptions = {}): Promise<Answer<Calls[K]["result"]>> {
+    const before = this.turn;
+    let end = (): void => undefined;
+    const mine = new Promise<void>((resolve) => { end = resolve; });
+    this.turn = before.then(() => mine);
+    try {
+      await waited(before, options.signal);
+      return await this.answered(name, args, files, options);
+    } finally {
+      end();
+    }
+  }
+
+  private async answered<K extends keyof Calls>(name: K, args: Calls[K]["args"], files: FileSet, options: CallOptions): Promise<Answer<Calls[K]["result"]>> {
     const worker = await this.started(), { signal, progress } = options;
     return new Promise((resolve, reject) => {
       const abort = (): void => {

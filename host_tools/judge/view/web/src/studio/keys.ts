@@ -1,5 +1,5 @@
 // The keys of a job's tables, from the schema that the program makes of its own: kind, range, default and help of each field.
-import type { Calls, StrategyFacts } from "../engine/engine";
+import type { Calls, StrategyFacts, SuggestKey } from "../engine/engine";
 
 export interface Key {
   name: string; kind: string; otherwise: string; help: string; choices: string[];
@@ -33,12 +33,14 @@ const keysIn = (table: SchemaTable | undefined): Key[] => Object.entries(table?.
 export class KeyTables {
   readonly strategies: StrategyFacts[];
   readonly posts: string[];
+  readonly suggest: SuggestKey[];
   private readonly schema: Schema;
 
   constructor(facts: Calls["keys"]["result"]) {
     this.schema = facts.schema as Schema;
     this.strategies = facts.strategies;
     this.posts = facts.posts;
+    this.suggest = facts.suggest;
   }
 
   /** Of the top of a job: `units`, `post` and so on, without its tables. */

@@ -1,51 +1,12 @@
 // Operations: a list that "Suggest" fills as the one-line plan does, or a person; tools and feeds beside it.
-import { signal, useSignal } from "@preact/signals";
+import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { addTable, setKey } from "../project/job_text";
 import { tablesOf } from "../project/project";
 import { quotedList, shown } from "../project/toml_values";
 import { Card, KeyField, TableFields } from "./fields";
-import { checked, engineCall, history, inch, job, keys, kinds, placeOf, project, say, work, working } from "./store";
-
-const wanted = signal({ tools: "flat:8 ball:6", scallop: "0.02" });
-/** What the last suggestion chose, in words. */
-const chosen = signal<string[]>([]);
-
-async function suggest(): Promise<void> {
-  const { files } = project.value, parts = [...files.keys()].filter((name) => kinds.surfaces.test(name));
-  if (parts.length === 0) {
-    say("Suggest needs a part with surfaces, such as STEP or STL: choose one in the step Part", true);
-    return;
-  }
-  const scallop = Number(wanted.value.scallop);
-  if (!(scallop > 0)) {
-    say(`scallop: "${wanted.value.scallop}" is not a height above 0`, true);
-    return;
-  }
-  const args = { parts, tools: wanted.value.tools.split(/[\s,]+/).filter((tool) => tool !== ""), scallop, inch: inch.value };
-  const answer = await working("Suggesting", (options) => engineCall("suggest", args, files, options));
-  if (!answer) return;
-  history.change({ job: answer.result.job });
-  chosen.value = answer.result.said.filter((line) => line !== "");
-}
-
-function Suggest(): JSX.Element {
-  const set = (part: Partial<typeof wanted.value>) => { wanted.value = { ...wanted.value, ...part }; };
-  return <section class="suggest">
-    <h2>Suggest</h2>
-    <div class="fields">
-      <div class="field"><label for="suggest-tools">Tools</label>
-        <div class="control"><input id="suggest-tools" aria-describedby="suggest-tools-help" value={wanted.value.tools} onInput={(event) => set({ tools: event.currentTarget.value })} /></div>
-        <p class="help" id="suggest-tools-help">such as flat:8 ball:6 bull:10:1.5; the last finishes</p></div>
-      <div class="field"><label for="suggest-scallop">Scallop</label>
-        <div class="control"><input id="suggest-scallop" inputMode="decimal" aria-describedby="suggest-scallop-help" value={wanted.value.scallop}
-          onInput={(event) => set({ scallop: event.currentTarget.value })} /><span class="unit">{inch.value ? "in" : "mm"}</span></div>
-        <p class="help" id="suggest-scallop-help">the most that is left between passes</p></div>
-    </div>
-    <button type="button" class="primary" disabled={work.value !== null || !keys.value} onClick={() => void suggest()}>Suggest</button>
-    {chosen.value.length > 0 ? <ul class="chosen" aria-label="What was chosen">{chosen.value.map((line) => <li key={line}>{line}</li>)}</ul> : null}
-  </section>;
-}
+import { checked, history, job, keys, kinds, placeOf, project } from "./store";
+import { Suggest } from "./suggest";
 
 function AddOperation(): JSX.Element {
   const strategy = useSignal(""), known = keys.value?.strategies ?? [];
