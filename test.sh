@@ -3,7 +3,8 @@
 # usage: ./test.sh [--all | --release]
 #   --all, or CI=true: also the long tests, with a third of the random cases, the unit tests under ASan and UBSan, loops on
 #   several threads under ThreadSanitizer, bounded fuzzing, the packages, and the demo and the packages in bare roots
-#   --release: all of that with all random cases, the tests labelled `release`, and programs beside LinuxCNC's rs274
+#   --release: all of that with all random cases, the tests labelled `release`, programs beside LinuxCNC's rs274, and the
+#     studio in one file made anew
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -117,6 +118,7 @@ else
         -DCUSP_VIEW=OFF \
         -DCUSP_UNITY=ON
     quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
+    [ "$release" = no ] || step "the studio in one file" .ci/studio --compare
     echo "making the packages"
     install_packages $fresh_packages
     quietly build/package.log .ci/package ci

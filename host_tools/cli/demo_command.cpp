@@ -128,13 +128,17 @@ int run_demo(const DemoOptions& options)
 
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
                report::run_summary(plan.operations, run, cut));
+    const auto page = files::program_data("studio", "studio.html");
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
         "plan.json sim.json verify.json verify.txt (figures){}\n"
         "RUN.html shows the run: any browser opens it\n"
-        "cusp studio does all of this in a browser, with a part of your own\n",
+        "cusp studio does all of this in a browser, with a part of your own{}\n",
         out.string(),
-        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
+        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "",
+        page
+            ? fmt::format(";\non any system, this file alone: {}", (*page / "studio.html").string())
+            : "");
     std::fflush(stdout);
     fmt::print(stderr, "{}", simulate::faults_text(program, run));
     for (const std::string& broken : cut.broken) {
