@@ -105,7 +105,8 @@ if [ "$all" = no ]; then
 else
     if [ "$release" = yes ]; then run_tests ci-release; else run_tests ci; fi
     echo "building (sanitize)"
-    quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF
+    quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF \
+        -DCUSP_SLOW_UNIT_TESTS=$([ "$release" = yes ] && echo ON || echo OFF)
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz
     run_tests sanitize -L 'unit|fuzz'
     echo "building (thread)"
