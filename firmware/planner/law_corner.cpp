@@ -18,7 +18,7 @@ constexpr float kLeastGain = 0.0005F;           // s
 constexpr float kPartOfStretch = 1.0F / 12.0F;  // that an element may take
 constexpr float kDisjoint = 1.001F;
 
-// What the bends of a side add to the jerk of an axis after a time from rest.
+// The jerk of an axis that the bends of a side add after a time from rest.
 float bend_jerk(const LaneDerivatives& q, float jerk, float time) noexcept
 {
     const float speed = 0.5F * jerk * time * time;

@@ -35,7 +35,7 @@ std::int64_t to_units(float mm) noexcept
     return static_cast<std::int64_t>(mm * kPathUnitsPerMillimetre + 0.5F);
 }
 
-// Of a cell beside one of length h. At the shortest elements the law is far below its limits.
+// Growth of the cell beside one of length h. At the shortest elements the law is far below its limits.
 float growth_of(float h) noexcept { return h < kFineCell ? kFineGrowth : kGrowth; }
 
 }  // namespace

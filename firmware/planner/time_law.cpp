@@ -164,7 +164,7 @@ void TimeLaw::work() noexcept
     ++step_;
     if (step_ == kMostSteps || (step_ >= kLeastSteps && change < kSettled)) {
         state_ = State::kChecks;
-        // Where the speed changes more than float can tell, rounding may break a row.
+        // Rounding may break a row if the speed changes more than float can tell.
         if (greatest_use(spline_, window_) >= 1.0F) {
             retreat();
         }

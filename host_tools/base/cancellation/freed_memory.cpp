@@ -1,4 +1,4 @@
-// What the GNU allocator keeps of freed memory; other allocators keep what they like.
+// Bounds the freed memory that the GNU allocator keeps; other allocators keep what they like.
 #include "host_tools/base/cancellation/cancellation.hpp"
 
 #ifdef __GLIBC__

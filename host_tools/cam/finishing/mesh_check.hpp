@@ -1,4 +1,4 @@
-// What passes leave over a mesh, triangle by triangle, and the missing passes where they leave more than
+// Finds the stock that passes leave over a mesh, triangle by triangle, and the passes that are missing if it is more than
 // the scallop.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace cusp::finishing {
 
-// Of a check that is over.
+// The result of a check that is over.
 struct MeshLeft {
     // mm2 of facets with more than the scallop left because the tool cannot touch them: feet of walls,
     // concave edges, valleys narrower than the tool.

@@ -48,7 +48,7 @@ public:
                     const std::array<Vec3d, 3>& corners,
                     std::uint32_t& last) const;
 
-    // What of the mesh keeps the tool from a triangle that one place of its end would touch.
+    // The part of the mesh that keeps the tool from a triangle which one place of its end would touch.
     part_model::PartModel::Blocked blocked(const Side& side,
                                            const std::array<Vec3d, 3>& corners) const;
 

@@ -1,4 +1,4 @@
-// What straight moves of any end remove: the moves near a place, and whether one of them removes a point.
+// The stock that straight moves of any end remove: the moves near a place, and whether one of them removes a point.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ struct Extent {
 
 using Extents = std::array<Extent, kAxes>;
 
-// Where the tip goes, within `kChord` of curves. Programs begin with a lift, then a rapid move in x and y.
+// The way of the tip, within `kChord` of curves. Programs begin with a lift, then a rapid move in x and y.
 Extents extents_of(const PlannedProgram& program, double clearance)
 {
     constexpr double kChord = 1e-3;  // mm

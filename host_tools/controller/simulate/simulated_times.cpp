@@ -62,7 +62,7 @@ std::optional<int> motion_of(std::string_view line)
     return motion;
 }
 
-// Of each line, from 1: whether it moves at the rapid rate.
+// True for each line, from 1, that moves at the rapid rate.
 std::vector<bool> rapid_lines(std::string_view program)
 {
     std::vector<bool> rapid{false};
@@ -78,7 +78,7 @@ std::vector<bool> rapid_lines(std::string_view program)
     return rapid;
 }
 
-// What lines are to the times.
+// The kinds of lines that times are counted by.
 struct LineKinds {
     std::vector<std::uint32_t> first_lines;  // of all operations but the first
     std::vector<bool> rapid;

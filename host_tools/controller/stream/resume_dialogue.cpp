@@ -11,7 +11,7 @@ namespace cusp::stream {
 
 namespace {
 
-// Of the interrupted transfer, or for the given line.
+// The record of the interrupted transfer, or one for the given line.
 TransferRecord record_to_resume(const std::string& program, std::uint64_t line)
 {
     const auto kept = read_record(program);

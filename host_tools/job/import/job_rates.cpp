@@ -31,7 +31,7 @@ const toml::table& cutting_in(JobTable& top, bool needed)
     return table == nullptr ? kNothing : *table;
 }
 
-// What bounds the rate of this key.
+// The machine's bound of this key's rate.
 std::optional<MachineLimit> most_of(const MachineTool& machine, const std::string& key)
 {
     return key == "spindle"       ? machine.most_spindle

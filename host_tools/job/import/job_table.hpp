@@ -92,7 +92,7 @@ public:
     bool has(const char* key) const { return table_.contains(key); }
     job::Range range_of(const char* key) const { return key_of(key).range; }
 
-    // Where the key is, for messages: "job.toml:4: tool 1: feed".
+    // The place of the key, for messages: "job.toml:4: tool 1: feed".
     std::string place_of(const char* key) const;
 
     // limit  in words, where the reason names one

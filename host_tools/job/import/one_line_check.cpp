@@ -237,7 +237,7 @@ void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& to
                         "give two at most",
                         request.tools[1]));
     }
-    // What roughs: all but the last one, or that alone.
+    // The tools that rough: all but the last one, or that alone.
     const std::size_t rough = tools.size() > 1 ? tools.size() - 1 : request.roughing ? 1 : 0;
     for (std::size_t i = 0; i < rough; ++i) {
         if (tools[i].taper_angle > 0) {

@@ -11,7 +11,7 @@
 
 namespace cusp::import {
 
-// What a key is for.
+// The kind of parts that a key is for.
 enum class OneLineUse { kAny, kSurfaces, kDrawings };
 
 struct OneLineKey {

@@ -15,7 +15,7 @@ struct MachineLimit {
     std::string place;  // for messages: "mill.toml:4: max_rate"
 };
 
-// Of x, y and z; no value: unknown.
+// Limits of x, y and z; no value: unknown.
 using AxisValues = std::array<std::optional<MachineLimit>, 3>;
 
 struct MachineTool {

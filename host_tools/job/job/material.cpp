@@ -21,7 +21,7 @@ constexpr double kPlungeOfFeed = 0.25;
 
 bool is_drill(const RatedTool& rated) { return rated.tool.shape == ToolShape::kDrill; }
 
-// What cuts at the middle of the flank, of a cone.
+// The diameter that cuts; for a cone, that at the middle of its flank.
 double cutting_diameter(const toolpath::Tool& tool)
 {
     const bool cone = tool.shape == ToolShape::kVee || tool.shape == ToolShape::kTaper;

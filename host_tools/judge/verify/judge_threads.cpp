@@ -25,7 +25,7 @@ constexpr std::size_t kSectors = 24;
 constexpr double kOnWall = 0.01;       // mm, beside the tolerance
 constexpr double kLeadOfPitch = 0.25;  // a half circle onto the wall rises by this much
 
-// What is wrong with one thread; "": nothing.
+// Finds the fault of one thread, in words; "": none.
 class ThreadJudge {
 public:
     ThreadJudge(const Verifying& work, const Operation& operation, const Hole& hole)
