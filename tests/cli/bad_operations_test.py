@@ -196,7 +196,7 @@ class BadOperations(unittest.TestCase):
         self.refused("chamfer needs a vee or a taper, tool 1 is flat", operation("chamfer", "outline", width=1))
         self.refused("tool: is 7", operation("profile", "outline", tool=7, depth=1))
         self.refused('is "6mm flat", but no tool has a name', operation("profile", "outline", tool="6mm flat", depth=1))
-        self.refused('job.toml:1: library: library "steel": none of that name comes', operation("profile", "outline", depth=1),
+        self.refused('job.toml:1: library: library "steel": there is none of that name', operation("profile", "outline", depth=1),
                      head='library = "steel"\n' + HEAD)
         self.write("tools.toml", 'units = "mm"\n[[tool]]\nname = "big"\nshape = "flat"\ndiameter = 20\nfeed = 500\n')
         self.refused('no tool has that name, in tools.toml either; the nearest are "big"',
