@@ -42,9 +42,6 @@ public:
     // Precondition: finished().
     const StopElement& stop() const noexcept { return stop_; }
 
-    // Up to here the path is not asked for any more.
-    PathCursor passed() const noexcept { return cursor_; }
-
 private:
     // A piece of path with constant bounds.
     struct PathSpan {

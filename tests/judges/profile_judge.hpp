@@ -1,4 +1,4 @@
-// What moves of any end cut and leave, by brute force: the profile of the tool alone against all moves,
+// Judges what moves of any end cut and leave, by brute force: the profile of the tool alone against all moves,
 // and dense samples of a part.
 #pragma once
 

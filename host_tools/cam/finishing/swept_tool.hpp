@@ -9,8 +9,8 @@
 
 namespace cusp::finishing {
 
-// Where the end of a tool's core may be that removes the stock over places of one normal without cutting
-// into them: a window beside the place.
+// A window beside a place: there the end of a tool's core removes the stock over places of one normal without
+// cutting into them.
 struct ToolWindow {
     Vec3d off;      // mm: from the place to the end of the core that touches it
     Vec3d middle;   // mm: from the place to the middle of the window

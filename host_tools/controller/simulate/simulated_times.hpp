@@ -24,7 +24,7 @@ struct OperationTime {
     double rapid_s{};  // of these, in rapid moves; those of a drill's cycle count as feed
 };
 
-// Of each operation. No value where the controller refuses the program.
+// The times of each operation. No value if the controller refuses the program.
 //
 // program   G-code
 // begins    byte offsets of the operations; what precedes the first counts for the first

@@ -71,7 +71,7 @@ JobTable::JobTable(const toml::table& table,
     refuse_unknown_keys();
 }
 
-// Of the table where it has no such key.
+// The line of the table if it has no such key.
 toml::source_index JobTable::line_of(const char* key) const
 {
     const toml::node* node = table_.get(key);

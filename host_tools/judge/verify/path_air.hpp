@@ -10,7 +10,7 @@
 
 namespace cusp::verify {
 
-// Of each path, the share of the time of its feed moves, 0 to 1, in links and in moves that meet no stock which stood
+// The share of each path's time at feed, 0 to 1, in links and in moves that meet no stock which stood
 // before the path: over it, beside it, in what earlier paths and earlier programs have cut. Where a path comes again to a
 // place of its own it counts as cutting.
 //

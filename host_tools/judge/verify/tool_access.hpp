@@ -54,7 +54,7 @@ private:
                                                                    double y) const;
     drop_cutter::LowestPositionSearch::DroppedTool drop_at(Cutter& cutter, double x, double y);
 
-    // Of a cone: the best of drops on a grid round the place, then of ever smaller steps from there.
+    // The lowest tip of a cone: the best of drops on a grid round the place, then of ever smaller steps from there.
     double lowest_of_cone(Cutter& cutter, Vec3d place, Vec2d touching);
 
     const std::vector<nurbs::Surface>& surfaces_;
