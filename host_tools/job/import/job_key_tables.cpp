@@ -238,7 +238,17 @@ const KeyTable& placing_table()
                 "`\"top\"`: the part's top at z = 0; `\"corner\"`: also its least x and y at 0; "
                 "`\"centre\"`: also its middle in x and y at 0",
                 "the file's"),
-         {"move", Kind::kLengths, "`[0, 0, 0]`", "`[x, y, z]`, after all else"}}};
+         {"move", Kind::kLengths, "`[0, 0, 0]`", "`[x, y, z]`"},
+         {"grid", Kind::kNumbers, "none",
+          "`[columns, rows]` of the part, the first one where all above puts it"},
+         {"pitch", Kind::kMargin, "with a `grid`: needed", "from part to part, or `[in x, in y]`"},
+         {"copies", Kind::kPairs, "none",
+          "`[[x, y], ...]`, in place of a `grid`: all places of the part, moved by these"},
+         {"copies_rotate",
+          Kind::kNumbers,
+          "0",
+          "degrees of the copies about the origin, before they are moved: one number, or one each",
+          {-360, 360}}}};
     return kTable;
 }
 

@@ -39,6 +39,9 @@ struct OneLineRequest {
     std::string tabs;                 // "COUNT", "COUNT:WIDTH:HEIGHT"
     std::string side;                 // "": outside; "inside", "on"
     std::optional<double> join_gaps;
+    std::vector<double> copies;  // of all drawings together, or of each
+    std::vector<double> sheet;   // width and height of the stock, on which copies lie
+    std::optional<double> gap;   // between copies
     bool roughing{true};
     std::string strategy;         // "": the first for parts, with a boundary for pockets
     std::string output{"lines"};  // "lines", "arcs", "nurbs"

@@ -14,6 +14,7 @@ namespace cusp::import {
 namespace {
 
 constexpr const char* kLength = "LENGTH";
+constexpr int kMostKinds = 1000;  // of drawings that are copied
 
 using Request = OneLineRequest;
 using Keys = std::vector<OneLineKey>;
@@ -42,6 +43,27 @@ Keys drawing_keys()
          {"outside", "inside", "on"}},
         {"join_gaps", &Request::join_gaps, kLength,
          "largest gap between lines of a drawing that is closed", kUse},
+        {"sheet",
+         &Request::sheet,
+         "WIDTH,HEIGHT",
+         "of the stock: the drawings are placed on it",
+         kUse,
+         {},
+         nullptr,
+         2,
+         2},
+        {"copies",
+         &Request::copies,
+         "COUNT,...",
+         "of the drawings on the --sheet, turned and laid beside each other: all together, or of "
+         "each",
+         kUse,
+         {},
+         nullptr,
+         1,
+         kMostKinds},
+        {"gap", &Request::gap, kLength,
+         "between copies and to the sheet's edges; default: 1.5 diameters of the first tool", kUse},
     };
 }
 

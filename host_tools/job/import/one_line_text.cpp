@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "firmware/base/inch.hpp"
+
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
@@ -90,7 +92,7 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
     return out;
 }
 
-std::string placing_toml(const OneLineRequest& request)
+std::string placing_toml(const OneLineRequest& request, const std::vector<NestedFiles>& copied)
 {
     std::string keys;
     if (request.scale) {
@@ -108,7 +110,23 @@ std::string placing_toml(const OneLineRequest& request)
     if (!request.move.empty()) {
         keys += fmt::format("move = [{}]\n", fmt::join(request.move, ", "));
     }
-    return keys.empty() ? "" : "\n[placing]\n" + keys;
+    if (copied.empty()) {
+        return keys.empty() ? "" : "\n[placing]\n" + keys;
+    }
+    const double unit = request.inch ? kMillimetresPerInch : 1.0;
+    std::string tables;
+    for (const NestedFiles& each : copied) {
+        std::vector<std::string> places;
+        std::vector<double> turns;
+        for (const CopyPlace& place : each.places) {
+            places.push_back(fmt::format("[{}, {}]", place.at.x / unit, place.at.y / unit));
+            turns.push_back(place.degrees);
+        }
+        tables += fmt::format("\n[[placing]]\nfile = {}\n{}copies = [{}]\ncopies_rotate = [{}]\n",
+                              quoted_list(each.files), keys, fmt::join(places, ", "),
+                              fmt::join(turns, ", "));
+    }
+    return tables;
 }
 
 std::string said_feeds(const OneLineRequest& request, const OneLineChoice& choice)

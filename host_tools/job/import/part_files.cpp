@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/drawn_shapes.hpp"
@@ -61,7 +62,97 @@ void check_place(const std::vector<Curve>& curves, const std::string& name)
     }
 }
 
+std::array<Vec3d, 3> moved(const Similarity& place, const std::array<Vec3d, 3>& facet)
+{
+    return {place.of(facet[0]), place.of(facet[1]), place.of(facet[2])};
+}
+
+Surface moved(const Similarity& place, Surface surface)
+{
+    for (Vec3d& point : surface.points) {
+        point = place.of(point);
+    }
+    return surface;
+}
+
+// Drawings and holes are seen from above.
+std::vector<Curve> moved(const Similarity& place, std::vector<Curve> curves)
+{
+    move_curves(place, curves);
+    return curves;
+}
+
+Curve moved(const Similarity& place, const Curve& curve)
+{
+    return moved(place, std::vector{curve}).front();
+}
+
+job::OpenChain moved(const Similarity& place, job::OpenChain chain)
+{
+    move_curves(place, chain.pieces);
+    return chain;
+}
+
+job::Hole moved(const Similarity& place, job::Hole hole)
+{
+    hole.at = in_plan(place.of({hole.at.x, hole.at.y, 0}));
+    return hole;
+}
+
 std::string without_layer(const std::string& name) { return name.substr(0, layer_mark(name)); }
+
+void check_apart(const std::vector<FileLoop>& copies)
+{
+    constexpr double kChord = 5e-3;     // mm
+    constexpr double kTouching = 1e-2;  // mm: copies side by side may have an edge in common
+    std::vector<std::vector<Vec2d>> outlines;
+    for (const FileLoop& loop : copies) {
+        outlines.push_back(job::loop_polyline(loop.loop, kChord));
+    }
+    if (const auto at = job::crossing_of(outlines, kTouching)) {
+        throw InputError(
+            fmt::format("{}: copies cross at x {:.6g} y {:.6g} mm: place them farther apart",
+                        without_layer(copies.front().name), at->x, at->y));
+    }
+}
+
+// Each item in all places, one after the other: the order by size stays.
+template <class Item>
+void repeat(const std::vector<Similarity>& places, std::vector<Item>& items)
+{
+    if (places.empty()) {
+        return;
+    }
+    std::vector<Item> all;
+    all.reserve(places.size() * items.size());
+    for (const Item& item : items) {
+        for (const Similarity& place : places) {
+            all.push_back(moved(place, item));
+        }
+    }
+    items = std::move(all);
+}
+
+// Errors: InputError where copies cross.
+void repeat(const std::vector<Similarity>& places, std::vector<FileLoop>& loops)
+{
+    if (places.empty()) {
+        return;
+    }
+    const int count = static_cast<int>(places.size());
+    std::vector<FileLoop> all;
+    for (const FileLoop& loop : loops) {
+        for (int i = 0; i < count; ++i) {
+            FileLoop copy = loop;
+            copy.parent = loop.parent < 0 ? -1 : loop.parent * count + i;
+            copy.name += i > 0 ? fmt::format(", copy {}", i + 1) : "";
+            move_curves(places[static_cast<std::size_t>(i)], copy.loop);
+            all.push_back(std::move(copy));
+        }
+    }
+    check_apart(all);
+    loops = std::move(all);
+}
 
 }  // namespace
 
@@ -69,6 +160,19 @@ Similarity PartFiles::placed(const std::string& file) const
 {
     const auto found = placed_.find(file);
     return found == placed_.end() ? turn_ : found->second.then(turn_);
+}
+
+std::vector<Similarity> PartFiles::copies(const std::string& name) const
+{
+    const auto found = copies_.find(copies_.count(name) > 0 ? name : without_layer(name));
+    if (found == copies_.end() || names_part_region(name)) {
+        return {};  // regions are those of all copies
+    }
+    std::vector<Similarity> places;
+    for (const Similarity& place : found->second) {
+        places.push_back(turn_.inverse().then(place).then(turn_));
+    }
+    return places;
 }
 
 const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
@@ -80,6 +184,7 @@ const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
     const auto [found, is_new] = surfaces_.try_emplace({file, tolerance});
     if (is_new) {
         found->second = read_surfaces(file, millimetres, tolerance, &notes_, placed(file));
+        repeat(copies(file), found->second);
     }
     return found->second;
 }
@@ -89,6 +194,7 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
     const auto [found, is_new] = meshes_.try_emplace(file);
     if (is_new) {
         found->second = read_mesh(file, millimetres, &notes_, placed(file));
+        repeat(copies(file), found->second);
     }
     return found->second;
 }
@@ -114,6 +220,7 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
         found->second = drawn == nullptr ? read_loops(file, millimetres, gaps, notes_)
                                          : loops_of(file, *drawn, gaps, notes_);
         move_loops(placed_drawing(file), found->second);
+        repeat(copies(file), found->second);
         for (const FileLoop& loop : found->second) {
             check_place(loop.loop, file);
         }
@@ -131,11 +238,13 @@ FileShapes PartFiles::shapes(const std::string& file,
     FileShapes shapes = drawn == nullptr ? read_shapes(file, layers, millimetres, gaps, notes_)
                                          : shapes_of(file, *drawn, gaps, notes_);
     move_loops(move, shapes.loops);
+    repeat(copies(file), shapes.loops);
     for (const FileLoop& loop : shapes.loops) {
         check_place(loop.loop, file);
     }
-    for (job::OpenChain& chain : shapes.open) {
-        move_curves(move, chain.pieces);
+    repeat({move}, shapes.open);
+    repeat(copies(file), shapes.open);
+    for (const job::OpenChain& chain : shapes.open) {
         check_place(chain.pieces, file);
     }
     return shapes;
@@ -145,6 +254,7 @@ std::vector<Curve> PartFiles::curves(const std::string& file, double millimetres
 {
     std::vector<Curve> curves = read_curves(file, millimetres, nullptr);
     move_curves(placed_drawing(file), curves);
+    repeat(copies(file), curves);
     return curves;
 }
 
@@ -152,8 +262,12 @@ const Triangles& PartFiles::facets(const std::string& file, double millimetres)
 {
     const auto [found, is_new] = facets_.try_emplace(file);
     if (is_new) {
-        found->second =
-            is_mesh_file(file) ? mesh(file, millimetres) : read_cad_facets(file, placed(file));
+        if (is_mesh_file(file)) {
+            found->second = mesh(file, millimetres);
+        } else {
+            found->second = read_cad_facets(file, placed(file));
+            repeat(copies(file), found->second);
+        }
         close_mesh({file}, found->second);
     }
     return found->second;
@@ -198,6 +312,9 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
     std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
     for (job::Hole& hole : holes) {
         hole = {in_plan(move.of({hole.at.x, hole.at.y, 0})), scale * hole.diameter};
+    }
+    repeat(copies(file), holes);
+    for (const job::Hole& hole : holes) {
         check_place({line_curve(hole.at, hole.at)}, file);
     }
     return holes;
@@ -209,6 +326,7 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
     CadHoles& found = known->second;
     if (is_new) {
         found = read_cad_holes(file, placed(file));
+        repeat(copies(file), found.holes);
         if (found.closed_above > 0) {
             notes_.push_back(fmt::format("{}: {} below alone and {} not drilled", file,
                                          found.closed_above == 1
@@ -241,14 +359,35 @@ std::vector<job::Chain> PartFiles::chains(const std::string& file, double millim
     std::vector<job::Chain> chains = drawn == nullptr
                                          ? read_chains(file, millimetres, notes_)
                                          : chains_of(file, curves_of(drawn->paths), notes_);
-    for (job::Chain& chain : chains) {
-        move_curves(move, chain);
+    repeat({move}, chains);
+    repeat(copies(file), chains);
+    for (const job::Chain& chain : chains) {
         check_place(chain, file);
     }
     return chains;
 }
 
 void PartFiles::place(const std::string& file, const Similarity& placed) { placed_[file] = placed; }
+
+void PartFiles::copy(const std::string& file, const std::vector<Similarity>& places)
+{
+    copies_[file] = places;
+    const auto repeat_read = [&](auto& read) {
+        for (auto& [key, items] : read) {
+            const std::string& name = std::get<0>(key);
+            if (name == file || without_layer(name) == file) {
+                repeat(copies(name), items);
+            }
+        }
+    };
+    repeat_read(surfaces_);
+    repeat_read(loops_);
+    if (const auto found = meshes_.find(file); found != meshes_.end()) {
+        repeat(places, found->second);
+    }
+    cad_holes_.erase(file);
+    facets_.erase(file);
+}
 
 void PartFiles::turn_all(const Similarity& turn)
 {

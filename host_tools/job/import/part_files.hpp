@@ -65,6 +65,8 @@ public:
     void place(const std::string& file, const Similarity& placed);
     // Moves what was read of the file, and what will be. mm
     void shift(const std::string& file, Vec3d by);
+    // The file lies in all these places, and no longer where place() and shift() say: they act before.
+    void copy(const std::string& file, const std::vector<Similarity>& places);
     // Turns all files that lie as the above say, in space; what was read is forgotten.
     void turn_all(const Similarity& turn);
     // After the last of both: a job that finds its files placed leaves them there.
@@ -79,6 +81,8 @@ private:
     const DrawnPaths* drawn(const std::string& name, double millimetres);
     std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
     Similarity placed(const std::string& file) const;
+    // From where placed() says to all places of the file.
+    std::vector<Similarity> copies(const std::string& name) const;
     // The placing of a drawing, the same for all layers.
     Similarity placed_drawing(const std::string& name) const;
 
@@ -92,7 +96,8 @@ private:
     std::map<std::string, DrawnPaths> regions_;  // of parts, placed
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
-    Similarity turn_;                           // of all files, last
+    std::map<std::string, std::vector<Similarity>> copies_;
+    Similarity turn_;  // of all files, last
     bool is_placed_{false};
     std::vector<std::string> notes_;
 };

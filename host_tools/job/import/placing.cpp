@@ -144,9 +144,22 @@ public:
         for (const std::string& file : governed.drawings) {
             parts_.shift(file, {shift.x, shift.y, 0});
         }
+        copy(placing, governed);
     }
 
 private:
+    void copy(const Placing& placing, const PlacedFiles& governed) const
+    {
+        if (placing.copies.empty()) {
+            return;
+        }
+        for (const auto* const files : {&governed.parts, &governed.drawings}) {
+            for (const std::string& file : *files) {
+                parts_.copy(file, moves_of(placing.copies));
+            }
+        }
+    }
+
     static constexpr double kChord = 1e-3;  // mm, of the box of a mesh
 
     PartExtent box_of(const PlacedFiles& governed) const
@@ -195,6 +208,16 @@ Similarity turn_of(const Placing& placing)
 Similarity turn_of_drawing(const Placing& placing)
 {
     return scaling(placing.scale).then(turn_about(2, placing.rotate.z));
+}
+
+std::vector<Similarity> moves_of(const std::vector<CopyPlace>& copies)
+{
+    std::vector<Similarity> moves;
+    for (const CopyPlace& place : copies) {
+        moves.push_back(turn_about(2, place.degrees));
+        moves.back().shift = {place.at.x, place.at.y, 0};
+    }
+    return moves;
 }
 
 Vec3d shift_of(const Placing& placing, const PartExtent& box)

@@ -12,14 +12,23 @@
 
 namespace cusp::import {
 
-// Applied in this order: scale, up, rotate, origin, move.
+inline constexpr double kMostPlaces = 10000;  // of a part
+
+// One more place of a part that is placed already.
+struct CopyPlace {
+    Vec2d at{};        // mm: by which it is moved, after the turn
+    double degrees{};  // about the job's z axis
+};
+
+// Applied in this order: scale, up, rotate, origin, move, copies.
 struct Placing {
     std::vector<std::string> files;  // that it is for; none: all that no other placing names
     double scale{1.0};
-    std::string up{"+z"};  // the file's axis that becomes z
-    Vec3d rotate{};        // degrees about x, then y, then z
-    std::string origin;    // "corner", "centre", "top", or "" for the file's own
-    Vec3d move{};          // mm
+    std::string up{"+z"};             // the file's axis that becomes z
+    Vec3d rotate{};                   // degrees about x, then y, then z
+    std::string origin;               // "corner", "centre", "top", or "" for the file's own
+    Vec3d move{};                     // mm
+    std::vector<CopyPlace> copies{};  // all places of the part; none: it lies where `move` puts it
 };
 
 inline const std::vector<std::string> kUpAxes{"+x", "-x", "+y", "-y", "+z", "-z"};
@@ -39,6 +48,9 @@ struct PlacedFiles {
     std::vector<std::string> parts;     // of surfaces and meshes
     std::vector<std::string> drawings;  // of loops; "#layer" may follow
 };
+
+// From where a part is placed to its copies.
+std::vector<Similarity> moves_of(const std::vector<CopyPlace>& copies);
 
 // A placing that does not fit the files of its job.
 class PlacingError : public InputError {

@@ -2,6 +2,8 @@
 // operations are read after their files are placed.
 #include "host_tools/job/import/placing_reader.hpp"
 
+#include <cmath>
+
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/path_ending.hpp"
@@ -38,6 +40,69 @@ Vec3d read_move(JobTable& keys, double millimetres)
         keys.refuse("move", fmt::format("has {} numbers, [x, y, z] is needed", move->size()));
     }
     return millimetres * Vec3d{(*move)[0], (*move)[1], (*move)[2]};
+}
+
+// A grid of columns and rows, `pitch` apart.
+std::vector<CopyPlace> read_grid(JobTable& keys, double millimetres)
+{
+    const auto grid = keys.numbers("grid");
+    const auto pitch = keys.one_or_more("pitch");
+    if (!grid && !pitch) {
+        return {};
+    }
+    if (!grid || !pitch) {
+        keys.refuse(grid ? "grid" : "pitch", "a grid needs both grid and pitch");
+    }
+    if (grid->size() != 2 || pitch->size() > 2) {
+        keys.refuse(grid->size() != 2 ? "grid" : "pitch",
+                    "[columns, rows] are needed, and one distance or [in x, in y]");
+    }
+    for (const double count : *grid) {
+        if (count < 1 || count != std::floor(count) || (*grid)[0] * (*grid)[1] > kMostPlaces) {
+            keys.refuse("grid",
+                        fmt::format("is [{:g}, {:g}]: whole numbers from 1 are needed, {:g} "
+                                    "places at most",
+                                    (*grid)[0], (*grid)[1], kMostPlaces));
+        }
+    }
+    std::vector<CopyPlace> places;
+    for (int row = 0; row < static_cast<int>((*grid)[1]); ++row) {
+        for (int column = 0; column < static_cast<int>((*grid)[0]); ++column) {
+            places.push_back(
+                {millimetres * Vec2d{column * pitch->front(), row * pitch->back()}, 0});
+        }
+    }
+    return places;
+}
+
+std::vector<CopyPlace> read_copies(JobTable& keys, double millimetres)
+{
+    const auto turns = keys.one_or_more("copies_rotate");
+    const auto given = keys.pairs("copies", "[x, y]");
+    std::vector<CopyPlace> places = read_grid(keys, millimetres);
+    if (turns && !given) {
+        keys.refuse("copies_rotate", "needs copies");
+    }
+    if (!given) {
+        return places;
+    }
+    if (!places.empty()) {
+        keys.refuse("copies", "a placing has copies or a grid, not both");
+    }
+    if (given->empty() || given->size() > static_cast<std::size_t>(kMostPlaces)) {
+        keys.refuse("copies",
+                    fmt::format("has {} places, 1 to {:g} are needed", given->size(), kMostPlaces));
+    }
+    if (turns && turns->size() != 1 && turns->size() != given->size()) {
+        keys.refuse("copies_rotate",
+                    fmt::format("has {} numbers, 1 or {} are needed, as copies has", turns->size(),
+                                given->size()));
+    }
+    for (std::size_t i = 0; i < given->size(); ++i) {
+        const double degrees = !turns ? 0.0 : turns->size() == 1 ? turns->front() : (*turns)[i];
+        places.push_back({millimetres * Vec2d{(*given)[i][0], (*given)[i][1]}, degrees});
+    }
+    return places;
 }
 
 // A text, or the texts of a list; anything else is refused when the operation is read.
@@ -89,6 +154,7 @@ std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables
         placing.rotate = read_turn(keys);
         placing.origin = keys.choice("origin").value_or("");
         placing.move = read_move(keys, millimetres);
+        placing.copies = read_copies(keys, millimetres);
         keys.check_all_read();
         placings.push_back(placing);
     }

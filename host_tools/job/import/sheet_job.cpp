@@ -3,16 +3,50 @@
 
 #include <algorithm>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/one_line_check.hpp"
 #include "host_tools/job/import/one_line_text.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/import/sheet_cuts.hpp"
+#include "host_tools/job/import/sheet_drawing.hpp"
+#include "host_tools/job/import/sheet_nest.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
 namespace cusp::import {
+
+namespace {
+
+std::vector<NestedFiles> copy_drawings(const OneLineRequest& request,
+                                       const OneLineChoice& choice,
+                                       const job::Strategies& strategies,
+                                       PartFiles& parts)
+{
+    const double unit = request.inch ? kMillimetresPerInch : 1.0;
+    const std::vector<NestedFiles> copied =
+        nest_copies(request, choice, sheet_drawings(request, strategies, unit, parts));
+    for (const NestedFiles& each : copied) {
+        for (const std::string& file : each.files) {
+            parts.copy(file, moves_of(each.places));
+        }
+    }
+    if (!copied.empty()) {
+        parts.finish_placing();
+    }
+    return copied;
+}
+
+// Keys of [stock].
+std::string sheet_toml(const OneLineRequest& request)
+{
+    return request.sheet.empty()
+               ? ""
+               : fmt::format("x = [0, {}]\ny = [0, {}]\n", request.sheet[0], request.sheet[1]);
+}
+
+}  // namespace
 
 bool is_drawing_name(const std::string& name)
 {
@@ -32,15 +66,19 @@ OneLineJob sheet_job(const OneLineRequest& request,
     check_sheet_request(request);
     const OneLineChoice choice = choose_rates(request);
     place_request(request, parts);
+    const std::vector<NestedFiles> copied = copy_drawings(request, choice, strategies, parts);
     const double top = request.stock_top.value_or(0.0);
     OneLineJob job;
     job.toml = head_toml(request, choice) +
                fmt::format("\n[stock]\ntop = {}\nbottom = {}\nclearance = {}\n", top,
                            top - *request.depth, choice.clearance) +
-               placing_toml(request);
+               sheet_toml(request) + placing_toml(request, copied);
     job.said.push_back(fmt::format("stock: top z = {:.6g} {}{}, {:.6g} thick (--depth)", top,
                                    choice.unit, request.stock_top ? "" : " (--stock-top)",
                                    *request.depth));
+    if (!copied.empty()) {
+        job.said.push_back(said_of_copies(request, choice, copied));
+    }
     job.said.push_back(said_feeds(request, choice));
     bool cuts_something = false;
     for (const SheetCut& cut : sheet_cuts(request, choice, strategies, parts)) {

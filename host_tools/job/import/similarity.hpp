@@ -20,6 +20,17 @@ struct Similarity {
     {
         return {{next.turned(axes[0]), next.turned(axes[1]), next.turned(axes[2])}, next.of(shift)};
     }
+    // Takes this one back. Accuracy: that of the axes' lengths, which are equal.
+    Similarity inverse() const
+    {
+        const double square = dot(axes[0], axes[0]);
+        Similarity back;
+        back.axes = {Vec3d{axes[0].x, axes[1].x, axes[2].x} * (1 / square),
+                     Vec3d{axes[0].y, axes[1].y, axes[2].y} * (1 / square),
+                     Vec3d{axes[0].z, axes[1].z, axes[2].z} * (1 / square)};
+        back.shift = -1.0 * back.turned(shift);
+        return back;
+    }
     bool is_identity() const
     {
         return axes[0] == Vec3d{1, 0, 0} && axes[1] == Vec3d{0, 1, 0} &&
