@@ -15,6 +15,13 @@ namespace cusp::test {
 // A point of a profile: distance along it, and height.
 using Profile = std::vector<Vec2d>;
 
+inline Vec3d random_place(Random& random, const std::array<Vec3d, 3>& t)
+{
+    const double a = std::sqrt(uniform(random, 0.0, 1.0));
+    const double b = uniform(random, 0.0, 1.0);
+    return t[0] * (1 - a) + t[1] * (a * (1 - b)) + t[2] * (a * b);
+}
+
 // 0.1 to 5 degrees from the vertical, small ones as often as large ones; as a tangent.
 inline double random_draft(Random& random)
 {

@@ -99,6 +99,24 @@ private:
     std::vector<std::pair<Vec3d, Vec3d>> moves_;
 };
 
+// True if a move removes some point so far from a place.
+inline bool is_cut_within(const MovesOfEnd& moves, Vec3d place, double away)
+{
+    constexpr int kTurns = 12;
+    for (int j = 0; j <= 6; ++j) {
+        const double rise = kPi / 2 * j / 6;
+        for (int k = 0; k < kTurns; ++k) {
+            const double turn = 2 * kPi * k / kTurns;
+            const Vec3d way{std::cos(turn) * std::cos(rise), std::sin(turn) * std::cos(rise),
+                            std::sin(rise)};
+            if (moves.removes(place + way * away)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // The samples of a part by squares in plan.
 class SampledPart {
 public:
@@ -137,6 +155,27 @@ public:
             }
         }
         return true;
+    }
+
+    // z of the tip of the tool dropped there; -kFar where it meets no sample.
+    double drop(const toolpath::Tool& tool, double x, double y) const
+    {
+        double tip = -kFar;
+        for (int i = cell(x - tool.radius); i <= cell(x + tool.radius); ++i) {
+            for (int j = cell(y - tool.radius); j <= cell(y + tool.radius); ++j) {
+                const auto found = squares_.find({i, j});
+                if (found == squares_.end()) {
+                    continue;
+                }
+                for (const Vec3d& p : found->second) {
+                    const double away = std::hypot(p.x - x, p.y - y);
+                    if (away < tool.radius && p.z > tip) {
+                        tip = std::max(tip, p.z - toolpath::profile_height(tool, away));
+                    }
+                }
+            }
+        }
+        return tip;
     }
 
     template <class Visit>

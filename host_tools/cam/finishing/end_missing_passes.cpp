@@ -10,6 +10,7 @@
 #include "host_tools/cam/finishing/end_scallop_check.hpp"
 #include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/joined_tips.hpp"
+#include "host_tools/cam/finishing/mesh_pencil_curves.hpp"
 #include "host_tools/cam/finishing/scallop_at_point.hpp"
 #include "host_tools/geometry/part_model/tool_core.hpp"
 
@@ -25,36 +26,43 @@ constexpr int kMostTouches = 6;       // of a tool that follows a wall
 constexpr double kLeastFlat = 0.05;   // cosine: flatter ground is no wall
 constexpr double kLeastReach = 1e-9;  // mm
 constexpr double kLeastWay = 0.1;     // of the tool's: of its contact
-constexpr double kCluster = 0.5;      // steps: of ground that one lowest tip is looked for
-constexpr double kChained = 2;        // steps: between tips of one pass
-constexpr int kLowestRounds = 2;
-constexpr double kSameLowest = 0.02;  // steps
+constexpr double kLowestPitches[] = {1.0 / 12,
+                                     1.0 / 24};  // radii: of searches, one after the other
+constexpr double kLowestShare = 0.7;             // of the scallop: less may stay
+constexpr double kPlacesPitch = 1.0 / 12;        // radii: of places that are looked at
 
-// Tips that lie near each other, in an order along the curve that they make.
-std::vector<Points> chains_of(Points tips, double apart)
-{
-    std::vector<Points> out;
-    while (!tips.empty()) {
-        Points chain{tips.back()};
-        tips.pop_back();
-        for (int end = 0; end < 2; ++end) {
-            for (;;) {
-                const auto nearest =
-                    std::min_element(tips.begin(), tips.end(), [&](Vec3d a, Vec3d b) {
-                        return norm(a - chain.back()) < norm(b - chain.back());
-                    });
-                if (nearest == tips.end() || norm(*nearest - chain.back()) > apart) {
-                    break;
-                }
-                chain.push_back(*nearest);
-                tips.erase(nearest);
-            }
-            std::reverse(chain.begin(), chain.end());
+// Places by squares in plan as wide as a radius.
+class PlacesInPlan {
+public:
+    PlacesInPlan(const std::vector<Vec3d>& places, double radius) : radius_{radius}
+    {
+        for (const Vec3d& place : places) {
+            squares_[{cell(place.x), cell(place.y)}].push_back(place);
         }
-        out.push_back(std::move(chain));
     }
-    return out;
-}
+
+    // True if visit(place) is for one in a square beside the tip's.
+    template <class Visit>
+    bool any_near(Vec3d tip, const Visit& visit) const
+    {
+        for (long i = cell(tip.x) - 1; i <= cell(tip.x) + 1; ++i) {
+            for (long j = cell(tip.y) - 1; j <= cell(tip.y) + 1; ++j) {
+                const auto found = squares_.find({i, j});
+                if (found != squares_.end() &&
+                    std::any_of(found->second.begin(), found->second.end(), visit)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    long cell(double at) const { return static_cast<long>(std::floor(at / radius_)); }
+
+    double radius_;
+    std::map<std::pair<long, long>, std::vector<Vec3d>> squares_;
+};
 
 }  // namespace
 
@@ -68,9 +76,10 @@ void EndScallopCheck::add_missing_passes(const std::function<void(const Points&)
         open_ = std::move(found.open);
         blocked_.insert(blocked_.end(), found.blocked.begin(), found.blocked.end());
     }
-    for (int round = 0; round < kLowestRounds; ++round) {
-        cut_lowest(cut);
+    for (const double pitch : kLowestPitches) {
+        cut_lowest(pitch * ground_.path_fitter().tool().radius, cut);
     }
+    cut_rest(cut);
     measure_left();
 }
 
@@ -147,47 +156,90 @@ Points EndScallopCheck::trace_wall(const MeshPlace& from) const
         });
 }
 
-// One place stands for all within a share of a step.
-std::vector<MeshPlace> EndScallopCheck::blocked_places() const
+// The places that the tool can't touch and where more than the scallop stays; one stands for all within a
+// pitch.
+std::vector<Vec3d> EndScallopCheck::deep_places() const
 {
-    std::map<std::tuple<long, long, long>, MeshPlace> places;
-    const double size = kCluster * step();
+    const double pitch = kPlacesPitch * ground_.path_fitter().tool().radius;
+    std::map<std::tuple<long, long, long>, Vec3d> places;
     for (const Cell& cell : blocked_) {
-        const Vec3d at = cell.middle();
-        places.try_emplace(
-            {std::lround(at.x / size), std::lround(at.y / size), std::lround(at.z / size)},
-            place_of(cell));
+        // corners first: over the border of a part a tool that hangs beside it gets lower
+        for (const Vec3d at : {cell.corners[0], cell.corners[1], cell.corners[2], cell.middle()}) {
+            places.try_emplace(
+                {std::lround(at.x / pitch), std::lround(at.y / pitch), std::lround(at.z / pitch)},
+                at);
+        }
     }
-    std::vector<MeshPlace> all;
+    std::vector<Vec3d> all;
     for (const auto& [key, place] : places) {
         all.push_back(place);
     }
-    return all;
-}
-
-// Passes through the lowest tips over ground that the tool can't touch, where they remove more than the
-// scallop.
-void EndScallopCheck::cut_lowest(const std::function<void(const Points&)>& cut)
-{
-    const std::vector<MeshPlace> all = blocked_places();
-    std::vector<std::optional<Vec3d>> found(all.size());
-    const GougeFreePathFitter& fitter = ground_.path_fitter();
+    std::vector<char> is_deep(all.size());
     parallel::for_each(all.size(), [&](std::size_t k) {
-        fitter.model().forget_queries();
-        found[k] = ground_.lower_tip(all[k]);
+        is_deep[k] = ground_.is_left(all[k], kLowestShare) ? 1 : 0;
     });
-    fitter.model().forget_queries();
-    Points tips;
-    for (const std::optional<Vec3d>& tip : found) {
-        if (tip && std::none_of(tips.begin(), tips.end(), [&](Vec3d other) {
-                return norm(other - *tip) < kSameLowest * step();
-            })) {
-            tips.push_back(*tip);
+    std::vector<Vec3d> out;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (is_deep[k] != 0) {
+            out.push_back(all[k]);
         }
     }
-    for (const Points& chain : chains_of(std::move(tips), kChained * step())) {
-        for (const Points& run : joined_tips(chain, fitter, step())) {
-            cut(run);
+    return out;
+}
+
+// Passes along the curves where the tool touches twice, as far as they get lower over ground that it can't
+// touch.
+void EndScallopCheck::cut_lowest(double pitch, const std::function<void(const Points&)>& cut)
+{
+    const std::vector<Vec3d> places = deep_places();
+    if (places.empty()) {
+        return;
+    }
+    const GougeFreePathFitter& fitter = ground_.path_fitter();
+    const PlacesInPlan in_plan{places, fitter.tool().radius};
+    for (const Points& curve : mesh_pencil_curves_near(places, fitter, pitch)) {
+        std::vector<char> lower(curve.size());
+        parallel::for_each(curve.size(), [&](std::size_t k) {
+            lower[k] = in_plan.any_near(curve[k], [&](Vec3d place) {
+                return ground_.gets_lower(curve[k], place, kLowestShare);
+            });
+        });
+        for (std::size_t k = 0; k < curve.size(); ++k) {
+            if (lower[k] == 0) {
+                continue;
+            }
+            // from the tip before the first of a row to the one after the last
+            const std::size_t first = k > 0 ? k - 1 : 0;
+            while (k < curve.size() && lower[k] != 0) {
+                ++k;
+            }
+            const auto at = [&](std::size_t n) {
+                return curve.begin() + static_cast<std::ptrdiff_t>(n);
+            };
+            for (const Points& run :
+                 joined_tips({at(first), at(std::min(k + 1, curve.size()))}, fitter, step())) {
+                cut(run);
+            }
+        }
+    }
+}
+
+// Single tips where no such curve is: beside the border of a part, that a flat end bridges.
+void EndScallopCheck::cut_rest(const std::function<void(const Points&)>& cut)
+{
+    const std::vector<Vec3d> places = deep_places();
+    const GougeFreePathFitter& fitter = ground_.path_fitter();
+    std::vector<std::optional<Vec3d>> tips(places.size());
+    parallel::for_each(places.size(), [&](std::size_t k) {
+        fitter.model().forget_queries();
+        tips[k] = ground_.low_tip_round(places[k]);
+    });
+    fitter.model().forget_queries();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (tips[k] && ground_.gets_lower(*tips[k], places[k], kLowestShare)) {
+            for (const Points& run : joined_tips({*tips[k]}, fitter, step())) {
+                cut(run);
+            }
         }
     }
 }

@@ -26,6 +26,7 @@ constexpr double kSmallestTriangle = 1.0 / 64;
 constexpr int kTriangleHalvings = 60;
 constexpr std::size_t kMostOpen = 300000;
 constexpr std::size_t kFacetsAtOnce = 64;
+constexpr std::size_t kMeasuredAtOnce = 512;
 constexpr double kSharedTriangle = 64;  // larger facets are divided before they are shared
 constexpr double kUprightFacet = 1e-9;
 
@@ -219,9 +220,13 @@ void EndScallopCheck::measure_left()
         }
     }
     open_ = std::move(kept);
-    std::vector<double> stays(blocked_.size());
-    parallel::for_each(blocked_.size(),
-                       [&](std::size_t k) { stays[k] = ground_.left(blocked_[k].middle()); });
+    std::vector<double> stays((blocked_.size() + kMeasuredAtOnce - 1) / kMeasuredAtOnce);
+    parallel::for_each(stays.size(), [&](std::size_t share) {
+        const std::size_t end = std::min(blocked_.size(), (share + 1) * kMeasuredAtOnce);
+        for (std::size_t k = share * kMeasuredAtOnce; k < end; ++k) {
+            stays[share] = std::max(stays[share], ground_.left(blocked_[k].middle(), stays[share]));
+        }
+    });
     for (const double some : stays) {
         measured_ = std::max(measured_, some);
     }

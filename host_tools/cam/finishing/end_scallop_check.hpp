@@ -50,8 +50,9 @@ private:
     std::vector<Cell> sides() const;
     Findings look_at(const std::vector<Cell>& cells) const;
     bool cut_missing(const std::function<void(const Points&)>& cut);
-    void cut_lowest(const std::function<void(const Points&)>& cut);
-    std::vector<MeshPlace> blocked_places() const;
+    void cut_lowest(double pitch, const std::function<void(const Points&)>& cut);
+    void cut_rest(const std::function<void(const Points&)>& cut);
+    std::vector<Vec3d> deep_places() const;
     Points trace_wall(const MeshPlace& from) const;
     Points longest_trace(const MeshPlace& from) const;
     std::optional<MeshPlace> beside_on_wall(const MeshPlace& at, Vec3d tip) const;

@@ -24,10 +24,10 @@ constexpr double kSlack = 0.25;        // of the band's offset
 constexpr double kThinner = 0.9;       // radii
 constexpr int kRimPlaces = 12;         // places of a flat end
 constexpr double kFineOfRadius = 0.5;
-constexpr double kCoarsestStep = 4;   // scallops: of the search for a lower tip
-constexpr double kFinestStep = 2e-3;  // mm
-constexpr double kLeastGain = 0.1;    // of a step
-constexpr int kLowestWays = 8;
+constexpr double kOverShare = 1.01;
+constexpr double kRoundPlace[] = {0.05, 0.35, 0.65, 0.95};  // radii
+constexpr double kFirstStep = 0.15;                         // radii
+constexpr double kLastStep = 0.004;                         // radii
 
 }  // namespace
 
@@ -172,56 +172,55 @@ std::optional<Vec3d> MeshGround::missing_tip(const MeshPlace& place) const
     return tip && (!here.upright || rests(*tip)) ? tip : std::nullopt;
 }
 
-double MeshGround::left(Vec3d point) const
+double MeshGround::left(Vec3d point, double enough) const
 {
-    return swept_.nearest(point, path_fitter_.tool().radius).distance;
+    return swept_.distance(point, path_fitter_.tool().radius, enough);
 }
 
-std::optional<MeshGround::DroppedTip> MeshGround::dropped(double x, double y, Vec3d place) const
+bool MeshGround::gets_lower(Vec3d tip, Vec3d place, double share) const
 {
-    const std::optional<Vec3d> tip = path_fitter_.drop(x, y);
-    if (!tip) {
-        return std::nullopt;
+    const Tool& tool = path_fitter_.tool();
+    const double away = elementary::hypot(place.x - tip.x, place.y - tip.y);
+    if (away > tool.radius) {
+        return false;
     }
-    const double corner = swept_.profile().corner();
-    const double away =
-        norm(swept_.profile().core_at(tip->x, tip->y, tip->z + corner).reach(place));
-    return DroppedTip{*tip, std::max(0.0, away - corner)};
+    return is_left({place.x, place.y, tip.z + profile_height(tool, away)}, share);
 }
 
-// A pattern search over drops.
-std::optional<Vec3d> MeshGround::lower_tip(const MeshPlace& place) const
+std::optional<Vec3d> MeshGround::low_tip_round(Vec3d place) const
 {
-    const SweptTool::Nearest now = swept_.nearest(place.point, path_fitter_.tool().radius);
-    if (now.distance <= scallop_ || is_hidden(place)) {
-        return std::nullopt;
-    }
-    std::optional<DroppedTip> best;
-    const auto try_at = [&](double x, double y, double gain) {
-        const auto found = dropped(x, y, place.point);
-        const bool better = found && (!best || found->left < best->left - gain);
-        if (better) {
-            best = found;
+    const Tool& tool = path_fitter_.tool();
+    std::optional<Vec3d> best;
+    double lowest = kInfinite;
+    const auto try_round = [&](Vec3d middle, double away) {
+        bool better = false;
+        for (int k = 0; k < kRimPlaces; ++k) {
+            const double turn = 2 * kPi * k / kRimPlaces;
+            const double x = middle.x + away * elementary::cos(turn);
+            const double y = middle.y + away * elementary::sin(turn);
+            const double off = elementary::hypot(x - place.x, y - place.y);
+            const auto tip = off < tool.radius ? path_fitter_.drop(x, y) : std::nullopt;
+            if (tip && tip->z + profile_height(tool, off) < lowest) {
+                lowest = tip->z + profile_height(tool, off);
+                best = tip;
+                better = true;
+            }
         }
         return better;
     };
-    const Vec3d touching = place.point + side(place.normal).window.off;
-    try_at(touching.x, touching.y, 0);
-    try_at(place.point.x, place.point.y, 0);
-    if (now.distance < path_fitter_.tool().radius) {
-        try_at(now.end.x, now.end.y, 0);
+    for (const double away : kRoundPlace) {
+        try_round(place, away * tool.radius);
     }
-    for (double step = kCoarsestStep * scallop_; best && step > kFinestStep;) {
-        bool better = false;
-        const Vec3d from = best->tip;
-        for (int k = 0; k < kLowestWays && !better; ++k) {
-            const double turn = 2 * kPi * k / kLowestWays;
-            better = try_at(from.x + step * elementary::cos(turn),
-                            from.y + step * elementary::sin(turn), kLeastGain * step);
-        }
-        step *= better ? 1.5 : 0.5;
+    for (double step = kFirstStep * tool.radius; best && step > kLastStep * tool.radius;) {
+        step *= try_round(*best, step) ? 1 : 0.5;
     }
-    return best && now.distance - best->left > scallop_ ? std::optional{best->tip} : std::nullopt;
+    return best;
+}
+
+bool MeshGround::is_left(Vec3d point, double share) const
+{
+    const double allowed = share * scallop_;
+    return swept_.distance(point, kOverShare * allowed, allowed) > allowed;
 }
 
 }  // namespace cusp::finishing

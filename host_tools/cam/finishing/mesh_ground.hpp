@@ -66,19 +66,20 @@ public:
     std::optional<Vec3d> missing_tip(const MeshPlace& place) const;
 
     // mm: of stock over a place, along the shortest way to what is removed; at most the radius.
-    double left(Vec3d point) const;
+    //
+    // enough  mm: less may be returned as something up to this
+    double left(Vec3d point, double enough = 0) const;
+    // True if that is more than a share of the scallop.
+    bool is_left(Vec3d point, double share) const;
 
-    // A tip that removes more than the scallop of what is left over a place that the tool can't touch;
-    // none where a search finds none. Found, not proved: it goes down from the nearest move, and from
-    // the drops over the place and beside it.
-    std::optional<Vec3d> lower_tip(const MeshPlace& place) const;
+    // True if a tip would remove more than a share of the scallop, measured as left(), straight over a
+    // place that is below it.
+    bool gets_lower(Vec3d tip, Vec3d place, double share) const;
+
+    // A tip that gets low over a place: the best of some round it, and of ever nearer ones round that.
+    std::optional<Vec3d> low_tip_round(Vec3d place) const;
 
 private:
-    struct DroppedTip {
-        Vec3d tip;
-        double left;  // mm, over a place
-    };
-    std::optional<DroppedTip> dropped(double x, double y, Vec3d place) const;
     Vec3d lifted(const Side& side, Vec3d point, double height) const;
     Vec3d tip_of(Vec3d end) const { return end - Vec3d{0, 0, swept_.profile().corner()}; }
     double slack() const;

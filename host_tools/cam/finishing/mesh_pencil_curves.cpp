@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/geometry/part_model/cell_chains.hpp"
@@ -26,16 +27,26 @@ constexpr double kSag = 0.2;              // of the band's offset: between point
 constexpr int kCrossingHalvings = 6;      // between two crossings
 constexpr double kShortestCrease = 0.05;  // radii
 constexpr std::size_t kMostGrid = 700;
+constexpr int kWaysDown = 24;
+constexpr double kLeastTurn = 1e-3;
+constexpr double kLeastStep = 1.0 / 64;  // pitches
+constexpr double kDownCells = 3;
 
 using Dropped = PartModel::DroppedTool;
 
 class PencilCurveFinder {
 public:
-    PencilCurveFinder(const GougeFreePathFitter& path_fitter, double pitch)
-        : path_fitter_{path_fitter}, radius_{path_fitter.offset_tool().radius}
+    PencilCurveFinder(const GougeFreePathFitter& path_fitter,
+                      double pitch,
+                      const std::vector<Vec3d>* places = nullptr)
+        : path_fitter_{path_fitter},
+          radius_{path_fitter.offset_tool().radius},
+          pitch_{pitch},
+          is_near_{places != nullptr}
     {
-        const Vec3d low = path_fitter.model().box_low();
-        const Vec3d high = path_fitter.model().box_high();
+        const Vec3d beyond = Vec3d{1, 1, 0} * (is_near_ ? radius_ : 0);
+        const Vec3d low = path_fitter.model().box_low() - beyond;
+        const Vec3d high = path_fitter.model().box_high() + beyond;
         nx_ = count(high.x - low.x, pitch);
         ny_ = count(high.y - low.y, pitch);
         for (std::size_t i = 0; i < nx_; ++i) {
@@ -46,11 +57,15 @@ public:
                 places_.push_back({low.x + (high.x - low.x) * x, low.y + (high.y - low.y) * y});
             }
         }
+        const std::vector<char> wanted =
+            is_near_ ? nodes_near(*places, low, high) : std::vector<char>(places_.size(), 1);
         dropped_.resize(places_.size());
         parallel::for_each(nx_, [&](std::size_t i) {
             path_fitter.model().forget_queries();
             for (std::size_t k = i * ny_; k < (i + 1) * ny_; ++k) {
-                dropped_[k] = drop_at(places_[k]);
+                if (wanted[k] != 0) {
+                    dropped_[k] = drop_at(places_[k]);
+                }
             }
         });
         path_fitter.model().forget_queries();
@@ -68,7 +83,13 @@ public:
         }
         std::vector<Points> out;
         for (Points& tips : tips_along(chains.chains())) {
-            if (length_of(tips) > kShortestCrease * radius_) {
+            if (is_near_) {
+                std::reverse(tips.begin(), tips.end());
+                go_down(tips);
+                std::reverse(tips.begin(), tips.end());
+                go_down(tips);
+            }
+            if (is_near_ || length_of(tips) > kShortestCrease * radius_) {
                 out.push_back(std::move(tips));
             }
         }
@@ -85,6 +106,87 @@ private:
     static std::size_t count(double length, double pitch)
     {
         return std::clamp<std::size_t>(static_cast<std::size_t>(length / pitch) + 2, 4, kMostGrid);
+    }
+
+    // The nodes of the grid so near to places, in x and in y, that a tool there may be over one.
+    std::vector<char> nodes_near(const std::vector<Vec3d>& places, Vec3d low, Vec3d high) const
+    {
+        const auto dilated = [](std::vector<char>& nodes, std::size_t first, std::size_t step,
+                                std::size_t many, std::size_t reach) {
+            std::size_t left = 0;  // nodes that the last one reaches yet
+            const auto pass = [&](std::size_t k) {
+                char& node = nodes[first + k * step];
+                left = node == 1 ? reach : left - (left > 0 ? 1 : 0);
+                node = node == 0 && left > 0 ? 2 : node;
+            };
+            for (std::size_t k = 0; k < many; ++k) {
+                pass(k);
+            }
+            left = 0;
+            for (std::size_t k = many; k-- > 0;) {
+                pass(k);
+            }
+            for (std::size_t k = 0; k < many; ++k) {
+                nodes[first + k * step] = nodes[first + k * step] != 0 ? 1 : 0;
+            }
+        };
+        const auto node_at = [](double share, std::size_t many) {
+            return static_cast<std::size_t>(
+                std::clamp(share * static_cast<double>(many), 0.0, static_cast<double>(many - 1)));
+        };
+        std::vector<char> out(places_.size(), 0);
+        for (const Vec3d& place : places) {
+            out[node_at((place.x - low.x) / (high.x - low.x), nx_) * ny_ +
+                node_at((place.y - low.y) / (high.y - low.y), ny_)] = 1;
+        }
+        const auto reach = [&](double length, std::size_t many) {
+            return static_cast<std::size_t>(radius_ / length * static_cast<double>(many)) + 2;
+        };
+        for (std::size_t i = 0; i < nx_; ++i) {
+            dilated(out, i * ny_, 1, ny_, reach(high.y - low.y, ny_));
+        }
+        for (std::size_t j = 0; j < ny_; ++j) {
+            dilated(out, j, ny_, nx_, reach(high.x - low.x, nx_));
+        }
+        return out;
+    }
+
+    // Goes on from the last tip to the lowest one, as far as two cells: curves end in a cell, not at the
+    // tip that they share with others.
+    void go_down(Points& tips) const
+    {
+        const Vec3d from = tips.back();
+        const auto drop_beside = [&](Vec3d at, double step, double turn) {
+            return path_fitter_.drop(at.x + step * elementary::cos(turn),
+                                     at.y + step * elementary::sin(turn));
+        };
+        Vec3d at = from;
+        for (double step = pitch_; step > kLeastStep * pitch_;) {
+            std::optional<Vec3d> best;
+            double best_turn = 0;
+            const auto try_turn = [&](double turn) {
+                const auto tip = drop_beside(at, step, turn);
+                if (tip && tip->z < (best ? best->z : at.z)) {
+                    best = tip;
+                    best_turn = turn;
+                }
+            };
+            for (int k = 0; k < kWaysDown; ++k) {
+                try_turn(2 * kPi * k / kWaysDown);
+            }
+            // Between steep walls only one way goes down.
+            for (double way = kPi / kWaysDown; best && way > kLeastTurn; way *= 0.5) {
+                const double turn = best_turn;
+                try_turn(turn - way);
+                try_turn(turn + way);
+            }
+            if (best && norm(*best - from) < kDownCells * pitch_) {
+                at = *best;
+                tips.push_back(at);
+            } else {
+                step *= 0.5;
+            }
+        }
     }
 
     std::optional<Dropped> drop_at(Vec2d at) const
@@ -242,6 +344,8 @@ private:
 
     const GougeFreePathFitter& path_fitter_;
     double radius_;
+    double pitch_;
+    bool is_near_;
     std::size_t nx_{};
     std::size_t ny_{};
     std::vector<Vec2d> places_;
@@ -254,6 +358,13 @@ private:
 std::vector<Points> mesh_pencil_curves(const GougeFreePathFitter& path_fitter, double pitch)
 {
     return PencilCurveFinder{path_fitter, pitch}.curves();
+}
+
+std::vector<Points> mesh_pencil_curves_near(const std::vector<Vec3d>& places,
+                                            const GougeFreePathFitter& path_fitter,
+                                            double pitch)
+{
+    return PencilCurveFinder{path_fitter, pitch, &places}.curves();
 }
 
 }  // namespace cusp::finishing

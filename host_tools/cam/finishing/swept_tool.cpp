@@ -106,7 +106,7 @@ ToolWindow SweptTool::window(Vec3d normal, double offset) const
 
 // A ball's core is a point and everything above it: the nearest place is that in space, that in plan, or
 // where the move is as high as the point.
-SweptTool::Apart SweptTool::point_apart(const Move& move, Vec3d point)
+double SweptTool::point_apart(const Move& move, Vec3d point)
 {
     const Vec3d way = move.to - move.from;
     const Vec3d off = point - move.from;
@@ -120,10 +120,10 @@ SweptTool::Apart SweptTool::point_apart(const Move& move, Vec3d point)
     }
     const Vec3d rest = off - way * t;
     const double down = std::min(0.0, rest.z);
-    return {std::sqrt(rest.x * rest.x + rest.y * rest.y + down * down), t * std::sqrt(square)};
+    return std::sqrt(rest.x * rest.x + rest.y * rest.y + down * down);
 }
 
-SweptTool::Apart SweptTool::core_apart(
+double SweptTool::core_apart(
     const Move& move, const ToolCore& core, Vec3d point, double enough, double far)
 {
     if (core.is_point()) {
@@ -146,7 +146,7 @@ SweptTool::Apart SweptTool::core_apart(
     };
     Place low = place(std::clamp(dot(point - core.end - move.from, along), 0.0, length));
     if (low.distance <= enough || low.slope == 0) {
-        return {low.distance, low.at};
+        return low.distance;
     }
     Place high = low;
     (low.slope < 0 ? high : low) = place(low.slope < 0 ? length : 0);
@@ -154,7 +154,7 @@ SweptTool::Apart SweptTool::core_apart(
     for (int k = 0; k < kMostTangents; ++k) {
         const Place& least = low.distance < high.distance ? low : high;
         if (least.distance <= enough || low.slope >= 0 || high.slope <= 0) {
-            return {least.distance, least.at};
+            return least.distance;
         }
         const double between =
             std::clamp((high.distance - low.distance + low.slope * low.at - high.slope * high.at) /
@@ -162,16 +162,15 @@ SweptTool::Apart SweptTool::core_apart(
                        low.at, high.at);
         const double bound = low.distance + low.slope * (between - low.at);
         if (bound > far || least.distance - bound < kExactTangents) {
-            return {bound > far ? bound : least.distance, least.at};
+            return bound > far ? bound : least.distance;
         }
         const Place middle = place(between);
         if (middle.slope == 0) {
-            return {middle.distance, middle.at};
+            return middle.distance;
         }
         (middle.slope < 0 ? low : high) = middle;
     }
-    const Place& least = low.distance < high.distance ? low : high;
-    return {least.distance, least.at};
+    return std::min(low.distance, high.distance);
 }
 
 bool SweptTool::removes(std::uint32_t move, Vec3d point, double shrink) const
@@ -179,39 +178,32 @@ bool SweptTool::removes(std::uint32_t move, Vec3d point, double shrink) const
     const double corner = profile_.corner() - shrink;
     const double enough = std::max(0.0, corner);
     if (profile_.core().is_point() && corner > 0) {
-        return point_apart(moves_[move], point).distance <= enough;
+        return point_apart(moves_[move], point) <= enough;
     }
     const ToolCore core = shrunk(profile_.core(), -corner);
-    return core_apart(moves_[move], core, point, enough, enough).distance <= enough;
+    return core_apart(moves_[move], core, point, enough, enough) <= enough;
 }
 
-SweptTool::Nearest SweptTool::nearest(Vec3d point, double most) const
+double SweptTool::distance(Vec3d point, double most, double enough) const
 {
     const double corner = profile_.corner();
-    Nearest out{most, {}};
+    double least = most;
     // Most are near: first a little round the tool, then as far as is asked.
     for (const double far : {std::min(most, kNearby * profile_.radius()), most}) {
-        const ToolWindow all{{}, {}, profile_.radius() + far, -kInfinite, kInfinite};
-        out.distance = far;
+        // The end of the core is the tool's lowest place but for the corner.
+        const ToolWindow all{{}, {}, profile_.radius() + far, -kInfinite, corner + far};
+        least = far;
         any_through(all, point, [&](std::uint32_t number) {
-            const Move& move = moves_[number];
-            const Apart found =
-                core_apart(move, profile_.core(), point, corner, corner + out.distance);
-            if (found.distance - corner < out.distance) {
-                const double length = norm(move.to - move.from);
-                out.distance = std::max(0.0, found.distance - corner);
-                out.end = move.from;
-                if (length > 0) {
-                    out.end = out.end + (move.to - move.from) * (found.along / length);
-                }
-            }
-            return out.distance <= 0;
+            const double apart =
+                core_apart(moves_[number], profile_.core(), point, corner + enough, corner + least);
+            least = std::min(least, std::max(0.0, apart - corner));
+            return least <= enough;
         });
-        if (out.distance < far) {
+        if (least < far) {
             break;
         }
     }
-    return out;
+    return least;
 }
 
 }  // namespace cusp::finishing

@@ -64,14 +64,11 @@ public:
     // True if the move removes the point, with a tool smaller by `shrink` (mm) all round.
     bool removes(std::uint32_t move, Vec3d point, double shrink) const;
 
-    // The distance of a point from what the moves remove, and the end of the core that is so near.
+    // mm: the distance of a point from what the moves remove.
     //
-    // most  mm: greater distances are returned as this, with no end
-    struct Nearest {
-        double distance;  // mm, >= 0
-        Vec3d end;
-    };
-    Nearest nearest(Vec3d point, double most) const;
+    // most    mm: greater distances are returned as this
+    // enough  mm: less may be returned as something up to this
+    double distance(Vec3d point, double most, double enough = 0) const;
 
 private:
     struct Move {
@@ -84,13 +81,9 @@ private:
         return (static_cast<Key>(i) << 32) ^ (static_cast<Key>(j) & 0xffffffffU);
     }
     std::int64_t cell(double at) const;
-    // From the core along the move to a point; exact between `enough` and `far`.
-    struct Apart {
-        double distance;
-        double along;  // mm
-    };
-    static Apart point_apart(const Move& move, Vec3d point);
-    static Apart core_apart(
+    // mm from the core along the move to a point; exact between `enough` and `far`.
+    static double point_apart(const Move& move, Vec3d point);
+    static double core_apart(
         const Move& move, const part_model::ToolCore& core, Vec3d point, double enough, double far);
 
     part_model::ToolProfile profile_;

@@ -75,31 +75,6 @@ struct Found {
     Vec3d place{};
 };
 
-Vec3d random_place(Random& random, const std::array<Vec3d, 3>& t)
-{
-    const double a = std::sqrt(uniform(random, 0.0, 1.0));
-    const double b = uniform(random, 0.0, 1.0);
-    return t[0] * (1 - a) + t[1] * (a * (1 - b)) + t[2] * (a * b);
-}
-
-// True if a move removes some point so far from a place.
-bool is_cut_within(const MovesOfEnd& moves, Vec3d place, double away)
-{
-    constexpr int kTurns = 12;
-    for (int j = 0; j <= 6; ++j) {
-        const double rise = kPi / 2 * j / 6;
-        for (int k = 0; k < kTurns; ++k) {
-            const double turn = 2 * kPi * k / kTurns;
-            const Vec3d way{std::cos(turn) * std::cos(rise), std::sin(turn) * std::cos(rise),
-                            std::sin(rise)};
-            if (moves.removes(place + way * away)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 Found judged(Random& random, const Operation& operation, const PlannedOperation& planned)
 {
     Found out;
