@@ -9,7 +9,7 @@ import pathlib
 import sys
 import unittest
 
-from cusp_case import CuspCase
+from cusp_case import CuspCase, share_of
 
 PARTS = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2] / "examples/parts").resolve()
 JOB = """
@@ -62,15 +62,11 @@ class AdaptiveLevels(CuspCase):
             entries = sum(o["entries"] for o in roughing) * 0.15 * 12
             self.assertLess(found["over_engagement_mm"] - entries, 0.002 * plain["cut_length_mm"])
 
-    def test_hull_rough(self):
-        self.judge("hull_rough", FLAT12, 6.3, "extra_subdivision = 2")
-
-    def test_hull_rough_with_round_ends(self):
-        self.judge("hull_rough", BULL12, 9.4, "extra_subdivision = 2")
-        self.judge("hull_rough", BALL10, 9.4, "extra_subdivision = 2", measured=False)
-
-    def test_hull_rough_with_two_tools(self):
-        self.judge("hull_rough", FLAT12 + FLAT5, 9.4, "extra_subdivision = 2\ntools = [1, 2]")
+    def test_hull_rough_by_each_end_and_by_two_tools(self):
+        for tools, depth, keys, measured in share_of([(FLAT12, 9.4, "", True), (BULL12, 9.4, "", True), (FLAT12, 6.3, "", True),
+                                                      (FLAT12 + FLAT5, 9.4, "\ntools = [1, 2]", True), (BALL10, 9.4, "", False)]):
+            with self.subTest(tools=tools, depth=depth):
+                self.judge("hull_rough", tools, depth, "extra_subdivision = 2" + keys, measured)
 
     def test_isocurves(self):
         self.judge("adaptive_isocurve", FLAT12 + BALL10.replace("shape", "number = 3\nshape"), 9.4,

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-from cusp_case import CUSP, CuspCase
+from cusp_case import CUSP, CuspCase, share_of
 
 # Nominal size and pitch in mm, and the minor diameter of the nut as tables have it (ISO 724; ASME B1.1 in inches).
 SIZES = {"M3": (3, 0.5, 2.459), "M6": (6, 1, 4.917), "M6x0.75": (6, 0.75, 5.188), "M8": (8, 1.25, 6.647), "M10": (10, 1.5, 8.376),
@@ -120,7 +120,7 @@ class Threads(CuspCase):
 
     def test_random_threads(self):
         draw = random.Random(54)
-        for case in range(26):
+        for case in share_of(range(26)):
             thread = sorted(SIZES)[case % len(SIZES)]
             size, pitch, minor = SIZES[thread]
             outside = draw.random() < 0.4

@@ -16,6 +16,8 @@ import jsonschema
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "refactor"))
 from random_job import RandomJob
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from property_cases import share_of
 
 
 def plan(*arguments):
@@ -64,7 +66,7 @@ class Schema(unittest.TestCase):
 
     def test_takes_random_jobs(self):
         with tempfile.TemporaryDirectory() as folder:
-            for seed in range(60):
+            for seed in share_of(range(60)):
                 RandomJob(seed).write(pathlib.Path(folder))
                 for path in pathlib.Path(folder).glob("*.toml"):
                     faults = self.faults(tomllib.loads(path.read_text()))
