@@ -1,7 +1,7 @@
 # The Debian packages that the project needs, and how the missing ones are installed. Sourced.
 
 # Builds the product.
-host_packages="g++ cmake ninja-build libcli11-dev libcpp-httplib-dev libeigen3-dev libfmt-dev libpugixml-dev libserialport-dev libtbb-dev libtomlplusplus-dev
+host_packages="g++ cmake ninja-build libcli11-dev libcpp-httplib-dev libeigen3-dev libfmt-dev libpugixml-dev libserialport-dev libstb-dev libtbb-dev libtomlplusplus-dev
     nlohmann-json3-dev zlib1g-dev"
 # Also reads STEP, IGES, BREP and 3MF, and letters of font files.
 cad_packages="libocct-data-exchange-dev lib3mf-dev libharfbuzz-dev"

@@ -4,7 +4,7 @@
 
 # A package and a header of it.
 set(product_headers libcli11-dev CLI/CLI.hpp libcpp-httplib-dev httplib.h libfmt-dev fmt/format.h libpugixml-dev pugixml.hpp
-  libserialport-dev libserialport.h libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
+  libserialport-dev libserialport.h libstb-dev stb/stb_image.h libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
   zlib1g-dev zlib.h)
 if(CUSP_THREADS)
   list(APPEND product_headers libtbb-dev oneapi/tbb/version.h)
@@ -48,10 +48,10 @@ endfunction()
 function(cusp_link_headers)
   set(headers ${PROJECT_BINARY_DIR}/headers)
   file(MAKE_DIRECTORY ${headers})
-  foreach(name fmt nlohmann toml++ fast_float Eigen)
+  foreach(name fmt nlohmann stb toml++ fast_float Eigen)
     find_path(CUSP_headers_${name} ${name} PATHS /usr/include /usr/include/eigen3 NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
     if(NOT CUSP_headers_${name})
-      message(FATAL_ERROR "cusp: the headers of ${name} are missing: libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, "
+      message(FATAL_ERROR "cusp: the headers of ${name} are missing: libfmt-dev, nlohmann-json3-dev, libstb-dev, libtomlplusplus-dev, "
         "libfast-float-dev and libeigen3-dev are needed")
     endif()
     file(CREATE_LINK ${CUSP_headers_${name}}/${name} ${headers}/${name} SYMBOLIC)

@@ -226,7 +226,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "  top = 0.0\n"
         "  [[operation]]\n"
         "  strategy = \"adaptive_isocurve\"\n"
-        "  floor = [\"part.step\"]           # .json, .step, .igs, .brep, .stl, .obj, .3mf\n"
+        "  floor = [\"part.step\"]           # .json, .step, .igs, .brep, .stl, .obj, .3mf, .png\n"
         "  scallop = 0.02                  # tolerance included\n"
         "  floor_tolerance = 0.01\n"
         "  output = \"arcs\"                 # \"lines\", \"nurbs\"\n"
@@ -234,9 +234,10 @@ void add_plan_command(CLI::App& app, Work& work)
         "max_depth makes layers.\n"
         "A job with several set-ups gives a program for each: part-NAME.ngc.");
     auto options = std::make_shared<PlanArguments>();
-    command->add_option("JOB", options->call.files,
-                        "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf; "
-                        "drawings: .dxf, .svg, Gerber (.gbr), Excellon (.drl)");
+    command->add_option(
+        "JOB", options->call.files,
+        "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf, .png; "
+        "drawings: .dxf, .svg, Gerber (.gbr), Excellon (.drl)");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
     add_controller_options(*command, *options);

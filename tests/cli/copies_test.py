@@ -60,12 +60,6 @@ class Copies(CuspCase):
         self.write("angle.dxf", drawing(ANGLE, HOLE))
         return self.cusp(status, "plan", "angle.dxf", "--tool", "flat:3", "drill:5", "--depth", "6", *options)
 
-    def job(self, printed):
-        """The job that --print-job has printed before it says what it chose."""
-        text = printed[printed.index("# The job"):]
-        self.write("job.toml", text[:text.index("\nstock: ") + 1] if "\nstock: " in text else text)
-        return text
-
     def left(self):
         """Stock that stays beside the copies, mm^3; all bounds hold."""
         self.cusp(0, "verify", "job.toml", "p.ngc", "--stats", "v.json")
@@ -75,7 +69,7 @@ class Copies(CuspCase):
         said = self.sheet(0, "--sheet", "300,200", "--copies", "12", "-o", "p.ngc")
         self.assertIn("300 x 200 mm, 4.5 apart", said)
         self.assertIn("12 outlines", said)
-        job = self.job(self.sheet(0, "--sheet", "300,200", "--copies", "12", "--print-job"))
+        job = self.write_job(self.sheet(0, "--sheet", "300,200", "--copies", "12", "--print-job"))
         self.cusp(0, "plan", "job.toml", "-o", "again.ngc")
         self.assertEqual(self.moves(), self.moves("again.ngc"))
         self.assertIn("180", job)  # two of them in the box of one and a half
@@ -90,7 +84,7 @@ class Copies(CuspCase):
         said = self.cusp(0, *call, "--copies", "3,5", "-o", "p.ngc")
         self.assertIn("3 of angle.dxf, 5 of strip.dxf", said)
         self.assertIn("5 outlines", said)
-        self.job(self.cusp(0, *call, "--copies", "3,5", "--print-job"))
+        self.write_job(self.cusp(0, *call, "--copies", "3,5", "--print-job"))
         self.left()
 
     def test_what_does_not_fit_is_refused_with_what_does(self):

@@ -26,3 +26,9 @@ class CuspCase(unittest.TestCase):
                                 stderr=subprocess.STDOUT)
         self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
         return result.stdout
+
+    def write_job(self, printed):
+        """Writes the job of --print-job as job.toml: it comes after what cusp says of its choices."""
+        text = printed[printed.index("# The job"):]
+        self.write("job.toml", text)
+        return text

@@ -19,6 +19,7 @@ struct Facets {
     std::vector<std::array<Vec3d, 3>> triangles;  // mm, corners in the file's order
     std::size_t degenerate{};                     // left out: coincident or collinear corners
     std::string unit{};  // of length, as the file names it; "": it does not
+    std::string note{};  // on what the reader changed; "": nothing
 };
 
 // Appends the triangle, or counts it as degenerate where it is no higher than 1e-9 mm.

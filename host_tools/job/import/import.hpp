@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host_tools/geometry/nurbs/nurbs.hpp"
+#include "host_tools/job/import/relief_size.hpp"
 #include "host_tools/job/import/similarity.hpp"
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/job/job/strategy.hpp"
@@ -55,17 +56,20 @@ job::Job read_job(const JobText& job, const job::Strategies& strategies, PartFil
 // mesh_tolerance  mm: how far the surface may be above a mesh; never below (height_field.hpp)
 // notes           receives sentences on what was left out or changed; may be null
 // placed          applied to the file's geometry
+// relief          of a picture, else none
 std::vector<nurbs::Surface> read_surfaces(const std::string& file,
                                           double millimetres = 1.0,
                                           double mesh_tolerance = 0.01,
                                           std::vector<std::string>* notes = nullptr,
-                                          const Similarity& placed = {});
-// The triangles of a mesh file (STL, OBJ, 3MF), in mm. `notes` receives sentences on facets left out
+                                          const Similarity& placed = {},
+                                          const std::optional<ReliefSize>& relief = std::nullopt);
+// The triangles of a mesh file (STL, OBJ, 3MF) or a picture (PNG), in mm. `notes` receives sentences on facets left out
 // and overhangs.
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
                                             std::vector<std::string>* notes = nullptr,
-                                            const Similarity& placed = {});
+                                            const Similarity& placed = {},
+                                            const std::optional<ReliefSize>& relief = std::nullopt);
 // The one loop of a file: closed to 1e-3 mm, simple, counter-clockwise. `name` may be
 // FILE.dxf#LAYER. file_loops.hpp reads several.
 job::Loop read_loop(const std::string& name, double millimetres = 1.0);

@@ -3,6 +3,7 @@
 
 #include "host_tools/job/import/obj_facets.hpp"
 #include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/import/relief_facets.hpp"
 #include "host_tools/job/import/stl_facets.hpp"
 #include "host_tools/job/import/threemf_facets.hpp"
 
@@ -11,7 +12,7 @@ namespace cusp::import {
 bool is_mesh_file(const std::string& file)
 {
     const std::string ending = path_ending(file);
-    return ending == ".stl" || ending == ".obj" || ending == ".3mf";
+    return ending == ".stl" || ending == ".obj" || ending == ".3mf" || is_picture_file(file);
 }
 
 bool lacks_unit(const std::string& file)
@@ -20,10 +21,20 @@ bool lacks_unit(const std::string& file)
     return ending == ".stl" || ending == ".obj" || ending == ".json";
 }
 
-Facets read_facets(const std::string& file, double millimetres, const Similarity& placed)
+Facets read_facets(const std::string& file,
+                   double millimetres,
+                   const Similarity& placed,
+                   const std::optional<ReliefSize>& relief)
 {
     const std::string ending = path_ending(file);
-    Facets facets = ending == ".stl"   ? read_stl(file, millimetres)
+    const bool picture = is_picture_file(file);
+    if (picture && !relief) {
+        throw InputError(file +
+                         ": a picture is a relief once [placing] has its width and its heights "
+                         "(--width, --heights)");
+    }
+    Facets facets = picture            ? read_relief(file, *relief)
+                    : ending == ".stl" ? read_stl(file, millimetres)
                     : ending == ".obj" ? read_obj(file, millimetres)
                                        : read_threemf(file);
     for (auto& triangle : facets.triangles) {

@@ -81,6 +81,11 @@ void check_numbers(const OneLineRequest& request)
 void check_placing(const OneLineRequest& request)
 {
     constexpr double kTurn = 360;  // degrees
+    check_range("--width", request.width, job::kToleranceRange.low, false);
+    if (request.width.has_value() == request.heights.empty()) {
+        throw InputError(fmt::format("{}: a picture needs both --width and --heights BLACK,WHITE",
+                                     request.width ? "--width" : "--heights"));
+    }
     check_range("--scale", request.scale, job::kScaleRange.low, false);
     const auto check_count = [](const char* option, const char* needed,
                                 const std::vector<double>& values, bool also_one) {
@@ -102,6 +107,7 @@ void check_placing(const OneLineRequest& request)
     };
     check_size("--rotate", request.rotate, kTurn);
     check_size("--move", request.move, job::kLargest);
+    check_size("--heights", request.heights, job::kLargest);
 }
 
 void check_strategy(const OneLineRequest& request, const job::Strategies& strategies)

@@ -166,11 +166,15 @@ void place_request(const OneLineRequest& request, PartFiles& parts)
     if (parts.is_placed()) {
         return;
     }
-    if (!request.scale && request.up.empty() && request.rotate.empty() && request.origin.empty() &&
-        request.move.empty()) {
+    if (!request.width && request.heights.empty() && !request.scale && request.up.empty() &&
+        request.rotate.empty() && request.origin.empty() && request.move.empty()) {
         return;
     }
     Placing placing;
+    if (request.width && request.heights.size() == 2) {
+        placing.relief = {unit * *request.width, unit * request.heights[0],
+                          unit * request.heights[1]};
+    }
     placing.scale = request.scale.value_or(placing.scale);
     placing.up = request.up.empty() ? placing.up : request.up;
     placing.origin = request.origin;

@@ -27,6 +27,9 @@ struct OneLineRequest {
     std::optional<double> spindle;  // rpm
     std::optional<double> stock_top;
     std::optional<double> clearance;
+    // Of pictures.
+    std::optional<double> width;
+    std::vector<double> heights;  // z of black and of white
     // As the keys of [placing]; all parts and loops together.
     std::optional<double> scale;
     std::string up;

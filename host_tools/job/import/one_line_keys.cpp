@@ -70,6 +70,17 @@ Keys drawing_keys()
 Keys placing_keys()
 {
     const Keys keys{
+        {"width", &Request::width, kLength, "of a picture (.png), which is a relief",
+         OneLineUse::kSurfaces},
+        {"heights",
+         &Request::heights,
+         "BLACK,WHITE",
+         "z of a picture's black and of its white",
+         OneLineUse::kSurfaces,
+         {},
+         nullptr,
+         2,
+         2},
         {"scale", &Request::scale, "FACTOR", "of the parts, such as 25.4"},
         {"up", &Request::up, "AXIS",
          "the file's axis that points up: +x, +y, +z; --up=-y for one that points down",

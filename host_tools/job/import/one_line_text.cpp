@@ -95,6 +95,12 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
 std::string placing_toml(const OneLineRequest& request, const std::vector<NestedFiles>& copied)
 {
     std::string keys;
+    if (request.width) {
+        keys += fmt::format("width = {}\n", *request.width);
+    }
+    if (!request.heights.empty()) {
+        keys += fmt::format("heights = [{}]\n", fmt::join(request.heights, ", "));
+    }
     if (request.scale) {
         keys += fmt::format("scale = {}\n", *request.scale);
     }

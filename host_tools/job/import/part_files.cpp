@@ -162,6 +162,12 @@ Similarity PartFiles::placed(const std::string& file) const
     return found == placed_.end() ? turn_ : found->second.then(turn_);
 }
 
+std::optional<ReliefSize> PartFiles::relief(const std::string& file) const
+{
+    const auto found = reliefs_.find(file);
+    return found == reliefs_.end() ? std::nullopt : std::optional{found->second};
+}
+
 std::vector<Similarity> PartFiles::copies(const std::string& name) const
 {
     const auto found = copies_.find(copies_.count(name) > 0 ? name : without_layer(name));
@@ -183,7 +189,8 @@ const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
     const double tolerance = is_mesh_file(file) ? mesh_tolerance : 0;
     const auto [found, is_new] = surfaces_.try_emplace({file, tolerance});
     if (is_new) {
-        found->second = read_surfaces(file, millimetres, tolerance, &notes_, placed(file));
+        found->second =
+            read_surfaces(file, millimetres, tolerance, &notes_, placed(file), relief(file));
         repeat(copies(file), found->second);
     }
     return found->second;
@@ -193,7 +200,7 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
 {
     const auto [found, is_new] = meshes_.try_emplace(file);
     if (is_new) {
-        found->second = read_mesh(file, millimetres, &notes_, placed(file));
+        found->second = read_mesh(file, millimetres, &notes_, placed(file), relief(file));
         repeat(copies(file), found->second);
     }
     return found->second;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
 #include "host_tools/job/import/import.hpp"
+#include "host_tools/job/import/relief_size.hpp"
 #include "host_tools/job/import/similarity.hpp"
 
 namespace cusp::import {
@@ -63,6 +65,8 @@ public:
 
     // Places a file that was not read yet; its name has no "#layer".
     void place(const std::string& file, const Similarity& placed);
+    // Of a picture that was not read yet.
+    void size_relief(const std::string& file, const ReliefSize& size) { reliefs_[file] = size; }
     // Moves what was read of the file, and what will be. mm
     void shift(const std::string& file, Vec3d by);
     // The file lies in all these places, and no longer where place() and shift() say: they act before.
@@ -81,6 +85,7 @@ private:
     const DrawnPaths* drawn(const std::string& name, double millimetres);
     std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
     Similarity placed(const std::string& file) const;
+    std::optional<ReliefSize> relief(const std::string& file) const;
     // From where placed() says to all places of the file.
     std::vector<Similarity> copies(const std::string& name) const;
     // The placing of a drawing, the same for all layers.
@@ -97,6 +102,7 @@ private:
     std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     std::map<std::string, std::vector<Similarity>> copies_;
+    std::map<std::string, ReliefSize> reliefs_;
     Similarity turn_;  // of all files, last
     bool is_placed_{false};
     std::vector<std::string> notes_;

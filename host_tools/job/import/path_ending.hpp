@@ -26,7 +26,7 @@ std::size_t layer_mark(const std::string& name);
 
 // Files that hold parts, for messages.
 inline constexpr const char* kPartEndings =
-    ".json, .step, .stp, .iges, .igs, .brep, .brp, .stl, .obj and .3mf";
+    ".json, .step, .stp, .iges, .igs, .brep, .brp, .stl, .obj, .3mf and .png";
 
 // True if Open CASCADE reads it: .step, .stp, .iges, .igs, .brep, .brp.
 bool is_cad_file(const std::string& file);

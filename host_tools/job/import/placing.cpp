@@ -9,6 +9,7 @@
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/import/relief_facets.hpp"
 
 #include "fmt/format.h"
 
@@ -130,8 +131,15 @@ public:
                      governs);
         std::copy_if(files_.drawings.begin(), files_.drawings.end(),
                      std::back_inserter(governed.drawings), governs);
+        if (placing.relief &&
+            std::none_of(governed.parts.begin(), governed.parts.end(), is_picture_file)) {
+            throw PlacingError("width and heights are for pictures, .png");
+        }
         for (const std::string& file : governed.parts) {
             parts_.place(file, turn_of(placing));
+            if (placing.relief && is_picture_file(file)) {
+                parts_.size_relief(file, *placing.relief);
+            }
         }
         for (const std::string& file : governed.drawings) {
             parts_.place(file, turn_of_drawing(placing));

@@ -20,9 +20,10 @@ struct CopyPlace {
     double degrees{};  // about the job's z axis
 };
 
-// Applied in this order: scale, up, rotate, origin, move, copies.
+// Applied in this order: relief, scale, up, rotate, origin, move, copies.
 struct Placing {
-    std::vector<std::string> files;  // that it is for; none: all that no other placing names
+    std::vector<std::string> files;      // that it is for; none: all that no other placing names
+    std::optional<ReliefSize> relief{};  // of pictures
     double scale{1.0};
     std::string up{"+z"};             // the file's axis that becomes z
     Vec3d rotate{};                   // degrees about x, then y, then z

@@ -42,6 +42,22 @@ Vec3d read_move(JobTable& keys, double millimetres)
     return millimetres * Vec3d{(*move)[0], (*move)[1], (*move)[2]};
 }
 
+std::optional<ReliefSize> read_relief_size(JobTable& keys, double millimetres)
+{
+    const auto width = keys.number("width");
+    const auto heights = keys.numbers("heights");
+    if (!width && !heights) {
+        return std::nullopt;
+    }
+    if (!width || !heights || heights->size() != 2) {
+        keys.refuse(width ? "heights" : "width",
+                    "a picture needs its width and two heights: width = 80, "
+                    "heights = [-6, 0] of black and of white");
+    }
+    return ReliefSize{millimetres * *width, millimetres * (*heights)[0],
+                      millimetres * (*heights)[1]};
+}
+
 // A grid of columns and rows, `pitch` apart.
 std::vector<CopyPlace> read_grid(JobTable& keys, double millimetres)
 {
@@ -149,6 +165,7 @@ std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables
         for (const std::string& name : keys.texts("file").value_or(std::vector<std::string>{})) {
             placing.files.push_back(path_in(folder, name));
         }
+        placing.relief = read_relief_size(keys, millimetres);
         placing.scale = keys.number_or_default("scale");
         placing.up = keys.choice_or_default("up");
         placing.rotate = read_turn(keys);

@@ -63,6 +63,9 @@ void describe(const std::string& file,
               std::vector<std::string>& notes)
 {
     constexpr double kShown = 1e-3;
+    if (!facets.note.empty()) {
+        notes.push_back(fmt::format("{}: {}", file, facets.note));
+    }
     if (facets.degenerate > 0) {
         notes.push_back(
             fmt::format("{}: {} without area left out", file, counted(facets.degenerate, "facet")));
@@ -167,7 +170,8 @@ std::vector<Surface> read_surfaces(const std::string& file,
                                    double millimetres,
                                    double mesh_tolerance,
                                    std::vector<std::string>* notes,
-                                   const Similarity& placed)
+                                   const Similarity& placed,
+                                   const std::optional<ReliefSize>& relief)
 {
     if (is_cad_file(file)) {
         return read_cad_surfaces(file, placed, notes);
@@ -183,7 +187,7 @@ std::vector<Surface> read_surfaces(const std::string& file,
     } else if (is_mesh_file(file)) {
         std::vector<std::string> unread;
         std::vector<std::string>& said = notes != nullptr ? *notes : unread;
-        Facets facets = read_facets(file, millimetres, placed);
+        Facets facets = read_facets(file, millimetres, placed, relief);
         cover_holes(file, facets.triangles, said);
         surfaces = mesh_surfaces(file, facets, mesh_tolerance, said);
     } else {
@@ -199,9 +203,10 @@ std::vector<Surface> read_surfaces(const std::string& file,
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
                                             std::vector<std::string>* notes,
-                                            const Similarity& placed)
+                                            const Similarity& placed,
+                                            const std::optional<ReliefSize>& relief)
 {
-    Facets facets = read_facets(file, millimetres, placed);
+    Facets facets = read_facets(file, millimetres, placed, relief);
     if (notes != nullptr) {
         describe(file, facets, overhang_area(facets), *notes);
     }
