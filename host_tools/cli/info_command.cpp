@@ -70,7 +70,7 @@ void add_info_command(CLI::App& app, Work& work)
         "  cusp info bracket.step\n"
         "  cusp info plate.dxf#outline --picture plate.svg\n"
         "\n"
-        "Reads .json, .step, .iges, .brep, .stl, .obj, .3mf, .dxf, .svg, Gerber (.gbr) and\n"
+        "Reads .json, .step, .iges, .brep, .stl, .obj, .3mf, .png, .dxf, .svg, Gerber (.gbr) and\n"
         "Excellon (.drl). Lists the loops and\n"
         "open ends of each layer of a drawing, and the holes of a mesh. \"Largest ball\" is the "
         "largest "

@@ -86,6 +86,7 @@ class Relief(CuspCase):
     def test_what_is_no_relief_is_refused_in_words(self):
         self.picture(png(hill(20, 20, 255)))
         self.assertIn("--width, --heights", self.plan(2))
+        self.assertIn("shown 100 mm wide", self.cusp(0, "info", "p.png"))
         self.assertIn("needs both", self.plan(2, "--width", "60"))
         self.assertIn("needs both", self.plan(2, "--heights=-6,0"))
         self.assertIn("--width: is 0", self.plan(2, "--width", "0", "--heights=-6,0"))

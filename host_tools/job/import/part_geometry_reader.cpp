@@ -1,6 +1,7 @@
 #include "host_tools/job/import/part_geometry_reader.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -14,6 +15,7 @@
 #include "host_tools/job/import/part_extent.hpp"
 #include "host_tools/job/import/part_features.hpp"
 #include "host_tools/job/import/path_ending.hpp"
+#include "host_tools/job/import/relief_facets.hpp"
 
 #include "fmt/format.h"
 
@@ -134,8 +136,16 @@ void take_drawing(PartGeometry& part,
 void take_mesh(PartGeometry& part, const std::string& file, double millimetres)
 {
     const std::string ending = path_ending(file);
-    Facets facets = read_facets(file, millimetres);
-    part.format = ending == ".stl" ? "STL" : ending == ".obj" ? "OBJ" : "3MF";
+    // A picture has a size in a job alone.
+    constexpr ReliefSize kShown{100, -5, 0};
+    const bool picture = is_picture_file(file);
+    Facets facets =
+        read_facets(file, millimetres, {}, picture ? std::optional{kShown} : std::nullopt);
+    part.format =
+        picture ? "PNG, shown 100 mm wide and 5 mm high: width and heights of [placing] size it"
+        : ending == ".stl" ? "STL"
+        : ending == ".obj" ? "OBJ"
+                           : "3MF";
     part.unit = facets.unit.empty() ? unit_of(millimetres, true) : PartUnit{facets.unit, 0, false};
     part.triangles = std::move(facets.triangles);
     part.degenerate = facets.degenerate;

@@ -32,7 +32,7 @@ struct Greys {
 };
 
 // The reason may hold bytes of the file.
-[[noreturn]] void refuse(const std::string& file)
+[[noreturn]] void refuse_picture(const std::string& file)
 {
     std::string reason = stbi_failure_reason();
     std::replace_if(
@@ -51,7 +51,7 @@ Greys read_greys(const std::string& file)
     int rows = 0;
     int channels = 0;
     if (stbi_info_from_memory(data, size, &columns, &rows, &channels) == 0) {
-        refuse(file);
+        refuse_picture(file);
     }
     if (columns < 2 || rows < 2 || 1.0 * columns * rows > kMostPixels) {
         throw InputError(
@@ -61,7 +61,7 @@ Greys read_greys(const std::string& file)
     const std::unique_ptr<stbi_us, void (*)(void*)> pixels{
         stbi_load_16_from_memory(data, size, &columns, &rows, &channels, 1), stbi_image_free};
     if (!pixels) {
-        refuse(file);
+        refuse_picture(file);
     }
     constexpr double kWhite = std::numeric_limits<std::uint16_t>::max();
     Greys greys{columns, rows};

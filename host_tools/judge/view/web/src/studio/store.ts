@@ -37,7 +37,7 @@ export const isStale = computed(() => planned.value !== null && (planned.value.j
 export const kJobName = "job.toml";
 
 export const kinds = {
-  surfaces: /\.(step|stp|iges|igs|brep|stl|obj|3mf|json)$/i, drawing: /\.(dxf|svg|gbr|ger|gtl|gbl|gko|gm1|drl|xln)$/i, job: /\.toml$/i, zip: /\.zip$/i, program: /\.(ngc|nc|gcode|tap|cnc)$/i,
+  surfaces: /\.(step|stp|iges|igs|brep|stl|obj|3mf|png|json)$/i, drawing: /\.(dxf|svg|gbr|ger|gtl|gbl|gko|gm1|drl|xln)$/i, job: /\.toml$/i, zip: /\.zip$/i, program: /\.(ngc|nc|gcode|tap|cnc)$/i,
 };
 
 export const say = (text: string, bad = false): void => { said.value = { text, bad }; };
