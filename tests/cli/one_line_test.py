@@ -154,6 +154,12 @@ class OneLine(unittest.TestCase):
             self.assertIn("scallop at most 0.0500 mm where the end can touch", said)
             self.assertIn("scallop of tool 2 is proved where its end can touch", self.verified())
 
+    def test_a_flat_end_finishes_slanted_ground_to_a_scallop(self):
+        self.write("pit.stl", mesh(-5))
+        _, said = self.program("pit.stl", "--tool", "flat:6", "flat:4", "--scallop", 0.1)
+        self.assertIn("finish: adaptive_isocurve, flat 4 mm", said)
+        self.assertIn("scallop of tool 2 is proved where its end can touch", self.verified())
+
     def test_several_parts_are_one(self):
         self.write("roof.stl", mesh(8))
         _, said = self.program("roof.stl", "plate.json", "--tool", "ball:6", "--scallop", 0.05)

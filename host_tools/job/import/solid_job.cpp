@@ -70,8 +70,10 @@ public:
         check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
         const bool slants = ground.slanted > kLeastSlant;
         const bool has_ball = !finishing_end().empty();
-        // A ball, a bull or a taper finishes slanted ground, and a part of which nothing is below its top.
-        cuts_.is_all = !(has_ball && (slants || ground.openings.empty()));
+        // A ball, a bull or a taper finishes slanted ground, and a part of which nothing is below its top;
+        // without one the last flat end finishes slanted ground to a scallop.
+        const bool flat_finishes = slants && !has_ball && request_.scallop && !flats_.empty();
+        cuts_.is_all = !flat_finishes && !(has_ball && (slants || ground.openings.empty()));
         if (cuts_.is_all && flats_.empty()) {
             throw InputError(
                 "--tool: level ground and upright walls need a flat end: add one, such as --tool "
@@ -273,10 +275,10 @@ private:
                             "strategy = \"waterline\" finishes them",
                             ground.wall));
         }
-        if (slants && !has_ball) {
+        if (slants && cuts_.is_all) {
             cuts_.said.push_back(fmt::format(
                 "slanted ground stays, {:.4g} mm2 seen from above, such as at x {:.6g} y {:.6g} z "
-                "{:.6g}: a ball in --tool finishes it",
+                "{:.6g}: a ball in --tool finishes it, or the last flat end with --scallop",
                 ground.slanted, number(ground.slanted_at.x), number(ground.slanted_at.y),
                 number(ground.slanted_at.z)));
         }
