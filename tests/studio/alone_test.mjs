@@ -7,6 +7,7 @@ import fs from "node:fs";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
+import { deflateSync } from "node:zlib";
 import { cusp, startBrowser, top, write } from "../view/browser.mjs";
 
 const file = process.argv[5], isSame = process.argv[6] === "--same", parts = path.join(top, "examples", "parts"), dome = path.join(parts, "trimmed-dome.json");
@@ -54,6 +55,38 @@ test("a part becomes a program whose bounds hold, in the page and by cusp verify
     native("plan", "job.toml", "-o", "trimmed-dome.ngc");
     assert.ok(fs.readFileSync(program).equals(fs.readFileSync(path.join(folder, "trimmed-dome.ngc"))), "the bytes are those of the program");
   }
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+/** Greys that rise from left to right, as PNG. */
+function ramp(width, height) {
+  const crc = (bytes) => ~bytes.reduce((sum, byte) => {
+    let rest = sum ^ byte;
+    for (let bit = 0; bit < 8; bit += 1) rest = (rest >>> 1) ^ (rest & 1 ? 0xedb88320 : 0);
+    return rest;
+  }, -1) >>> 0;
+  const word = (value) => { const bytes = Buffer.alloc(4); bytes.writeUInt32BE(value); return bytes; };
+  const chunk = (kind, data) => { const body = Buffer.concat([Buffer.from(kind), data]); return Buffer.concat([word(data.length), body, word(crc(body))]); };
+  const rows = Array.from({ length: height }, () => Buffer.from([0, ...Array.from({ length: width }, (_, x) => Math.round(255 * x / (width - 1)))]));
+  return Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", Buffer.concat([word(width), word(height), Buffer.from([8, 0, 0, 0, 0])])),
+    chunk("IDAT", deflateSync(Buffer.concat(rows))), chunk("IEND", Buffer.alloc(0))]);
+}
+
+test("a picture becomes a relief of the size that Suggest asks for", async () => {
+  const { page, faults, close } = await open();
+  await page.locator("input[type=file]").setInputFiles([write("alone/ramp.png", ramp(40, 30))]);
+  await page.getByText("shown 100 mm wide").waitFor();
+  await step(page, "Operations");
+  await page.getByLabel("Tools", { exact: true }).fill("ball:6");
+  await page.locator("details").evaluateAll((all) => all.forEach((one) => { one.open = true; }));
+  for (const [key, text] of [["scallop", "0.5"], ["width", "40"], ["heights", "-4, 0"]]) await page.locator(`#suggest-${key}`).fill(text);
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.waitForFunction(() => window.cusp.state().job.includes("heights = [-4, 0]"));
+  await step(page, "Check");
+  await page.getByRole("button", { name: "Plan", exact: true }).click();
+  await page.waitForFunction(() => window.cusp.state().checked);
+  assert.match(await page.locator(".headline").innerText(), /All bounds hold/);
   assert.deepEqual(faults, []);
   await close();
 });
