@@ -104,14 +104,6 @@ if [ "$all" = no ]; then
     leave_out
 else
     if [ "$release" = yes ]; then run_tests ci-release; else run_tests ci; fi
-    echo "making the packages"
-    install_packages $fresh_packages
-    quietly build/package.log .ci/package ci
-    step packages tests/fresh/lint.sh out/packages
-    # They mostly fetch and unpack packages: beside what is built and run below.
-    tests/fresh/fresh_test.sh out/packages >build/roots.log 2>&1 &
-    roots=$!
-    trap 'kill "$roots" 2>/dev/null || true' EXIT
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF \
         -DCUSP_SLOW_UNIT_TESTS=$([ "$release" = yes ] && echo ON || echo OFF)
@@ -129,10 +121,11 @@ else
         quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
         step "the studio in one file" .ci/studio --compare
     fi
-    bare=0
-    wait $roots || bare=$?
-    cat build/roots.log
-    step "bare roots" [ "$bare" -eq 0 ]
+    echo "making the packages"
+    install_packages $fresh_packages
+    quietly build/package.log .ci/package ci
+    step packages tests/fresh/lint.sh out/packages
+    step "bare roots" tests/fresh/fresh_test.sh out/packages
 fi
 
 echo "$passed passed, $failed failed"
