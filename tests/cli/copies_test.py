@@ -92,6 +92,7 @@ class Copies(CuspCase):
         self.assertRegex(said, r"--copies: is 9, but \d of angle.dxf fit on the sheet of 130 x 130 mm, 4.5 apart")
         self.assertIn("needs --sheet", self.sheet(2, "--copies", "2", "-o", "p.ngc"))
         self.assertIn("needs --sheet", self.sheet(2, "--gap", "2", "-o", "p.ngc"))
+        self.assertIn("0 of angle.dxf fit", self.sheet(2, "--sheet", "0.3,0.2", "-o", "p.ngc"))
         self.assertIn("--copies: is 1.5", self.sheet(2, "--sheet", "99,99", "--copies", "1.5", "-o", "p.ngc"))
         self.assertIn("has 2 numbers, 1 for all", self.sheet(2, "--sheet", "99,99", "--copies", "1,2", "-o", "p.ngc"))
 
@@ -131,7 +132,7 @@ class Copies(CuspCase):
     def test_wrong_places_are_named(self):
         self.write("angle.dxf", drawing(ANGLE))
         for keys, words in (("grid = [2, 2]", "needs both"), ("pitch = 3", "needs both"),
-                            ("grid = [0, 2]\npitch = 3", "whole numbers"), ("grid = [2]\npitch = 3", "rows"),
+                            ("grid = [0, 2]\npitch = 3", "whole numbers"), ("grid = [2]\npitch = 3", "rows"), ("grid = [2, 2]\npitch = []", "pitch"),
                             ("copies = []", "has 0 places"), ("copies_rotate = 90", "needs copies"),
                             ("copies = [[0, 0], [70, 0]]\ncopies_rotate = [1, 2, 3]", "has 3 numbers"),
                             ("copies = [[0, 0]]\ngrid = [2, 2]\npitch = 9", "not both"), ("copies = [1, 2]", "pairs")):

@@ -14,7 +14,7 @@ namespace cusp::finishing {
 // pitch  mm, of the grid of the search; shorter curves may be missed
 std::vector<Points> mesh_pencil_curves(const GougeFreePathFitter& path_fitter, double pitch);
 
-// Those near places, where the end may hang over the border of the mesh; each goes on to the lowest tip
+// The curves near places, where the end may hang over the border of the mesh; each goes on to the lowest tip
 // beside its ends, such as the bottom of a pit where three curves end.
 //
 // places  in plan; the tool's radius is near

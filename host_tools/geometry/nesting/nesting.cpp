@@ -91,6 +91,7 @@ class Nest {
 public:
     explicit Nest(const Sheet& sheet)
         : sheet_{sheet},
+          room_{sheet.size.x - 2 * sheet.gap, sheet.size.y - 2 * sheet.gap},
           cell_{std::max(sheet.size.x, sheet.size.y) / kCells},
           margin_{static_cast<int>(std::floor(sheet.gap / cell_)) + 1},
           taken_(cells(sheet.size.x), cells(sheet.size.y))
@@ -104,6 +105,9 @@ public:
         for (const double degrees : kTurns) {
             const std::vector<Polyline> lines = turned(piece.polylines, degrees);
             const Box box = box_of(lines);
+            if (box.size().x > room_.x || box.size().y > room_.y) {
+                continue;  // its cells would be without number on a small sheet
+            }
             const CellMask cells = filled_mask(lines, box.low, box.high, cell_);
             if (cells.columns() <= taken_.columns() && cells.rows() <= taken_.rows()) {
                 CellMask kept = widened(cells, margin_, sheet_.gap, cell_);
@@ -146,7 +150,7 @@ private:
         return best;
     }
 
-    // What is taken stays taken: the search goes on where it ended.
+    // Taken cells stay taken: the search goes on where it ended.
     bool find_place(TurnedPiece& piece) const
     {
         for (; piece.top() <= taken_.rows(); ++piece.row, piece.column = 0) {
@@ -160,6 +164,7 @@ private:
     }
 
     Sheet sheet_;
+    Vec2d room_;   // mm: within the gaps to the edges
     double cell_;  // mm
     int margin_;   // cells that a gap reaches
     CellMask taken_;

@@ -36,7 +36,7 @@ struct Place {
     Vec2d move;        // mm
 };
 
-// Of each piece as many places as asked for, or fewer where the sheet is full. Same places on every machine.
+// The list of each piece has as many places as its count, or fewer if the sheet is full. They are the same on every machine.
 std::vector<std::vector<Place>> nest(const std::vector<Piece>& pieces, const Sheet& sheet);
 
 // `p` turned by a multiple of a quarter turn, exact.

@@ -27,7 +27,7 @@ struct OneLineRequest {
     std::optional<double> spindle;  // rpm
     std::optional<double> stock_top;
     std::optional<double> clearance;
-    // Of pictures.
+    // A picture needs both.
     std::optional<double> width;
     std::vector<double> heights;  // z of black and of white
     // As the keys of [placing]; all parts and loops together.

@@ -65,7 +65,7 @@ public:
 
     // Places a file that was not read yet; its name has no "#layer".
     void place(const std::string& file, const Similarity& placed);
-    // Of a picture that was not read yet.
+    // Sizes a picture that was not read yet.
     void size_relief(const std::string& file, const ReliefSize& size) { reliefs_[file] = size; }
     // Moves what was read of the file, and what will be. mm
     void shift(const std::string& file, Vec3d by);

@@ -69,7 +69,7 @@ std::vector<CopyPlace> read_grid(JobTable& keys, double millimetres)
     if (!grid || !pitch) {
         keys.refuse(grid ? "grid" : "pitch", "a grid needs both grid and pitch");
     }
-    if (grid->size() != 2 || pitch->size() > 2) {
+    if (grid->size() != 2 || pitch->empty() || pitch->size() > 2) {
         keys.refuse(grid->size() != 2 ? "grid" : "pitch",
                     "[columns, rows] are needed, and one distance or [in x, in y]");
     }

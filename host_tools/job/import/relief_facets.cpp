@@ -42,7 +42,7 @@ struct Greys {
 
 Greys read_greys(const std::string& file)
 {
-    constexpr double kMostPixels = 1e8;
+    constexpr double kMostPixels = 2.5e7;
     const std::string bytes = files::text_of_file(file);
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     constexpr std::size_t kMostBytes = std::numeric_limits<int>::max();

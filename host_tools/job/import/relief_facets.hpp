@@ -15,7 +15,7 @@ bool is_picture_file(const std::string& file);
 // brightness; transparent pixels as they are. A picture of over a million pixels is averaged in squares until it has no more,
 // which `Facets::note` says.
 //
-// Errors: InputError with the file: no PNG, over 10^8 pixels, less than two in a row or a column.
+// Errors: InputError with the file: no PNG, over 25 million pixels, less than two in a row or a column.
 Facets read_relief(const std::string& file, const ReliefSize& size);
 
 }  // namespace cusp::import

@@ -24,6 +24,9 @@ std::vector<NestedFiles> copy_drawings(const OneLineRequest& request,
                                        const job::Strategies& strategies,
                                        PartFiles& parts)
 {
+    if (!asks_for_sheet(request)) {
+        return {};
+    }
     const double unit = request.inch ? kMillimetresPerInch : 1.0;
     const std::vector<NestedFiles> copied =
         nest_copies(request, choice, sheet_drawings(request, strategies, unit, parts));
@@ -32,9 +35,7 @@ std::vector<NestedFiles> copy_drawings(const OneLineRequest& request,
             parts.copy(file, moves_of(each.places));
         }
     }
-    if (!copied.empty()) {
-        parts.finish_placing();
-    }
+    parts.finish_placing();
     return copied;
 }
 

@@ -80,6 +80,11 @@ void check_copies(const OneLineRequest& request)
 
 }  // namespace
 
+bool asks_for_sheet(const OneLineRequest& request)
+{
+    return !request.sheet.empty() || !request.copies.empty() || request.gap;
+}
+
 double gap_of_copies(const OneLineRequest& request, const OneLineChoice& choice)
 {
     constexpr double kOfDiameter = 1.5;
@@ -90,9 +95,6 @@ std::vector<NestedFiles> nest_copies(const OneLineRequest& request,
                                      const OneLineChoice& choice,
                                      const std::vector<SheetDrawing>& drawings)
 {
-    if (request.sheet.empty() && request.copies.empty() && !request.gap) {
-        return {};
-    }
     check_copies(request);
     const bool apart = request.copies.size() > 1;
     std::vector<nesting::Piece> pieces(apart ? drawings.size() : 1);
@@ -117,6 +119,13 @@ std::vector<NestedFiles> nest_copies(const OneLineRequest& request,
         }
         pieces[piece].count =
             request.copies.empty() ? 1 : static_cast<int>(request.copies[apart ? i : 0]);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (pieces[i].polylines.empty()) {
+            throw InputError(
+                fmt::format("--sheet: {} has no curve that shows how much room it needs",
+                            fmt::join(nested[i].files, ", ")));
+        }
     }
     const double unit = millimetres(request);
     const auto places = nesting::nest(

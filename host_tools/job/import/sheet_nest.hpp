@@ -16,8 +16,11 @@ struct NestedFiles {
     std::vector<CopyPlace> places;
 };
 
-// Where the copies that the request asks for lie; none: it asks for no sheet. The gap is 1.5 times the diameter of the
-// first tool, which cuts outlines, if the request has none.
+// True if the request lays its drawings on a sheet.
+bool asks_for_sheet(const OneLineRequest& request);
+
+// The places of the copies that the request asks for. The gap is 1.5 times the diameter of the first tool, which cuts
+// outlines, if the request has none.
 //
 // drawings  as sheet_drawings() gives them for the request: all that is cut lies in these
 //

@@ -165,6 +165,8 @@ TEST(Nesting, LeavesOutWhatDoesNotFit)
         nest({{{rectangle(300, 10)}, 1}, {{rectangle(20, 10)}, 2}}, {{100, 100}, 1});
     LONGS_EQUAL(0, places[0].size());
     LONGS_EQUAL(2, places[1].size());
+    LONGS_EQUAL(0, nest({{{rectangle(1e5, 1e5)}, 1}}, {{1, 1}, 0}).front().size());
+    LONGS_EQUAL(0, nest({{{rectangle(1, 1)}, 1}}, {{10, 10}, 1e5}).front().size());
 }
 
 }  // namespace cusp::test
