@@ -76,9 +76,10 @@ void Backlash::configure(const Vec3f& play, const MachineLimits& limits) noexcep
     any_ = false;
     for (unsigned i = 0; i < kAxisCount; ++i) {
         Axis& axis = axes_[i];
-        const std::int8_t side = axis.side;
+        const std::int8_t taken = axis.taken;
         axis = Axis{};
-        axis.side = side;
+        axis.side = taken;
+        axis.taken = taken;
         if (play[i] <= 0) {
             continue;
         }
@@ -101,31 +102,34 @@ void Backlash::rest(Position at) noexcept
         axis.at = 0;
         axis.before = 0;
         axis.done = 0;
+        axis.side = axis.taken;
         axis.extreme = at[i];
         axis.way = at[i];
     }
     busy_.store(false, std::memory_order_release);
 }
 
-// Takes the other side where the way has turned, unless an earlier turn is still being taken up.
+// Takes the other side where the way has turned; while an earlier turn is being taken up the way may turn
+// back before that.
 inline bool Backlash::turns(Axis& axis, std::int64_t way) noexcept
 {
     const std::int64_t beyond = way - axis.extreme;
     if (axis.side == 0) {
         axis.side = static_cast<std::int8_t>(beyond > kTurn ? 1 : beyond < -kTurn ? -1 : 0);
+        axis.taken = axis.side;
         axis.extreme = axis.side == 0 ? axis.extreme : way;
         return false;
     }
     if (axis.side > 0 ? beyond >= 0 : beyond <= 0) {
         axis.extreme = way;
+    } else if (axis.side > 0 ? beyond < -kTurn : beyond > kTurn) {
+        axis.side = static_cast<std::int8_t>(-axis.side);
+        axis.extreme = way;
+    }
+    if (axis.side == axis.taken || axis.done != 0) {
         return false;
     }
-    const bool came_back = axis.side > 0 ? beyond < -kTurn : beyond > kTurn;
-    if (!came_back || axis.done != 0) {
-        return false;
-    }
-    axis.side = static_cast<std::int8_t>(-axis.side);
-    axis.extreme = way;
+    axis.taken = axis.side;
     axis.to += axis.side * axis.play;
     return true;
 }
@@ -177,6 +181,7 @@ void Backlash::stop() noexcept
 {
     for (Axis& axis : axes_) {
         axis.done = 0;
+        axis.side = axis.taken;
     }
     busy_.store(false, std::memory_order_release);
 }

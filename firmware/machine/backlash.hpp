@@ -59,7 +59,8 @@ private:
         std::int32_t to{0};
         std::int32_t at{0};
         std::int32_t before{0};   // `at` a tick ago
-        std::int8_t side{0};      // that was pushed last: 1 plus, -1 minus, 0 not known
+        std::int8_t side{0};      // that the way pushes: 1 plus, -1 minus, 0 not known
+        std::int8_t taken{0};     // that the motor is on, or on its way to
         std::int64_t extreme{0};  // of the way on that side
         std::int64_t way{0};      // a tick ago
     };
