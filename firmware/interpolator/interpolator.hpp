@@ -1,7 +1,7 @@
 // The interpolator: the path ahead becomes one set point a servo tick.
 //
-//   path servo: travel along the path, limited in speed and acceleration
-//   path filter: a moving average of it, which limits jerk without leaving the path
+//   own time of the plan: slower for a hold or an override (time_warp)
+//   travel along the path by the plan (law_player)
 //   position on the block
 //   axis filters: two short moving averages an axis, for jumps of direction and curvature
 //   input shaper: against vibration, where the settings ask for it
@@ -9,9 +9,11 @@
 // Fixed work a tick, integers and float only.
 #pragma once
 
+#include "firmware/base/static_vector.hpp"
 #include "firmware/interpolator/box_filter.hpp"
-#include "firmware/interpolator/path_servo.hpp"
+#include "firmware/interpolator/law_player.hpp"
 #include "firmware/interpolator/shaper_filter.hpp"
+#include "firmware/interpolator/time_warp.hpp"
 #include "firmware/planner/planner.hpp"
 
 namespace cusp::interpolator {
@@ -60,13 +62,9 @@ public:
 
     Position position() const noexcept { return position_; }
 
-    // Path ahead of the servo that it may already follow, mm: where this is short and nothing is to
-    // come, the planner should be closed. Context: main loop.
-    float path_ahead() const noexcept
-    {
-        return static_cast<float>(queue_.published_length() - servo_.travelled()) * 256.0F /
-               kPathUnitsPerMillimetre;
-    }
+    // Path ahead that is planned for sure, mm: where this is short and nothing is to come, the planner
+    // should be closed. Context: main loop.
+    float path_ahead() const noexcept { return queue_.plans().certain_way().length; }
 
 private:
     static constexpr std::uint32_t kMaxAxisFilter =
@@ -75,31 +73,45 @@ private:
     // Both sum up steps of at most 2000 mm/s.
     static_assert(kMaxAxisFilter * kMaxSecondFilter * 2000.0F * kPathUnitsPerTick < 2147483648.0F);
 
-    // A stretch of path from stop to stop on its way through the path filter. Two overlap at a
-    // corner that may be cut.
+    // A stretch of path from stop to stop that is played. Two overlap at a corner that may be cut.
     struct Track {
-        RunningSum<std::int32_t, kMaxPathFilter> filter;
-        ExactDivision division;
+        LawPlayer player;
         std::uint32_t block{0};   // that the tool is on, as counted by the queue
         std::uint32_t offset{0};  // path units into it
         PathOffset place{};       // relative to its start
+        bool at_stop{false};      // that block begins the next stretch
     };
     void set_axis_filter(planner::AxisFilter filter) noexcept;
-    PathOffset travel(Track& track, std::int32_t step) noexcept;
-    PathOffset pass_blocks(Track& track, std::uint32_t offset) noexcept;
-    // Never inline: ticks on one track do not pay for it.
-    [[gnu::noinline]] PathOffset trail() noexcept;
-    bool filters_drained() const noexcept;
-    bool ready_to_go_on() noexcept;
-    bool find_stop(std::uint32_t& block) const noexcept;
+    float own_time() noexcept;
+    float rate_of(const planner::LawCell& cell) const noexcept;
+    void look_ahead() noexcept;
+    void add_start(const WarpBounds& rest, float whole) noexcept;
+    void add_ahead(const planner::LawCell& cell, const WarpBounds& bounds) noexcept;
+    PathOffset play(float time) noexcept;
+    bool begin_next() noexcept;
+    void begin_cell(const planner::LawCell& next, const planner::PackedBounds& bounds) noexcept;
+    // The cell that the leading track plays, or has played last.
+    const planner::LawCell& cell() const noexcept { return leading_->player.cell(); }
+    float time_to_next() noexcept;
     void change_track() noexcept;
+    PathOffset travel(Track& track, std::uint32_t along) noexcept;
+    PathOffset pass_blocks(Track& track, std::uint32_t offset) noexcept;
+    bool filters_drained() const noexcept;
+    bool takes_filter_of(std::uint32_t block) noexcept;
+    bool find_next(std::uint32_t& block) const noexcept;
     void drop_passed_blocks() noexcept;
+    // Between two cells the tool moves, too.
+    bool moves() const noexcept
+    {
+        return !leading_->player.needs_cell() || !trailing_->player.needs_cell() ||
+               cell().piece != planner::LawPiece::kStop;
+    }
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;
     Track* leading_{nullptr};  // of tracks_
     Track* trailing_{nullptr};
-    OverrideFactors factors_{};
+    std::array<float, path::kMoveKinds> overrides_{1, 1, 1};  // by kind
     Position position_{};
     PerAxis<ExactDivision> axis_division_{};
     std::int32_t along_{0};  // path units travelled in this tick
@@ -107,16 +119,22 @@ private:
     unsigned shaper_ticks_{0};  // half the length of the shaper's response
     path::LaserPower power_;
     planner::AxisFilter axis_filter_{};
-    bool drained_{false};         // the path filter of the leading track, before this tick
-    bool drained_before_{false};  // and before the last one
-    bool trail_drained_{true};    // that of the trailing track, before the last tick
     bool holding_{false};
     bool braking_{false};
     bool at_rest_{true};
+    bool slowed_{false};  // by an override
+    bool passed_{false};  // a block, in this tick
     RunningSum<PathOffset, kMaxSecondFilter> second_;
     RunningSum<PathOffset, kMaxAxisFilter> first_;
+    TimeWarp warp_;
+    // The plan ahead, in pieces of a tick or more, and what is known of the last of them.
+    static constexpr std::size_t kMostAhead = 32;
+    StaticVector<WarpBounds, kMostAhead> ahead_;
+    planner::PackedBounds before_{};   // of the cell before the one that is played
+    planner::PackedBounds playing_{};  // of that
+    planner::PackedBounds trailing_bounds_{};
+    float least_rate_{1};  // wanted ahead
     // Then what is large: what the tick reads above stays within reach of an offset.
-    PathServo servo_;
     std::array<Track, 2> tracks_;
     ShaperFilter shaper_;
 };

@@ -14,6 +14,7 @@ using planner::SquaredSpeed;
 
 constexpr float kLeastSquare = 1e-12F;  // mm^2/s^2
 constexpr int kNewtonSteps = 3;
+constexpr float kNear = 1e-5F;  // s; the next step changes its square
 constexpr float kRestOfElement = 1e-6F;
 
 // Speed, acceleration and k of a state.
@@ -98,14 +99,19 @@ std::uint32_t LawPlayer::advance(float& left) noexcept
     const Series series{advanced(cell_.start, place_)};
     const float room = length_ - place_;
     const float travel = series.travel(left);
-    if (travel < room) {
+    // Where the series would turn back the cell has ended before.
+    if (travel < room && series.speed(left) > 0) {
         left = 0;
         return go_to(place_ + travel);
     }
     float time = std::min(left, room / series.v);
     for (int i = 0; i < kNewtonSteps; ++i) {
+        const float before = time;
         time -= (series.travel(time) - room) / series.speed(time);
         time = std::clamp(time, 0.0F, left);
+        if (std::fabs(time - before) < kNear) {
+            break;
+        }
     }
     left -= time;
     return go_to_end();

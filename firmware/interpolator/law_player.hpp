@@ -20,6 +20,9 @@ public:
     // The cell that is played from now on. Precondition: needs_cell().
     void play(const planner::LawCell& cell) noexcept;
 
+    // The last cell that was given; a kStop before the first.
+    const planner::LawCell& cell() const noexcept { return cell_; }
+
     // True if the cell before is played to its end, or none was given.
     bool needs_cell() const noexcept { return finished_; }
 
@@ -27,8 +30,17 @@ public:
     // this takes. Returns the path units gone. Precondition: !needs_cell().
     std::uint32_t advance(float& left) noexcept;
 
-    // Time to the end of an element of a stop, s. Precondition: a kStop is played.
+    // Time to the end of an element, s.
+    float time_left() const noexcept { return finished_ ? 0.0F : duration_ - elapsed_; }
+    // Precondition: a kStop is played.
     float time_to_rest() const noexcept { return duration_ - elapsed_; }
+    // Part of the cell that is left.
+    float part_left() const noexcept
+    {
+        return finished_
+                   ? 0.0F
+                   : static_cast<float>(cell_.travel - gone_) / static_cast<float>(cell_.travel);
+    }
     bool stops() const noexcept { return !finished_ && cell_.piece == planner::LawPiece::kStop; }
 
     // Along the path, now.
@@ -39,7 +51,7 @@ private:
     std::uint32_t advance_element(float& left) noexcept;
     std::uint32_t go_to_end() noexcept;
 
-    planner::LawCell cell_{};
+    planner::LawCell cell_{{}, 0, planner::LawPiece::kStop};
     float length_{0};    // mm
     float place_{0};     // mm from its start
     float duration_{0};  // s, of an element

@@ -1,6 +1,6 @@
 // Laser: the power of a laser in every servo tick (setting 32).
 //
-//   the path servo is on a move, with its power -> the filters delay the motion, so the power waits
+//   the interpolator is on a move, with its power -> the filters delay the motion, so the power waits
 //   the set point moves                         -> its true speed makes the power of that tick
 //   its pulses play kPlayedBehind ticks later   -> so does the duty cycle
 #pragma once
@@ -33,8 +33,8 @@ public:
 
     // Once a tick.
     //
-    //   power  of the block that the path servo is on
-    //   stands true if the path servo did not move; what it begins then is not delayed: the filters hold
+    //   power  of the block that the interpolator is on
+    //   stands true if the plan did not move; what it begins then is not delayed: the filters hold
     //          less than a nanometre of what was before
     //   delay  ticks until the set points are there, at most kLongestDelay
     //   moved  nm, by the set point in this tick

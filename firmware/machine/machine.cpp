@@ -79,12 +79,15 @@ bool Machine::suspended() const noexcept
 bool Machine::poll() noexcept
 {
     const bool can_answer = replies_.room() >= kReplyRoom;
-    motion_.work(can_answer && (!lines_.empty() || task_ == Task::kActions));
+    // A stop does not wait for a step of the plan.
+    if (!reset_wanted_ && !door_wanted_ && !frame_missed_) {
+        motion_.work(can_answer && (!lines_.empty() || task_ == Task::kActions));
+    }
     guard_limits();
     // Without room for answers a stop acts in the tick meanwhile.
     const bool worked = can_answer && step();
-    motion_.take_changes();
-    return worked;
+    const bool plans = motion_.take_changes();
+    return worked || plans;
 }
 
 bool Machine::step() noexcept

@@ -94,12 +94,16 @@ void Motion::close() noexcept
 
 void Motion::work(bool more_waits) noexcept
 {
+    plans_ = false;
     if (!planner_.empty()) {
-        planner_.work(open_ && !more_waits && ticks() != last_push_tick_);
+        plans_ = planner_.work(open_ && !more_waits && ticks() != last_push_tick_);
     }
-    // A sender that waits for each answer needs a moment to send the next line.
+    // A sender that waits for each answer needs a moment to send the next line. At rest more is worth
+    // waiting for: a path that goes on need not stop.
     constexpr std::uint32_t kPatienceTicks = 5;
-    if (!open_ || more_waits || ticks() - last_push_tick_ < kPatienceTicks) {
+    constexpr std::uint32_t kPatienceAtRest = 15;
+    const std::uint32_t patience = interpolator_.at_rest() ? kPatienceAtRest : kPatienceTicks;
+    if (!open_ || more_waits || ticks() - last_push_tick_ < patience) {
         return;
     }
     const float v = speed();
@@ -111,12 +115,13 @@ void Motion::work(bool more_waits) noexcept
     }
 }
 
-void Motion::take_changes() noexcept
+bool Motion::take_changes() noexcept
 {
     if (changed_) {
         changed_ = false;
-        planner_.work();
+        plans_ = planner_.work();
     }
+    return plans_;
 }
 
 Position Motion::position() const noexcept

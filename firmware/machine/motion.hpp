@@ -46,8 +46,9 @@ public:
     // The begin of a slice of the main loop: lets the planner go on with its moves; closes the path
     // where it runs out and nothing came for a while. more_waits: lines are at hand.
     void work(bool more_waits) noexcept;
-    // The end of a slice: gives the planner what was pushed and closed in it.
-    void take_changes() noexcept;
+    // The end of a slice: gives the planner what was pushed and closed in it. True if it has more to do
+    // before anything moves on.
+    bool take_changes() noexcept;
 
     Position tail() const noexcept { return planner_.tail(); }
     // The last set point.
@@ -165,6 +166,7 @@ private:
     std::uint32_t last_push_tick_{0};
     bool open_{false};
     bool changed_{false};  // pushed to or closed in this slice
+    bool plans_{false};    // the planner has more to do
     std::optional<unsigned> second_motor_axis_;
 };
 

@@ -422,8 +422,8 @@ float greatest_use(const LawSpline& spline, const LawWindow& window) noexcept
         });
     }
     for (std::uint32_t j = window.begin; j < window.end; ++j) {
-        // A slack of speed may be as small as rounding.
-        most = spline.coefficient(j) > spline.cap(j) ? std::max(most, 2.0F) : most;
+        // A slack of speed may be as small as rounding. What is no number is none, either.
+        most = spline.coefficient(j) <= spline.cap(j) ? most : std::max(most, 2.0F);
     }
     return most;
 }

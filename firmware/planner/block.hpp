@@ -8,6 +8,7 @@
 #include "firmware/base/path_units.hpp"
 #include "firmware/base/vec.hpp"
 #include "firmware/nurbs/arc_length_table.hpp"
+#include "firmware/path/move.hpp"
 #include "firmware/planner/speed_limit.hpp"
 
 namespace cusp::planner {
@@ -47,6 +48,9 @@ struct QuinticBlock {
     std::array<Vec3f, 4> bulge;  // mm
 };
 
+inline constexpr std::uint16_t kWholeShare = 1U << 15U;
+inline constexpr float kOverlapUnit = 2e-6F;  // s
+
 struct Block {
     Block() noexcept : arc{} {}
 
@@ -56,7 +60,13 @@ struct Block {
     std::uint8_t reciprocal_shift{0};
     BlockShape shape{BlockShape::kLine};
     path::MoveKind kind{path::MoveKind::kFeed};
-    bool stops{false};  // the path stops at its end
+    bool stops{false};                 // the path stops at its end
+    bool disjoint{false};              // no axis moves on both sides of that stop
+    std::uint8_t percent{100};         // of the programmed feed, that it is planned for
+    std::uint16_t overlap{0};          // 2 us, that the next stretch begins before the stop
+    std::uint16_t share{kWholeShare};  // parts of 2^15, of the axes' jerk on both sides of it
+    float feed{0};                     // squared, (mm/s)^2
+    float centripetal{0};  // mm/s^2, most for which the filters stay within their deviation
     AxisFilter filter{};
     path::LaserPower power;
     std::uint32_t line{0};

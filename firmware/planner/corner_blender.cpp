@@ -97,12 +97,11 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
             bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
     }
     const float centripetal = shaper_square_ > 0 ? 2.0F * deviation / shaper_square_ : kUnlimited;
-    const float speed =
-        std::sqrt(allowance(to_lanes(bound), limits_, filter_s_, centripetal, feed).cap);
-    const float travel = 2.0F * reach + speed * (filter_s_ + 2.0F * shaper_length_);
+    const float speed = std::sqrt(squared_cap(to_lanes(bound), limits_, centripetal, feed));
+    const float travel = 2.0F * reach + speed * (ramp_time_ + 2.0F * shaper_length_);
     const float slowest =
         std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});
-    const float stop = filter_s_ + shaper_length_ + 2.0F * std::sqrt(travel / slowest);
+    const float stop = ramp_time_ + shaper_length_ + 2.0F * std::sqrt(travel / slowest);
     return travel < kWorthIt * stop * speed;
 }
 

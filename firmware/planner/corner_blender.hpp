@@ -19,11 +19,11 @@ public:
     // Part of a move's tolerance that the blend may leave the corner by.
     static constexpr float kShareOfTolerance = 0.45F;
 
-    // filter_s: length of the path filter, s.
-    void set_limits(const MachineLimits& limits, float filter_s) noexcept
+    // ramp_time: s, in which the slowest axis reaches its acceleration.
+    void set_limits(const MachineLimits& limits, float ramp_time) noexcept
     {
         limits_ = limits;
-        filter_s_ = filter_s;
+        ramp_time_ = ramp_time;
     }
 
     // Variance of the input shaper's response, s^2, and its length, s. 0 and 0 without.
@@ -58,7 +58,7 @@ private:
     bool join(path::Move& before, path::Move& after, float jerk_time) noexcept;
 
     MachineLimits limits_{};
-    float filter_s_{1};
+    float ramp_time_{1};
     float shaper_square_{0};
     float shaper_length_{0};
     std::optional<path::Move> held_;

@@ -1,4 +1,4 @@
-// Finds how early a stretch may start while the one before drains.
+// Overlaps of rising length are tried; the best is kept.
 #include "firmware/planner/corner_overlap.hpp"
 
 #include <algorithm>
@@ -7,51 +7,31 @@
 namespace cusp::planner {
 namespace {
 
-// If both sides together would need this many times the jerk of one, slowing them down costs
-// more than the overlap saves.
-constexpr float kGreatestDemand = 1.9F;
-constexpr std::uint32_t kFewestTicks = 3;
-constexpr std::uint32_t kMostTicks = 60;
-// Travel is a sum over ticks and ends on one.
-constexpr float kZoneMargin = 1.2F;
+constexpr float kElementTime = 0.8F;     // of the longest a/j
+constexpr float kMostOverlap = 1.2F;     // of it
+constexpr float kLongestOverlap = 0.1F;  // s
+constexpr unsigned kTries = 64;
+constexpr float kCostOfJerk = 1.2F;             // of the time in which it is lower
+constexpr float kLeastGain = 0.0005F;           // s
+constexpr float kPartOfStretch = 1.0F / 12.0F;  // that an element may take
+constexpr float kDisjoint = 1.001F;
 
-// Greatest acceleration in a direction, mm/s^2.
-float acceleration_along(Vec3f direction, const MachineLimits& limits) noexcept
+// The jerk of an axis that the bends of a side add after a time from rest.
+float bend_jerk(const LaneDerivatives& q, float jerk, float time) noexcept
 {
-    float most = limits.acceleration.x / std::max(std::fabs(direction.x), 1e-6F);
-    most = std::min(most, limits.acceleration.y / std::max(std::fabs(direction.y), 1e-6F));
-    return std::min(most, limits.acceleration.z / std::max(std::fabs(direction.z), 1e-6F));
+    const float speed = 0.5F * jerk * time * time;
+    const float second = norm(q.second);
+    const float third = std::max(norm(q.third), second * second);
+    return 3.5F * second * speed * jerk * time + third * speed * speed * speed;
 }
 
-// Jerk, of any axis, that the bend of a stretch adds while it is left or entered with u over time.
-float bend_jerk(const CornerSide& side, float u, float time, float filter_s) noexcept
+float longest_ramp(const MachineLimits& limits) noexcept
 {
-    const float speed = u * time;
-    const float turn = side.bend * 0.5F * speed * time;
-    return 3.0F * side.bend * speed * u + side.change * speed * speed * speed + turn * u / filter_s;
+    return greatest(0.0F, quotient(to_lanes(limits.acceleration), to_lanes(limits.jerk)));
 }
 
-// The jerk of both sides together as a part of what the axes allow.
-float demand(const CornerSide& before,
-             const CornerSide& after,
-             const CornerOverlap& overlap,
-             const MachineLimits& limits,
-             float time,
-             float filter_s) noexcept
-{
-    const float bends = bend_jerk(before, overlap.braking, time, filter_s) +
-                        bend_jerk(after, overlap.speeding, time, filter_s);
-    float most = 0;
-    for (unsigned i = 0; i < 3; ++i) {
-        const float both =
-            before.end.tangent[i] * overlap.braking + after.end.tangent[i] * overlap.speeding;
-        most = std::max(most, (std::fabs(both) / filter_s + bends) / limits.jerk[i]);
-    }
-    return most;
-}
-
-}  // namespace
-
+// Mean of (h + t)^3/6 under the axis filters, 0 where h + t < 0: h^3/6 + h (a^2 + b^2)/24, and what
+// the cut-off adds where they reach farther than h. h in s.
 float mean_cube(float h, AxisFilter filter) noexcept
 {
     const float first = static_cast<float>(filter.first) * kServoTick;
@@ -62,51 +42,63 @@ float mean_cube(float h, AxisFilter filter) noexcept
            square * square / (24.0F * first);
 }
 
-CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept
+}  // namespace
+
+StopChoice full_stop(const MachineLimits& limits) noexcept
 {
-    const float curvature = norm(end.curvature);
-    if (block.shape != BlockShape::kQuintic) {
-        return {end, length, curvature, curvature * curvature};
-    }
-    PathDerivatives bounds{};
-    for (unsigned i = 0; i < stretch_count(block); ++i) {
-        bounds = larger(bounds, to_vec(stretch(block, i).derivatives));
-    }
-    return {end, length, norm(bounds.second), norm(bounds.third)};
+    return {kElementTime * longest_ramp(limits), 1};
 }
 
 CornerOverlap corner_overlap(const CornerSide& before,
                              const CornerSide& after,
                              const MachineLimits& limits,
-                             std::uint32_t path_filter,
                              AxisFilter filter,
                              float deviation) noexcept
 {
-    const float filter_s = static_cast<float>(path_filter) * kServoTick;
-    const CornerOverlap full{0, acceleration_along(before.end.tangent, limits),
-                             acceleration_along(after.end.tangent, limits), 0, 0};
-    for (std::uint32_t ticks = std::min(path_filter, kMostTicks); ticks >= kFewestTicks; --ticks) {
-        const float time = static_cast<float>(ticks) * kServoTick;
-        CornerOverlap overlap = full;
-        const float excess = std::max(1.0F, demand(before, after, overlap, limits, time, filter_s));
-        if (excess > kGreatestDemand) {
-            continue;
+    if (deviation <= 0) {
+        return {0, false, full_stop(limits)};
+    }
+    const LaneVec jerk = to_lanes(limits.jerk);
+    const LaneVec tiny = all_lanes(1e-9F);
+    const LaneVec inverse = quotient(all_lanes(1.0F), jerk);
+    const float braking =
+        least(kUnlimited, quotient(jerk, larger(magnitude(before.end.first), tiny)));
+    const float speeding =
+        least(kUnlimited, quotient(jerk, larger(magnitude(after.end.first), tiny)));
+    const LaneVec one = before.end.first * braking;
+    const LaneVec other = after.end.first * speeding;
+    const float least_jerk = least(kUnlimited, jerk);
+    const float longest = longest_ramp(limits);
+    const float signed_demand = greatest(0.0F, product(magnitude(one + other), inverse));
+    const float bends = norm(before.end.second) + norm(after.end.second);
+
+    CornerOverlap best{0, false, full_stop(limits)};
+    best.disjoint = bends <= 0 &&
+                    greatest(0.0F, product(magnitude(one) + magnitude(other), inverse)) < kDisjoint;
+    const float room = best.disjoint ? std::min(before.block, after.block)
+                                     : kPartOfStretch * std::min(before.length, after.length);
+    const float most = std::min(kMostOverlap * longest, kLongestOverlap);
+    float greatest_gain = kLeastGain;
+    for (unsigned i = 1; i <= kTries; ++i) {
+        const float time = most * static_cast<float>(i) / kTries;
+        const float added =
+            bend_jerk(before.end, braking, time) + bend_jerk(after.end, speeding, time);
+        const float share = 1.0F / std::max(1.0F, signed_demand + added / least_jerk);
+        const float cut = share * norm(other - one) * mean_cube(0.5F * time, filter);
+        const float way = share * std::max(braking, speeding) * time * time * time / 6.0F;
+        if (cut > deviation || way > room) {
+            break;
         }
-        overlap.ticks = static_cast<std::uint8_t>(ticks);
-        overlap.braking /= excess;
-        overlap.speeding /= excess;
-        const float half = 0.5F * time;
-        const Vec3f pull =
-            after.end.tangent * overlap.speeding - before.end.tangent * overlap.braking;
-        const float cut = norm(pull) / filter_s * mean_cube(half, filter);
-        const float square = 0.5F * kZoneMargin * (time + kServoTick) * (time + kServoTick);
-        overlap.before = overlap.braking * square;
-        overlap.after = overlap.speeding * square;
-        if (cut <= deviation && overlap.before <= before.length && overlap.after <= after.length) {
-            return overlap;
+        const float lowered = time + kServoTick;
+        const float gain = time - kCostOfJerk * (1.0F - share) * lowered *
+                                      (1.0F - 0.5F * share * lowered / longest);
+        if (gain > greatest_gain) {
+            greatest_gain = gain;
+            best.time = time;
+            best.stop = share < 1 ? StopChoice{lowered, share} : full_stop(limits);
         }
     }
-    return {};
+    return best;
 }
 
 }  // namespace cusp::planner

@@ -1,52 +1,42 @@
-// At a corner within a tolerance the next stretch may begin while the last still drains.
-//
-// A stop ends when the path filter is empty. With a tolerance the new stretch may start a few ticks
-// earlier: its first set points are added to the last of the old, which cuts the corner by little
-// and saves that time at every corner.
+// At a corner within a tolerance the next stretch begins while the last still brakes: how early, when
+// both follow the time law.
 #pragma once
 
+#include "firmware/base/machine_limits.hpp"
 #include "firmware/planner/block.hpp"
+#include "firmware/planner/station_maker.hpp"
 
 namespace cusp::planner {
 
 struct CornerOverlap {
-    std::uint8_t ticks{0};  // that the next stretch starts early; 0: not at all
-    // Last braking and first acceleration along the path, mm/s^2, and the travel over which they
-    // hold, mm.
-    float braking{0};
-    float speeding{0};
-    float before{0};
-    float after{0};
+    float time{0};         // s, that the next stretch begins early
+    bool disjoint{false};  // no axis moves on both sides
+    StopChoice stop{};     // of the elements on both sides
 };
 
 // One side of a corner.
 struct CornerSide {
-    EndGeometry end;  // at the corner
-    float length;     // mm, of the path without a junction
-    float bend{0};    // largest |d2P/ds2| over it, 1/mm
-    float change{0};  // and |d3P/ds3|, 1/mm^2
+    LaneDerivatives end;  // by arc length at the corner
+    float length;         // mm, of the stretch
+    float block;          // mm, of the block at the corner
 };
 
-// Mean of (h + t)^3/6 under the axis filters, 0 where h + t < 0: h^3/6 + h (a^2 + b^2)/24, and what
-// the cut-off adds where they reach farther than h. h in s.
-float mean_cube(float h, AxisFilter filter) noexcept;
+// The element of a stop that nothing overlaps.
+StopChoice full_stop(const MachineLimits& limits) noexcept;
 
-// The side of which `block` is next to the corner.
-CornerSide corner_side(const Block& block, const EndGeometry& end, float length) noexcept;
-
-// The last ticks before a stop only brake and the first after it only speed up (PathServo). While
-// both move, an axis has the jerk of both, (t0 u0 + t1 u1)/filter with u0 the braking before
-// and u1 the acceleration after, and the tool is |t1 u1 - t0 u0|/filter (h^3/6 + h (a^2 + b^2)/24)
-// from the corner at half the overlap h, with a and b the axis filters.
+// The longest time in both elements, by gain: time less what a lower jerk costs.
 //
-//   path_filter  servo ticks.
-//   deviation    mm, > 0: by how much the corner may be cut.
+// With jerk w0 before and w1 after an axis has |t0 w0 + t1 w1| of both while they overlap, and the
+// tool leaves the corner by |t1 w1 - t0 w0| (h^3/6 + h (a^2 + b^2)/24), h half the overlap, a and b
+// the axis filters. If an axis would have too much of both, both elements are lowered.
 //
-// Source: docs/numerics.md, "Corners". Held by tests/unit/planner/corner_overlap_test.cpp.
+//   deviation  mm, by how much the corner may be cut; 0 or less: no overlap.
+//
+// The overlap ends with the shorter of both elements, unless no axis moves on both sides.
+// Source: docs/numerics.md, "Corners". Held by tests/property/motion/motion_limits_test.cpp and path_deviation_test.cpp.
 CornerOverlap corner_overlap(const CornerSide& before,
                              const CornerSide& after,
                              const MachineLimits& limits,
-                             std::uint32_t path_filter,
                              AxisFilter filter,
                              float deviation) noexcept;
 

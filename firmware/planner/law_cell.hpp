@@ -3,6 +3,9 @@
 
 #include <cstdint>
 
+#include "firmware/base/lane_vec.hpp"
+#include "firmware/path/move.hpp"
+
 namespace cusp::planner {
 
 // x = v^2 and its derivatives by arc length.
@@ -30,6 +33,22 @@ struct LawCell {
     SquaredSpeed start;
     std::uint32_t travel;  // path units
     LawPiece piece;
+    path::MoveKind kind{path::MoveKind::kFeed};
+    std::uint8_t percent{100};  // of the programmed feed that it was planned for
+    bool ends{false};           // a kStop at the end of its stretch
+    bool disjoint{false};       // there no axis moves on both sides
+    float overlap{0};           // s, that the next stretch may begin before that
+};
+
+// Bounds of a piece of plan, an axis a lane, over the axes' accelerations and jerks.
+struct WarpBounds {
+    LaneVec speed;     // greatest |V|/a, s
+    LaneVec braking;   // least A/a in the direction of V
+    LaneVec speeding;  // greatest
+    LaneVec falling;   // least J/j of the path itself in the direction of V
+    LaneVec rising;    // greatest
+    LaneVec joint;     // and of its joints, as the axis filters feel them
+    float time;        // own time that it takes, s
 };
 
 }  // namespace cusp::planner

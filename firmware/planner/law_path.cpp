@@ -7,12 +7,12 @@
 
 namespace cusp::planner {
 
-void LawPath::append(const LawBlock& block) noexcept
+void LawPath::append(const Block& block) noexcept
 {
     CUSP_ASSERT(!full() && !closed_);
-    blocks_[end_ % kLawBlocks] = block;
+    blocks_[end_ % kRing] = &block;
     ++end_;
-    length_ += block.block->length;
+    length_ += block.length;
 }
 
 void LawPath::seek(PathCursor& cursor, std::int64_t at, bool left) const noexcept

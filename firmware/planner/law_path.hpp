@@ -9,13 +9,14 @@
 
 namespace cusp::planner {
 
-inline constexpr std::uint32_t kLawBlocks = 256;
+inline constexpr std::uint32_t kLawBlocks = 96;  // of a ring of kBlockCount
 
 struct LawBlock {
     const Block* block;
     float feed;  // squared, (mm/s)^2
     float
         centripetal;  // mm/s^2, most for which the filters leave the path by no more than they may
+    std::uint8_t percent{100};  // of the programmed feed
 };
 
 // A block and where it begins, path units from the start of the stretch.
@@ -27,10 +28,10 @@ struct PathCursor {
 // Context: main loop.
 class LawPath {
 public:
-    bool full() const noexcept { return end_ - begin_.block == kLawBlocks; }
+    bool full() const noexcept { return end_ - begin_.block >= kLawBlocks; }
 
     // Precondition: !full(), !closed(). The block must stay where it is until it is dropped.
-    void append(const LawBlock& block) noexcept;
+    void append(const Block& block) noexcept;
     // The path stops at the end of the last block.
     void close() noexcept { closed_ = true; }
     bool closed() const noexcept { return closed_; }
@@ -43,9 +44,10 @@ public:
     std::int64_t length() const noexcept { return length_; }
     std::uint32_t end() const noexcept { return end_; }
     const PathCursor& begin() const noexcept { return begin_; }
-    const LawBlock& operator[](std::uint32_t block) const noexcept
+    LawBlock operator[](std::uint32_t index) const noexcept
     {
-        return blocks_[block % kLawBlocks];
+        const Block* block = blocks_[index % kRing];
+        return {block, block->feed, block->centripetal, block->percent};
     }
 
     // Moves the cursor to the block that holds a place.
@@ -58,7 +60,8 @@ public:
     LaneDerivatives derivatives(const PathCursor& cursor, std::int64_t at) const noexcept;
 
 private:
-    std::array<LawBlock, kLawBlocks> blocks_{};
+    static constexpr std::uint32_t kRing = 128;  // a power of two: counters run freely
+    std::array<const Block*, kRing> blocks_{};
     PathCursor begin_{};
     std::uint32_t end_{0};
     std::int64_t length_{0};

@@ -2,13 +2,15 @@
 #include "firmware/planner/law_plans.hpp"
 
 #include "firmware/base/assert.hpp"
+#include "firmware/base/path_units.hpp"
 
 namespace cusp::planner {
 
-void LawPlans::add(const LawCell& cell) noexcept
+void LawPlans::add(const LawCell& cell, const WarpBounds& bounds) noexcept
 {
     CUSP_ASSERT(end_ - load(at_) < kCells);
     cells_[end_ % kCells] = cell;
+    bounds_[end_ % kCells] = PackedBounds{bounds};
     ++end_;
 }
 
@@ -29,25 +31,92 @@ bool LawPlans::publish(std::uint32_t certain) noexcept
     return true;
 }
 
+LawPlans::Way LawPlans::certain_way() const noexcept
+{
+    Way way{0, 0};
+    const std::uint32_t at = load(at_);
+    const std::uint32_t published = load(published_);
+    const std::uint32_t begun = load(begun_);
+    for (std::uint32_t n = begun - (begun > 0 ? 1 : 0); n != published; ++n) {
+        const Plan& plan = plans_[n % kPlans];
+        const bool is_played = at - plan.begin < kCells;
+        for (std::uint32_t i = is_played ? at : plan.begin;
+             i - plan.begin < plan.certain - plan.begin; ++i) {
+            way.length += static_cast<float>(cells_[i % kCells].travel) / kPathUnitsPerMillimetre;
+            way.time += bounds_[i % kCells].unpacked().time;
+        }
+    }
+    return way;
+}
+
+void LawPlans::clear() noexcept
+{
+    end_ = 0;
+    plan_begin_ = 0;
+    published_.store(0);
+    begun_.store(0);
+    at_.store(0);
+    resting_.store(kNone);
+    run_count_ = 0;
+    runs_ = {};
+    rests_ = true;
+}
+
 bool LawPlans::next(LawCell& cell) noexcept
 {
-    if (load(at_) == choice_ && !choose()) {
+    const LawCell* ahead = nullptr;
+    const PackedBounds* bounds = nullptr;
+    if (!look(0, ahead, bounds)) {
         return false;
     }
-    const std::uint32_t at = load(at_);
-    cell = cells_[at % kCells];
-    at_.store(at + 1);
+    cell = *ahead;
+    pass();
     return true;
 }
 
-// Goes to the next plan, or on to the end of this one. False: neither.
+void LawPlans::pass() noexcept
+{
+    std::uint32_t& at = runs_[0].begin;
+    ++at;
+    at_.store(at);
+    drop_run();
+}
+
+// A run that is played goes.
+void LawPlans::drop_run() noexcept
+{
+    if (run_count_ > 0 && runs_[0].begin == runs_[0].end) {
+        for (std::uint32_t i = 1; i < run_count_; ++i) {
+            runs_[i - 1] = runs_[i];
+        }
+        --run_count_;
+    }
+}
+
+bool LawPlans::look(std::uint32_t ahead, const LawCell*& cell, const PackedBounds*& bounds) noexcept
+{
+    for (std::uint32_t i = 0;; ++i) {
+        if (i == run_count_ && (run_count_ == kRuns || !choose())) {
+            return false;
+        }
+        const std::uint32_t count = runs_[i].end - runs_[i].begin;
+        if (ahead < count) {
+            cell = &cells_[(runs_[i].begin + ahead) % kCells];
+            bounds = &bounds_[(runs_[i].begin + ahead) % kCells];
+            return true;
+        }
+        ahead -= count;
+    }
+}
+
+// Adds the next plan, or the end of the last, to what is played. False: neither.
 bool LawPlans::choose() noexcept
 {
     const std::uint32_t number = load(begun_);
     const Plan& next = plans_[number % kPlans];
     if (number != load(published_) && next.from_rest == rests_) {
-        at_.store(next.begin);
-        choice_ = next.certain;
+        runs_[run_count_] = {next.begin, next.certain};
+        ++run_count_;
         rests_ = next.certain == next.end;
         begun_.store(number + 1);
         return true;
@@ -55,8 +124,10 @@ bool LawPlans::choose() noexcept
     if (rests_) {
         return false;
     }
+    const Plan& last = plans_[(number - 1) % kPlans];
+    runs_[run_count_] = {last.certain, last.end};
+    ++run_count_;
     resting_.store(number);
-    choice_ = plans_[(number - 1) % kPlans].end;
     rests_ = true;
     return true;
 }

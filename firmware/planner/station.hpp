@@ -17,6 +17,9 @@ namespace cusp::planner {
 // Places of a cell at which the law has rows.
 inline constexpr unsigned kPlacesOfCell = 3;  // its start, its middle, its end
 
+// Part of the axes' limits that a plan uses: the rest is for the tick to begin to slow its time down.
+inline constexpr float kPlanShare = 0.995F;
+
 // Shares of an axis' limits that are not for the law, as factors of powers of the speed.
 struct KeptShares {
     LaneVec always;             // of the jerk: a jump of direction while the speed changes
@@ -37,6 +40,8 @@ struct Station {
     float cap;                 // greatest v^2, mm^2/s^2
     std::uint32_t travel;      // the length in path units
     std::int64_t begin;        // path units from the start of the stretch
+    path::MoveKind kind;
+    std::uint8_t percent;  // of the programmed feed
 };
 
 // What starts or ends a stretch of path: from rest with constant jerk. x = (9/2 w)^(2/3) s^(4/3),

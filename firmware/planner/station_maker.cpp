@@ -15,7 +15,6 @@ constexpr unsigned kRowEach = (kPlaces - 1) / (kPlacesOfCell - 1);  // every thi
 // Part of what the path leaves the chord of two rows by that is kept of the limits.
 constexpr float kKeptAcceleration = 0.3F;
 constexpr float kKeptJerk = 0.1F;
-constexpr float kReach = 1.1F;                // of the filters' window in travel
 constexpr float kElementAcceleration = 0.8F;  // of what the axes allow
 constexpr unsigned kElementBlocks = 16;       // that it may span
 constexpr float kMostAlways = 0.5F;           // of the jerk
@@ -24,7 +23,7 @@ constexpr float kShorter = 0.8F;
 constexpr float kFeltJoint = 0.01F;      // share of the jerk
 constexpr unsigned kElementPlaces = 40;  // of an element that are judged, closer near rest
 constexpr float kNearerRest = 0.9F;      // from one to the next
-constexpr unsigned kReachTicks = 3;      // on top of it
+constexpr float kDipOfJerk = 0.5F;       // twice the quarter: the jerk along the path may be more
 
 // Greatest |f| between three places: a parabola exceeds them by an eighth of their second difference.
 LaneVec largest_near(const LaneVec& a, const LaneVec& m, const LaneVec& b) noexcept
@@ -63,9 +62,11 @@ void StationMaker::set_limits(const MachineLimits& limits) noexcept
     const LaneVec one = all_lanes(1.0F);
     inverse_jerk_ = quotient(one, to_lanes(limits.jerk));
     inverse_acceleration_ = quotient(one, to_lanes(limits.acceleration));
+    greatest_jerk_ = greatest(0.0F, to_lanes(limits.jerk));
+    greatest_acceleration_ = greatest(0.0F, to_lanes(limits.acceleration));
 }
 
-LawJoint StationMaker::joint(const LawPath& path, const PathCursor& before) const noexcept
+ReadJoint StationMaker::joint(const LawPath& path, const PathCursor& before) const noexcept
 {
     const Block& last = *path[before.block].block;
     const Block& next = *path[before.block + 1].block;
@@ -74,21 +75,37 @@ LawJoint StationMaker::joint(const LawPath& path, const PathCursor& before) cons
     const LaneDerivatives b = derivatives_at(next, 0.0F);
     const float first = static_cast<float>(last.filter.first) * kServoTick;
     const float second = static_cast<float>(last.filter.second) * kServoTick;
-    const LaneVec bend = magnitude(b.second - a.second) / first;
+    const LaneVec bend = (b.second - a.second) / first;
     const LaneVec turn = magnitude(b.first - a.first) / first;
     const std::int64_t at = before.begin + last.length;
     // The greatest acceleration along the path that the axes allow on both sides.
     const LaneVec along = larger(larger(magnitude(a.first), magnitude(b.first)), all_lanes(1e-9F));
     const float acceleration = least(kUnlimited, quotient(to_lanes(limits_.acceleration), along));
     const LaneVec always = product(turn, inverse_jerk_) * acceleration;
-    return {at,
-            at,
-            smaller(always, all_lanes(kMostAlways)),
-            product(bend, inverse_jerk_),
-            product(turn, inverse_jerk_) / second,
-            product(turn, inverse_acceleration_),
+    const float turned = norm(b.first - a.first);
+    const float beside = std::max(norm(a.second), norm(b.second));
+    return {{at, at, smaller(always, all_lanes(kMostAlways)), product(bend, inverse_jerk_),
+             all_lanes(0.0F), product(turn, inverse_jerk_) / second,
+             product(turn, inverse_acceleration_), first + second,
+             cap_of_turn(path[before.block], turned, beside)},
             product(magnitude(b.third - a.third), inverse_jerk_),
-            first + second};
+            turned};
+}
+
+// A turn dT is left by dT v/2 times the mean of |t| under the kernel, a bend by its centripetal
+// acceleration times half the kernel's variance.
+float StationMaker::cap_of_turn(const LawBlock& block, float turned, float bend) const noexcept
+{
+    const float first = static_cast<float>(block.block->filter.first) * kServoTick;
+    const float second = static_cast<float>(block.block->filter.second) * kServoTick;
+    const float square =
+        (first * first + second * second - 2.0F * kServoTick * kServoTick) / 24.0F +
+        0.5F * shaper_square_;
+    const float deviation = block.centripetal * std::max(square, 1e-12F);
+    const float half = 0.25F * turned * (0.25F * first + second / 12.0F + shaper_mean_time_);
+    const float root = std::sqrt(half * half + bend * square * deviation);
+    const float speed = deviation / std::max(half + root, 1e-9F);
+    return speed * speed;
 }
 
 Station StationMaker::make(const LawPath& path,
@@ -102,13 +119,16 @@ Station StationMaker::make(const LawPath& path,
     station.begin = from;
     station.travel = static_cast<std::uint32_t>(to - from);
     station.length = to_mm(to - from);
+    path.seek(cursor, from);
+    station.kind = path[cursor.block].block->kind;
+    station.percent = path[cursor.block].percent;
     CellPlaces q;
     float cap = kUnlimited;
     for (unsigned i = 0; i < kPlaces; ++i) {
         const std::int64_t at = from + (to - from) * i / (kPlaces - 1);
         path.seek(cursor, at, i + 1 == kPlaces);
         q[i] = path.derivatives(cursor, at);
-        const LawBlock& block = path[cursor.block];
+        const LawBlock block = path[cursor.block];
         const float bend = std::max(norm(q[i].second), 1e-20F);
         cap = std::min(cap, std::min(block.feed, block.centripetal / bend));
     }
@@ -118,6 +138,12 @@ Station StationMaker::make(const LawPath& path,
     }
     const LaneVec ratio = quotient(to_lanes(limits_.velocity), first);
     station.cap = least(cap, product(ratio, ratio));
+    for (const LawJoint& joint : joints) {
+        const float reach = kReach * speed * (joint.window + shaper_length_) + station.length;
+        if (distance(to, joint.first) < reach && distance(joint.at, from) < reach) {
+            station.cap = std::min(station.cap, joint.cap);
+        }
+    }
     station.kept = kept_at(station, joints, speed);
     const Kinks kinks = kinks_of(q);
     station.kept.bend_acceleration =
@@ -150,19 +176,49 @@ KeptShares StationMaker::kept_at(const Station& station,
 {
     const LaneVec none = all_lanes(0.0F);
     KeptShares kept{none, none, none, none, none, none};
+    JumpSums sums{none, none, none, none, 0.0F};
     const std::int64_t to = station.begin + station.travel;
     for (const LawJoint& joint : joints) {
         const float window = joint.window + static_cast<float>(kReachTicks) * kServoTick;
-        const float reach = kReach * speed * window + station.length;
+        // The speed may be above what is expected by what it gains in the window.
+        const float gain = greatest_acceleration_ * window;
+        const float reach = kReach * (speed + gain) * window + station.length;
         if (distance(to, joint.first) > reach || distance(joint.at, station.begin) > reach) {
             continue;
         }
         kept.always = smaller(kept.always + joint.always, all_lanes(kMostAlways));
-        kept.jump = kept.jump + joint.jump;
+        kept.jump = kept.jump + joint.loose;
+        sums.run = sums.run + joint.jump;
+        sums.high = larger(sums.high, sums.run);
+        sums.low = smaller(sums.low, sums.run);
+        sums.magnitudes = sums.magnitudes + magnitude(joint.jump);
+        sums.window = std::max(sums.window, joint.window);
         kept.turn = kept.turn + joint.turn;
         kept.turn_acceleration = kept.turn_acceleration + joint.turn_acceleration;
     }
+    keep_jumps(kept, sums, speed);
     return kept;
+}
+
+// The axis filters weigh jumps by their kernel, which rises and falls once: their sum is at most the
+// greatest net change over consecutive ones. A speed with a least value among them, v, makes two hills
+// of it, by j T^2/(4 v) of the weight. Nor is it above the sum of magnitudes, which is less where v is low.
+void StationMaker::keep_jumps(KeptShares& kept, const JumpSums& sums, float speed) const noexcept
+{
+    const float dip = kDipOfJerk * greatest_jerk_ * sums.window * sums.window;
+    const Vec3f net = to_vec(sums.high - sums.low);
+    const Vec3f magnitudes = to_vec(sums.magnitudes);
+    Vec3f jump{};
+    Vec3f turn{};
+    for (unsigned i = 0; i < 3; ++i) {
+        // Faster than by the sum of magnitudes alone it is not passed, whatever is expected.
+        const float most = std::min(speed, 1.0F / std::sqrt(std::max(magnitudes[i], 1e-12F)));
+        const bool cancels = net[i] * (most + dip) < magnitudes[i] * most;
+        jump[i] = cancels ? net[i] : magnitudes[i];
+        turn[i] = cancels ? net[i] * dip : 0.0F;
+    }
+    kept.jump = kept.jump + to_lanes(jump);
+    kept.turn = kept.turn + to_lanes(turn);
 }
 
 // The longest element from rest at an end of the stretch that the filters do not let feel a joint,
@@ -193,9 +249,9 @@ float StationMaker::smooth_length(const LawPath& path,
             return std::min(length, most);
         }
         const PathCursor before{at_end ? cursor.block - 1 : cursor.block, 0};
-        const LawJoint between = joint(path, before);
-        if (greatest(0.0F, between.always + between.turn * speed + between.jump * (speed * speed)) >
-            kFeltJoint) {
+        const ReadJoint between = joint(path, before);
+        if (greatest(0.0F, between.always + between.turn * speed +
+                               magnitude(between.jump) * (speed * speed)) > kFeltJoint) {
             float d = std::min(length, most);
             for (unsigned k = 0; k < kShortenings && d + speed_at(d) * window > length; ++k) {
                 d *= kShorter;

@@ -3,6 +3,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/span.hpp"
+#include "firmware/planner/input_shaper.hpp"
 #include "firmware/planner/law_path.hpp"
 #include "firmware/planner/station.hpp"
 
@@ -13,11 +14,18 @@ struct LawJoint {
     std::int64_t first;         // path units from the start of the stretch
     std::int64_t at;            // the last of them
     LaneVec always;             // of the jerk
-    LaneVec jump;               // of the jerk, times v^2
+    LaneVec jump;               // of the jerk, times v^2, with its sign
+    LaneVec loose;              // the same of several, whose signs are not known
     LaneVec turn;               // of the jerk, times v
     LaneVec turn_acceleration;  // of the acceleration, times v
-    LaneVec change;             // of the jerk, times v^3: not through the filters
     float window;               // s, of the axis filters
+    float cap;                  // squared speed, for which filters and shaper stay near the path
+};
+
+// One of two blocks, as it is read.
+struct ReadJoint : LawJoint {
+    LaneVec change;  // of the jerk, times v^3: not through the filters
+    float turned;    // |dP/ds| that it turns by
 };
 
 // How a stretch starts or ends: at a corner that overlaps in time both sides may share the jerk.
@@ -27,14 +35,28 @@ struct StopChoice {
 };
 
 inline constexpr float kLongestElement = 0.5F;  // mm
+inline constexpr float kReach = 1.1F;           // of the filters' window in travel
+inline constexpr unsigned kReachTicks = 3;      // on top of the filters
 
 // Context: main loop.
 class StationMaker {
 public:
     void set_limits(const MachineLimits& limits) noexcept;
+    // What is behind the axis filters. Its length counts for caps on both sides of a place.
+    void set_shaper(const InputShaper& shaper) noexcept
+    {
+        shaper_length_ = shaper.length;
+        shaper_square_ = shaper.square;
+        shaper_mean_time_ = shaper.mean_time;
+    }
+    float shaper_length() const noexcept { return shaper_length_; }
+
+    // The squared speed at which filters and shaper leave a turn, with a bend beside it, by no more
+    // than they may.
+    float cap_of_turn(const LawBlock& block, float turned, float bend) const noexcept;
 
     // The joint at the end of a block that another follows.
-    LawJoint joint(const LawPath& path, const PathCursor& before) const noexcept;
+    ReadJoint joint(const LawPath& path, const PathCursor& before) const noexcept;
 
     // The cell between two places, path units from the start of the stretch.
     //
@@ -62,9 +84,18 @@ public:
                         float most) const noexcept;
 
 private:
+    // Of the jumps of curvature of joints in order, an axis a lane.
+    struct JumpSums {
+        LaneVec run;   // all so far
+        LaneVec high;  // greatest and least of that
+        LaneVec low;
+        LaneVec magnitudes;
+        float window;  // s, the longest
+    };
     KeptShares kept_at(const Station& station,
                        Span<const LawJoint> joints,
                        float speed) const noexcept;
+    void keep_jumps(KeptShares& kept, const JumpSums& sums, float speed) const noexcept;
     float smooth_length(const LawPath& path,
                         PathCursor cursor,
                         std::int64_t rest,
@@ -74,6 +105,11 @@ private:
     MachineLimits limits_{};
     LaneVec inverse_jerk_{};
     LaneVec inverse_acceleration_{};
+    float greatest_jerk_{0};
+    float greatest_acceleration_{0};
+    float shaper_length_{0};     // s
+    float shaper_square_{0};     // s^2
+    float shaper_mean_time_{0};  // s
 };
 
 }  // namespace cusp::planner

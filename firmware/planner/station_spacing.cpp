@@ -26,9 +26,13 @@ constexpr float kMarkedChange = 0.05F;        // of the jerk
 constexpr float kNearMark = 0.3F;             // of a cell: a mark so close is none
 constexpr float kEvenCells = 3.3F;            // cells up to a mark that are of one length
 constexpr float kNegligibleJoint = 1e-3F;
+constexpr float kNegligibleTurn = 1e-5F;
+constexpr float kGroupOfWindow = 0.125F;
 constexpr float kMostElement = 1.0F / 12.0F;  // of the stretch
 constexpr float kJointWindow = 0.06F;         // s, no shorter than the reach of a joint
-constexpr float kKnownBehind = 0.3F;          // mm, that a plan may need to stop in
+constexpr float kReachOfChoice = 5.0F;        // cells
+// mm, that elements take, and a plan to stop
+constexpr float kKnownBehind = 2.0F * kLongestElement + 0.3F;
 
 std::int64_t to_units(float mm) noexcept
 {
@@ -59,6 +63,7 @@ void StationSpacing::begin(const StopChoice& start,
     span_begin_ = 0;
     span_end_ = 0;
     joints_.clear();
+    turns_.clear();
     read_ = cursor;
     read_stretch_ = 0;
     read_offset_ = static_cast<std::uint32_t>(place - cursor.begin);
@@ -67,6 +72,7 @@ void StationSpacing::begin(const StopChoice& start,
     rest_ = place;
     last_ = 0;
     mark_next_ = false;
+    entry_ = kUnlimited;
     started_ = false;
     stop_settled_ = false;
     finished_ = false;
@@ -74,63 +80,111 @@ void StationSpacing::begin(const StopChoice& start,
 
 void StationSpacing::set_stop(const StopChoice& stop) noexcept { stop_choice_ = stop; }
 
-// Reads the path into spans as far as there is room. True: something was read.
-bool StationSpacing::read_spans() noexcept
+// Reads the path into spans as far as there is room; where joints are too dense for theirs, no farther
+// than the next station needs.
+void StationSpacing::read_spans() noexcept
 {
     bool read = false;
-    while (read_.block != path_.end() && span_end_ - span_begin_ < kSpans) {
-        const LawBlock& law_block = path_[read_.block];
-        const Block& block = *law_block.block;
-        const unsigned count = stretch_count(block);
-        StretchReader reader{block, read_stretch_};
-        while (read_stretch_ != count && span_end_ - span_begin_ < kSpans) {
-            const Stretch stretch = reader.next();
-            ++read_stretch_;
-            if (stretch.end > read_offset_) {
-                add_span(stretch, read_.begin + read_offset_, law_block);
-                read_offset_ = stretch.end;
-            }
-            read = true;
-        }
-        if (read_stretch_ == count) {
-            if (read_.block + 1 == path_.end()) {
-                if (!path_.closed()) {
-                    break;  // its joint with the next is not known
-                }
-            } else {
-                add_joint(read_);
-            }
-            read_.begin += block.length;
-            ++read_.block;
-            read_stretch_ = 0;
-            read_offset_ = 0;
-        }
+    while (!joints_.full() && read_one()) {
+        read = true;
     }
-    return read;
+    if (read) {
+        pass_backward();
+    }
+    while (joints_.full() && !knows_enough() && read_one()) {
+        pass_backward();
+    }
+}
+
+// Reads one stretch of a block, or its joint with the next. False: there is none, or no room.
+bool StationSpacing::read_one() noexcept
+{
+    if (read_.block == path_.end() || span_end_ - span_begin_ == kSpans) {
+        return false;
+    }
+    const LawBlock law_block = path_[read_.block];
+    const Block& block = *law_block.block;
+    if (read_stretch_ != stretch_count(block)) {
+        StretchReader reader{block, read_stretch_};
+        const Stretch stretch = reader.next();
+        ++read_stretch_;
+        if (stretch.end > read_offset_) {
+            add_span(stretch, read_to(), law_block);
+            read_offset_ = stretch.end;
+        }
+        return true;
+    }
+    if (read_.block + 1 != path_.end()) {
+        add_joint(read_);
+    } else if (!path_.closed()) {
+        return false;  // its joint with the next is not known
+    }
+    read_.begin += block.length;
+    ++read_.block;
+    read_stretch_ = 0;
+    read_offset_ = 0;
+    return true;
+}
+
+// The turns within a window before a place, and that at it.
+float StationSpacing::turned_near(std::int64_t at, float turned, float window) noexcept
+{
+    float sum = turned;
+    for (const TurnGroup& group : turns_) {
+        sum += distance(group.last, at) < window ? group.turned : 0.0F;
+    }
+    if (!turns_.empty() && distance(turns_.back().first, at) < kGroupOfWindow * window) {
+        turns_.back().last = at;
+        turns_.back().turned += turned;
+        return sum;
+    }
+    if (turns_.full()) {
+        // The first is beyond the window, unless windows have grown.
+        if (distance(turns_[0].last, at) < window) {
+            turns_[1].turned += turns_[0].turned;
+        }
+        std::copy(turns_.begin() + 1, turns_.end(), turns_.begin());
+        turns_.shrink(kTurnGroups - 1);
+    }
+    (void)turns_.try_push_back({at, at, turned});
+    return sum;
 }
 
 void StationSpacing::add_joint(const PathCursor& before) noexcept
 {
-    const LawJoint joint = maker_.joint(path_, before);
-    const LawBlock& last = path_[before.block];
-    const LawBlock& next = path_[before.block + 1];
+    ReadJoint joint = maker_.joint(path_, before);
+    const LawBlock last = path_[before.block];
+    const LawBlock next = path_[before.block + 1];
     const float speed = std::min(span(span_end_ - 1).cap, next.feed);
     const float root = std::sqrt(speed);
-    const float jerk = greatest(0.0F, joint.always + joint.jump * speed + joint.turn * root);
+    const float jerk =
+        greatest(0.0F, joint.always + magnitude(joint.jump) * speed + joint.turn * root);
     const float change = greatest(0.0F, joint.change * (speed * root));
+    entry_ = std::min(entry_, 1.0F / greatest(kTinyBound, magnitude(joint.jump)));
     mark_next_ = mark_next_ || std::fabs(last.feed - next.feed) > 1e-3F * last.feed ||
                  jerk * joint.window > kMarkedJump * longest_ || change > kMarkedChange;
-    if (jerk < kNegligibleJoint) {
+    if (jerk < kNegligibleJoint && joint.turned < kNegligibleTurn) {
         return;
     }
+    // Those within one window of filters and shaper act together.
+    const float window = root * (joint.window + maker_.shaper_length());
+    const float turned = turned_near(joint.at, joint.turned, window);
+    joint.cap = std::min(joint.cap, maker_.cap_of_turn(last, turned, 0.0F));
+    add_joint(static_cast<const LawJoint&>(joint));
+}
+
+void StationSpacing::add_joint(const LawJoint& joint) noexcept
+{
     if (!joints_.try_push_back(joint)) {
         // Too dense to be told apart.
         LawJoint& back = joints_.back();
         back.at = joint.at;
         back.always = back.always + joint.always;
-        back.jump = back.jump + joint.jump;
+        back.loose = back.loose + joint.loose + magnitude(back.jump) + magnitude(joint.jump);
+        back.jump = all_lanes(0.0F);
         back.turn = back.turn + joint.turn;
         back.turn_acceleration = back.turn_acceleration + joint.turn_acceleration;
+        back.cap = std::min(back.cap, joint.cap);
     }
 }
 
@@ -145,7 +199,14 @@ void StationSpacing::add_span(const Stretch& stretch,
     const LaneVec ratio = quotient(to_lanes(limits_.velocity), along);
     float cap = least(block.feed, product(ratio, ratio));
     cap = least(cap, quotient(acceleration * kExpectedCentripetal, larger(q.second, tiny)));
-    cap = std::min(cap, block.centripetal / std::max(norm(q.second), kTinyBound));
+    const float bend = norm(q.second);
+    cap = std::min(cap, block.centripetal / std::max(bend, kTinyBound));
+    if (maker_.shaper_length() > 0 && bend > kTinyBound) {
+        // A shaper leaves a bend by what the tool travels around it, not only in it.
+        const LaneVec none = all_lanes(0.0F);
+        add_joint({begin, begin + (stretch.end - read_offset_), none, none, none, none, none, 0.0F,
+                   block.centripetal / bend});
+    }
     const float cube =
         least(1e15F, quotient(to_lanes(limits_.jerk) * kExpectedJerk, larger(q.third, tiny)));
     const float by_jerk = cube_root(std::max(cube, 1e-9F));
@@ -154,7 +215,9 @@ void StationSpacing::add_span(const Stretch& stretch,
     const float brake = least(kUnlimited, quotient(left, along));
     const float length = static_cast<float>(stretch.end - read_offset_) / kPathUnitsPerMillimetre;
     const bool is_mark = mark_next_;
+    const float entry = entry_;
     mark_next_ = false;
+    entry_ = kUnlimited;
     if (span_end_ != span_begin_ && !is_mark) {
         PathSpan& last = span(span_end_ - 1);
         const float whole = last.length + length;
@@ -173,9 +236,17 @@ void StationSpacing::add_span(const Stretch& stretch,
     if (span_end_ != span_begin_) {
         const PathSpan& last = span(span_end_ - 1);
         forward = std::min(std::min(last.cap, cap), last.forward + 2.0F * last.brake * last.length);
+        forward = std::min(forward, entry);
     }
     span(span_end_) = {begin, length, cap, brake, forward, forward, is_mark, true};
     ++span_end_;
+}
+
+// True if what is read next may be added to the last span, and lower it.
+bool StationSpacing::may_grow() const noexcept
+{
+    const PathSpan& last = span(span_end_ - 1);
+    return !knows_all() && last.length < std::sqrt(last.cap) * kLongestSpan;
 }
 
 // From the end of the known path, where the tool rests, back to the first span that this changes.
@@ -185,7 +256,8 @@ void StationSpacing::pass_backward() noexcept
     bool tentative = !knows_all();
     for (std::uint32_t i = span_end_; i-- != span_begin_;) {
         PathSpan& own = span(i);
-        const float back = after + 2.0F * own.brake * own.length;
+        const bool may_fall = i + 1 == span_end_ && may_grow();
+        const float back = may_fall ? 0.0F : after + 2.0F * own.brake * own.length;
         own.expected = std::min(own.forward, back);
         tentative = tentative && back < own.forward;
         own.is_tentative = tentative;
@@ -214,7 +286,9 @@ float StationSpacing::expected_at(std::int64_t at) const noexcept
     x = std::min(x, by_jerk(start_jerk_, from));
     if (stop_settled_) {
         const float to = std::max(distance(at, path_.length()), stop_.length);
-        x = std::min(x, by_jerk(stop_jerk_, to));
+        // Farther off the stop may not be known yet.
+        const float known = std::sqrt(x) * kJointWindow + kKnownBehind;
+        x = to < known ? std::min(x, by_jerk(stop_jerk_, to)) : x;
     }
     return x;
 }
@@ -225,25 +299,33 @@ float StationSpacing::wanted_at(std::int64_t at) const noexcept
     return std::max(station_time_ * std::sqrt(expected_at(at)), kLeastCell);
 }
 
-// True if the speeds around a cell from `at` on do not depend on what is not yet known.
-bool StationSpacing::knows_enough(std::int64_t at) const noexcept
+bool StationSpacing::knows_enough() const noexcept
 {
-    if (knows_all()) {
+    return started_ ? knows_next() : knows_start();
+}
+
+// True if the speeds around the next cell do not depend on what is not yet known.
+bool StationSpacing::knows_next() const noexcept
+{
+    if (knows_all() || span_end_ - span_begin_ == kSpans) {
         return true;
     }
-    if (span_end_ - span_begin_ == kSpans) {
-        return true;
-    }
-    const float reach = 5.0F * wanted_at(at) + std::sqrt(expected_at(at)) * kJointWindow +
-                        2.0F * kLongestElement + kKnownBehind;
+    const float wanted = wanted_at(at_);
+    const float speed = std::sqrt(std::max(expected_at(at_), expected_at(at_ + to_units(wanted))));
+    const float reach = kReachOfChoice * std::max(wanted, station_time_ * speed) +
+                        reach_of_joints(speed) + kKnownBehind;
     std::uint32_t i = span_begin_;
-    while (i != span_end_ && distance(at, span(i).begin) < reach) {
-        if (span(i).is_tentative) {
-            return false;
-        }
+    while (i != span_end_ && !span(i).is_tentative && distance(at_, span(i).begin) < reach) {
         ++i;
     }
-    return i != span_end_;
+    return i != span_end_ && !span(i).is_tentative;
+}
+
+// True if the element that the stretch starts with does not.
+bool StationSpacing::knows_start() const noexcept
+{
+    return knows_all() || span_end_ - span_begin_ == kSpans ||
+           distance(rest_, read_to()) * kMostElement >= kLongestElement;
 }
 
 bool StationSpacing::knows_all() const noexcept
@@ -272,14 +354,11 @@ void StationSpacing::settle_stop() noexcept
 bool StationSpacing::start(StopElement& element) noexcept
 {
     CUSP_ASSERT(!started_);
-    if (read_spans()) {
-        pass_backward();
-    }
-    const bool is_full = span_end_ - span_begin_ == kSpans || path_.full();
-    const float known = distance(rest_, path_.length()) * kMostElement;
-    if (path_.length() == rest_ || (!knows_all() && !is_full && known < kLongestElement)) {
+    read_spans();
+    if (read_to() == rest_ || (!knows_start() && !path_.full())) {
         return false;
     }
+    const float known = distance(rest_, read_to()) * kMostElement;
     start_ = maker_.element(path_, cursor_, rest_, false, start_choice_, known);
     start_jerk_ = jerk_of(start_);
     element = start_;
@@ -323,12 +402,22 @@ std::int64_t StationSpacing::choose_end() const noexcept
     return at_ + std::max<std::int64_t>(to_units(h), 1);
 }
 
-void StationSpacing::drop_passed() noexcept
+// mm, no shorter than stations look for joints.
+float StationSpacing::reach_of_joints(float speed) const noexcept
 {
-    while (span_end_ - span_begin_ > 1 && span(span_begin_ + 1).begin <= at_) {
-        ++span_begin_;
-    }
-    const float reach = std::sqrt(expected_at(at_)) * kJointWindow + 2.0F * last_;
+    const AxisFilter filter = path_[cursor_.block].block->filter;
+    const float window =
+        static_cast<float>(filter.first + filter.second + kReachTicks) * kServoTick;
+    const float gain = greatest(0.0F, to_lanes(limits_.acceleration)) * window;
+    return speed * (kJointWindow + 2.0F * maker_.shaper_length()) + kReach * gain * window;
+}
+
+// Joints that no station from `at_` on can feel.
+void StationSpacing::drop_joints() noexcept
+{
+    const std::int64_t after = at_ + to_units(2.0F * last_);
+    const float speed = std::sqrt(std::max(expected_at(at_), expected_at(after)));
+    const float reach = reach_of_joints(speed) + 2.0F * last_;
     std::size_t kept = 0;
     for (const LawJoint& joint : joints_) {
         if (distance(joint.at, at_) < reach) {
@@ -345,15 +434,15 @@ bool StationSpacing::next(Station& station) noexcept
     if (finished_) {
         return false;
     }
-    drop_passed();
-    if (read_spans()) {
-        pass_backward();
+    while (span_end_ - span_begin_ > 1 && span(span_begin_ + 1).begin <= at_) {
+        ++span_begin_;
     }
+    read_spans();
     if (knows_all() && !stop_settled_) {
         pass_backward();
         settle_stop();
     }
-    if (!knows_enough(at_)) {
+    if (!knows_next()) {
         return false;
     }
     const std::int64_t to = choose_end();
@@ -361,6 +450,7 @@ bool StationSpacing::next(Station& station) noexcept
     station = maker_.make(path_, cursor_, at_, to, {joints_.begin(), joints_.size()}, speed);
     last_ = station.length;
     at_ = to;
+    drop_joints();
     finished_ = stop_settled_ && at_ >= inner_end_;
     if (finished_) {
         station.acceleration_at_end = true;

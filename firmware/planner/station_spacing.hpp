@@ -2,7 +2,8 @@
 // expected to travel in a given time, closer near stops, and where feed or curvature jumps.
 //
 // The speed expected is a forward and a backward pass over bounds of the path's spans, with worst
-// signs. It decides about the spacing alone; no limit rests on it.
+// signs. It decides about the spacing alone; no limit rests on it. Stations depend on the path, never on
+// how much of it was known when they were asked for.
 // Source: docs/numerics.md, "The time law". Held by tests/unit/planner/station_spacing_test.cpp.
 #pragma once
 
@@ -23,6 +24,8 @@ public:
 
     // `station_time`, s: in which a station is to be passed.
     void set_limits(const MachineLimits& limits, float station_time) noexcept;
+
+    void set_shaper(const InputShaper& shaper) noexcept { maker_.set_shaper(shaper); }
 
     // From a place of rest on: that at which the path begins, or where a plan came to rest.
     //
@@ -54,22 +57,37 @@ private:
         bool is_mark;        // feed or curvature jumps at its start
         bool is_tentative;   // the end of the known path lowers it
     };
+    // Turns so near to each other that they count as one.
+    struct TurnGroup {
+        std::int64_t first;  // path units from the start of the stretch
+        std::int64_t last;
+        float turned;  // sum of their |dP/ds|
+    };
     static constexpr std::uint32_t kSpans = 128;
     static constexpr std::size_t kJoints = 32;
+    static constexpr std::size_t kTurnGroups = 12;
 
     PathSpan& span(std::uint32_t i) noexcept { return spans_[i % kSpans]; }
     const PathSpan& span(std::uint32_t i) const noexcept { return spans_[i % kSpans]; }
-    bool read_spans() noexcept;
+    void read_spans() noexcept;
+    bool read_one() noexcept;
+    bool may_grow() const noexcept;
     void add_span(const Stretch& stretch, std::int64_t begin, const LawBlock& block) noexcept;
     void add_joint(const PathCursor& before) noexcept;
+    void add_joint(const LawJoint& joint) noexcept;
+    float turned_near(std::int64_t at, float turned, float window) noexcept;
     void pass_backward() noexcept;
     void settle_stop() noexcept;
     float expected_at(std::int64_t at) const noexcept;
     float wanted_at(std::int64_t at) const noexcept;
     std::int64_t choose_end() const noexcept;
     bool knows_all() const noexcept;
-    bool knows_enough(std::int64_t at) const noexcept;
-    void drop_passed() noexcept;
+    bool knows_enough() const noexcept;
+    bool knows_next() const noexcept;
+    bool knows_start() const noexcept;
+    std::int64_t read_to() const noexcept { return read_.begin + read_offset_; }
+    float reach_of_joints(float speed) const noexcept;
+    void drop_joints() noexcept;
 
     LawPath& path_;
     StationMaker maker_;
@@ -86,6 +104,7 @@ private:
     std::uint32_t span_begin_{0};
     std::uint32_t span_end_{0};
     StaticVector<LawJoint, kJoints> joints_;
+    StaticVector<TurnGroup, kTurnGroups> turns_;  // the last ones that were read
     // What is read next of the path.
     PathCursor read_{};
     std::uint8_t read_stretch_{0};
@@ -97,6 +116,7 @@ private:
     std::int64_t inner_end_{0};  // of the stop element at the end, once it is settled
     float last_{0};              // mm, length of the last cell
     bool mark_next_{false};      // the next span begins at a mark
+    float entry_{kUnlimited};    // greatest squared speed at its start, by the joint there
     bool started_{false};
     bool stop_settled_{false};
     bool finished_{false};

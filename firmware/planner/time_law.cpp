@@ -7,6 +7,7 @@
 #include "firmware/base/assert.hpp"
 #include "firmware/base/math.hpp"
 #include "firmware/base/path_units.hpp"
+#include "firmware/planner/law_bounds.hpp"
 #include "firmware/planner/law_rows.hpp"
 
 namespace cusp::planner {
@@ -14,12 +15,14 @@ namespace {
 
 constexpr float kFirstMu = 0.1F;
 constexpr float kLastMu = 0.002F;
-constexpr float kMuRatio = 0.7007F;        // eleven steps from the first to the last
-constexpr float kSpeedWeight = 0.2F;       // of mu, in the last steps
-constexpr float kTimeHessian = 0.15F;      // in the first steps: x may grow by 1.67 a step
-constexpr float kTimeHessianUntil = 5.0F;  // times the last mu
-constexpr std::uint32_t kWindow = 40;      // coefficients, but for the last of a stretch
-constexpr std::uint8_t kLeastSteps = 12;   // of a window
+constexpr float kMuRatio = 0.7007F;   // eleven steps from the first to the last
+constexpr float kSpeedWeight = 0.2F;  // of mu, in the last steps
+constexpr std::uint8_t kFinalSteps = 6;
+constexpr float kFinalSpeedWeight = 0.005F;  // of mu, in these: feeds are reached
+constexpr float kTimeHessian = 0.15F;        // in the first steps: x may grow by 1.67 a step
+constexpr float kTimeHessianUntil = 5.0F;    // times the last mu
+constexpr std::uint32_t kWindow = 40;        // coefficients, but for the last of a stretch
+constexpr std::uint8_t kLeastSteps = 12;     // of a window
 constexpr std::uint8_t kMostSteps = 24;
 constexpr float kSettled = 0.01F;           // change by a step of what is as good as it gets
 constexpr float kShortestStation = 0.003F;  // s
@@ -28,11 +31,14 @@ constexpr float kCrawlUse = 0.3F;         // greatest use of a limit in the craw
 constexpr float kCrawlOfEnd = 0.5F;       // of the caps at the ends
 constexpr float kCrawlOfElement = 0.15F;  // of a stop element's speeds, where it goes on inwards
 constexpr std::uint32_t kLeastWindow = 24;
-constexpr float kEndFromCrawl = 0.4F;     // mm, that the way from a crawl to a stop may take
-constexpr float kStillHolds = 0.999999F;  // use of a limit from which a step can start
-constexpr float kPartForCrawl = 0.25F;    // of the way left
-constexpr float kJerkOfCrawlStop = 0.5F;  // of the least of the axes
-constexpr float kBrakingOfCrawl = 0.5F;   // of the least acceleration
+constexpr std::uint32_t kLeastOpen = 16;   // coefficients of a window that do not become final
+constexpr float kLeastFinal = 0.04F;       // s, that becomes final, if the window is as long
+constexpr std::uint32_t kLeastBehind = 4;  // stations behind a window, for the way from its crawl
+constexpr float kEndFromCrawl = 0.4F;      // mm, that the way from a crawl to a stop may take
+constexpr float kStillHolds = 0.999999F;   // use of a limit from which a step can start
+constexpr float kPartForCrawl = 0.25F;     // of the way left
+constexpr float kJerkOfCrawlStop = 0.5F;   // of the least of the axes
+constexpr float kBrakingOfCrawl = 0.5F;    // of the least acceleration
 constexpr int kMostHalvings = 60;
 constexpr float kSlower = 0.6F;  // from one attempt at a crawl to the next
 constexpr std::uint8_t kMostFirstAttempts = 40;
@@ -46,6 +52,11 @@ float factor_beyond(const StopElement& element, float h) noexcept
 {
     const float part = 2.0F * h / (3.0F * element.length);
     return (1.0F - part) / (1.0F + part);
+}
+
+std::uint32_t units_of(float mm) noexcept
+{
+    return static_cast<std::uint32_t>(mm * kPathUnitsPerMillimetre + 0.5F);
 }
 
 }  // namespace
@@ -65,6 +76,7 @@ void TimeLaw::set_limits(const MachineLimits& limits) noexcept
     const float speed =
         kBrakingOfCrawl * kBrakingOfCrawl * of_axes * of_axes / (kJerkOfCrawlStop * least_jerk_);
     greatest_crawl_ = std::min(crawl_within(kCrawlStop), speed * speed);
+    inverse_acceleration_ = quotient(all_lanes(1.0F), to_lanes(limits.acceleration));
     steps_ = 0;
 }
 
@@ -126,30 +138,28 @@ void TimeLaw::add(const Station& station) noexcept
     ++stations_;
 }
 
-void TimeLaw::end(const StopElement& stop) noexcept
+void TimeLaw::end(const StopElement& stop, float overlap, bool disjoint) noexcept
 {
     CUSP_ASSERT(stations_ > 0 && !ended_);
     const std::uint32_t n = stations_;
     const float last = spline_.station(n - 1).length;
     spline_.station(n).length = last;
     stop_ = stop;
+    overlap_ = overlap;
+    disjoint_ = disjoint;
     end_factor_ = factor_beyond(stop, last);
     spline_.cap(n) = std::min(spline_.cap(n), 2.0F * stop.cap / (1.0F + end_factor_));
     ended_ = true;
 }
 
-// True if the next window needs more stations.
-bool TimeLaw::waits() const noexcept
-{
-    const std::uint32_t end = window_.begin + kWindow;
-    return !ended_ &&
-           (stations_ < end + kLawAdvance || (has_room() && length_behind(end) < kEndFromCrawl));
-}
+// True if the next window needs more stations. It begins with as many as find room, so that it does not
+// depend on when they came.
+bool TimeLaw::waits() const noexcept { return has_room(); }
 
 void TimeLaw::work() noexcept
 {
     if (state_ == State::kWaits && !waits()) {
-        begin_window();
+        begin_window(kLawAdvance);
     }
     if (state_ != State::kWorks) {
         return;
@@ -162,7 +172,9 @@ void TimeLaw::work() noexcept
     mu_ = std::max(mu_ * kMuRatio, last_mu_);
     ++steps_;
     ++step_;
-    if (step_ == kMostSteps || (step_ >= kLeastSteps && change < kSettled)) {
+    const bool is_settled = step_ >= kMostSteps || (step_ >= kLeastSteps && change < kSettled);
+    finishing_ = static_cast<std::uint8_t>(finishing_ + (is_settled || finishing_ > 0 ? 1 : 0));
+    if (finishing_ > kFinalSteps) {
         state_ = State::kChecks;
         // Rounding may break a row if the speed changes more than float can tell.
         if (greatest_use(spline_, window_) >= 1.0F) {
@@ -171,12 +183,22 @@ void TimeLaw::work() noexcept
     }
 }
 
-void TimeLaw::begin_window() noexcept
+bool TimeLaw::begin_short_window() noexcept
+{
+    CUSP_ASSERT(state_ == State::kWaits && !ended_);
+    if (stations_ + 1 < window_.begin + kLeastWindow + kLeastBehind) {
+        return false;
+    }
+    begin_window(kLeastBehind);
+    return true;
+}
+
+void TimeLaw::begin_window(std::uint32_t least_behind) noexcept
 {
     const std::uint32_t whole = stations_ + 1;
     window_.end = window_.begin + kWindow;
-    if (window_.end < whole) {
-        make_room_behind();
+    if (window_.end < whole || !ended_) {
+        make_room_behind(least_behind);
     }
     window_.start_factor = window_.begin == 1 ? start_factor_ : 0.0F;
     if (ended_ && window_.end >= whole) {
@@ -192,11 +214,11 @@ void TimeLaw::begin_window() noexcept
 
 // What is left behind a window has room for the way from its crawl to the stop: the window ends
 // earlier; or it reaches the end, though it be long, or more of the last plan becomes final.
-void TimeLaw::make_room_behind() noexcept
+void TimeLaw::make_room_behind(std::uint32_t least_behind) noexcept
 {
     const std::uint32_t whole = stations_ + 1;
     const auto is_narrow = [&](std::uint32_t end) {
-        return end + kLawAdvance > whole || length_behind(end) < kEndFromCrawl;
+        return end + least_behind > whole || length_behind(end) < kEndFromCrawl;
     };
     while (window_.end > window_.begin + kLeastWindow && is_narrow(window_.end)) {
         --window_.end;
@@ -292,32 +314,31 @@ void TimeLaw::ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept
 BarrierWeight TimeLaw::weight() const noexcept
 {
     const bool is_last = mu_ <= last_mu_;
-    return {mu_, is_last ? kSpeedWeight * mu_ : mu_,
-            mu_ > kTimeHessianUntil * last_mu_ ? kTimeHessian : 1.0F, 1.0F / station_time_};
+    const float speed = finishing_ > 0 ? kFinalSpeedWeight : is_last ? kSpeedWeight : 1.0F;
+    return {mu_, speed * mu_, mu_ > kTimeHessianUntil * last_mu_ ? kTimeHessian : 1.0F,
+            1.0F / station_time_};
 }
 
 void TimeLaw::accept(LawPlans& plans) noexcept
 {
     CUSP_ASSERT(state_ == State::kChecks || state_ == State::kStays);
     const bool ends = window_.end_factor > 0;
-    const std::uint32_t certain = ends ? stations_ : window_.begin + kLawAdvance - 2;
-    const auto units = [](float mm) {
-        return static_cast<std::uint32_t>(mm * kPathUnitsPerMillimetre + 0.5F);
-    };
+    const std::uint32_t certain = ends ? stations_ : end_of_final();
     if (!has_plan()) {
-        plans.add({spline_.at_start(0), units(start_.length), LawPiece::kStart});
+        LawCell start = cell(0);
+        start.travel = units_of(start_.length);
+        start.piece = LawPiece::kStart;
+        plans.add(start, bounds_of_element(station(0), 0, start.start.value, start_.length, true,
+                                           spline_.ratio));
     }
     for (std::uint32_t k = final_; k < open_end(); ++k) {
-        plans.add(cell(k));
+        const LawCell next = cell(k);
+        plans.add(next, bounds_of_cell(station(k), next.start, spline_.ratio));
     }
     if (ends) {
-        const SquaredSpeed last = spline_.at_start(stations_ - 1);
-        plans.add(
-            {advanced(last, station(stations_ - 1).length), units(stop_.length), LawPiece::kStop});
+        add_stop(plans);
     } else {
-        for (const LawCell& cell : stop_from_crawl(planned_)) {
-            plans.add(cell);
-        }
+        add_rest(plans);
     }
     if (!plans.publish(certain - final_ + (has_plan() ? 0U : 1U) + (ends ? 1U : 0U))) {
         rest();
@@ -325,8 +346,51 @@ void TimeLaw::accept(LawPlans& plans) noexcept
     }
     final_ = certain;
     in_force_ = planned_;
-    window_.begin += ends ? 0 : kLawAdvance;
+    window_.begin = ends ? window_.begin : certain + 2;
     state_ = ends ? State::kDone : State::kWaits;
+}
+
+// Where stations are dense more of them become final: the next window is planned while these are
+// played.
+std::uint32_t TimeLaw::end_of_final() const noexcept
+{
+    const std::uint32_t least = window_.begin + kLawAdvance - 2;
+    std::uint32_t end = final_;
+    for (float time = 0; end < least || (time < kLeastFinal && end + 2 + kLeastOpen < window_.end);
+         ++end) {
+        const float speed = std::sqrt(spline_.at_start(end).value);
+        const float next = std::sqrt(spline_.at_start(end + 1).value);
+        time += 2.0F * station(end).length / (speed + next);
+    }
+    return end;
+}
+
+// The element at the end of the stretch.
+void TimeLaw::add_stop(LawPlans& plans) const noexcept
+{
+    const Station& last = station(stations_ - 1);
+    LawCell stop = cell(stations_ - 1);
+    stop.start = advanced(stop.start, last.length);
+    stop.travel = units_of(stop_.length);
+    stop.piece = LawPiece::kStop;
+    stop.ends = true;
+    stop.disjoint = disjoint_;
+    stop.overlap = overlap_;
+    plans.add(stop, bounds_of_element(last, kPlacesOfCell - 1, stop.start.value, stop_.length,
+                                      false, spline_.ratio));
+}
+
+// The way to rest from the crawl.
+void TimeLaw::add_rest(LawPlans& plans) const noexcept
+{
+    for (LawCell cell : stop_from_crawl(planned_)) {
+        const Station& last = station(planned_ - 3);
+        cell.kind = last.kind;
+        cell.percent = last.percent;
+        const float length = static_cast<float>(cell.travel) / kPathUnitsPerMillimetre;
+        const float time = length / std::sqrt(cell.start.value);
+        plans.add(cell, bounds_of_crawl(cell.start.value, time, inverse_acceleration_));
+    }
 }
 
 void TimeLaw::retreat() noexcept
@@ -371,6 +435,7 @@ std::int64_t TimeLaw::place_of_rest() const noexcept
 void TimeLaw::restart() noexcept
 {
     step_ = 0;
+    finishing_ = 0;
     mu_ = kFirstMu;
     state_ = State::kWorks;
 }
@@ -382,7 +447,7 @@ std::array<LawCell, 2> TimeLaw::stop_from_crawl(std::uint32_t planned) const noe
     const float speed = std::sqrt(x);
     const float time = std::sqrt(speed / (kJerkOfCrawlStop * least_jerk_));
     const auto units = [&](float part) {
-        return static_cast<std::uint32_t>(part * speed * time * kPathUnitsPerMillimetre + 0.5F);
+        return units_of(part * speed * time);
     };
     return {LawCell{{x, 0.0F, 0.0F}, units(5.0F / 6.0F), LawPiece::kBrake},
             LawCell{{0.25F * x, 0.0F, 0.0F}, units(1.0F / 6.0F), LawPiece::kStop}};

@@ -46,7 +46,8 @@ public:
 
     // The last station is the last of the stretch, and shorter than 1.4 times the element.
     // Precondition: some were added.
-    void end(const StopElement& stop) noexcept;
+    // The next stretch may begin `overlap` s before its end.
+    void end(const StopElement& stop, float overlap = 0, bool disjoint = false) noexcept;
 
     enum class State : std::uint8_t {
         kWaits,    // for stations
@@ -61,12 +62,17 @@ public:
     // One Newton step of the window, or the next window where stations suffice.
     void work() noexcept;
 
+    // No more stations come before a window is final: the next one begins with those that are there.
+    // False: they are too few. Precondition: state() is kWaits.
+    bool begin_short_window() noexcept;
+
     // Cells of the window that is to be judged.
     std::uint32_t first_cell() const noexcept { return window_.first_cell(); }
     std::uint32_t end_cell() const noexcept { return window_.end_cell(); }
     LawCell cell(std::uint32_t k) const noexcept
     {
-        return {spline_.at_start(k), spline_.station(k).travel, LawPiece::kCell};
+        const Station& own = spline_.station(k);
+        return {spline_.at_start(k), own.travel, LawPiece::kCell, own.kind, own.percent};
     }
 
     const Station& station(std::uint32_t k) const noexcept { return spline_.station(k); }
@@ -101,8 +107,8 @@ private:
         3;  // both elements, or one and two from the crawl
 
     bool waits() const noexcept;
-    void begin_window() noexcept;
-    void make_room_behind() noexcept;
+    void begin_window(std::uint32_t least_behind) noexcept;
+    void make_room_behind(std::uint32_t least_behind) noexcept;
     float crawl_within(float distance) const noexcept;
     float length_behind(std::uint32_t k) const noexcept;
     void restart() noexcept;
@@ -115,6 +121,9 @@ private:
         return window_.end_factor > 0 ? stations_ : planned_ - 2;
     }
     std::array<LawCell, 2> stop_from_crawl(std::uint32_t planned) const noexcept;
+    std::uint32_t end_of_final() const noexcept;
+    void add_stop(LawPlans& plans) const noexcept;
+    void add_rest(LawPlans& plans) const noexcept;
     BarrierWeight weight() const noexcept;
 
     LawSpline spline_;
@@ -122,10 +131,11 @@ private:
     LawWindow window_{1, 1, 0.0F, 0.0F};
     State state_{State::kDone};
     bool ended_{false};
-    bool rests_{false};         // the plan ends before the stretch does
-    bool extended_{false};      // the window has values to start from
-    std::uint8_t attempts_{0};  // at such values
-    std::uint8_t step_{0};      // of the window
+    bool rests_{false};          // the plan ends before the stretch does
+    bool extended_{false};       // the window has values to start from
+    std::uint8_t attempts_{0};   // at such values
+    std::uint8_t step_{0};       // of the window
+    std::uint8_t finishing_{0};  // of its last steps
     std::uint8_t retreats_{0};
     std::uint32_t stations_{0};  // added
     std::uint32_t planned_{0};   // coefficients that have a value
@@ -135,10 +145,13 @@ private:
     float mu_{0};
     float last_mu_{0};  // of the window
     float crawl_{0};
+    LaneVec inverse_acceleration_{};
     float least_jerk_{1};  // mm/s^3, of any axis
     float greatest_crawl_{0};
     StopElement start_{};
     StopElement stop_{};
+    float overlap_{0};
+    bool disjoint_{false};
     float start_factor_{0};  // of the coefficient beyond the start to its neighbour
     float end_factor_{0};
     float station_time_{0};

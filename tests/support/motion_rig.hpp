@@ -120,7 +120,8 @@ struct MotionRig {
 
     bool takes_another()
     {
-        planner->work();
+        while (planner->work()) {
+        }
         return planner->has_room();
     }
 

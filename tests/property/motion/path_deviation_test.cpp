@@ -9,7 +9,6 @@
 
 #include "tests/generators/random_moves.hpp"
 #include "tests/judges/motion_limits.hpp"
-#include "tests/support/law_rig.hpp"
 
 using namespace cusp;
 using cusp::test::MotionRig;
@@ -114,8 +113,6 @@ Samples plain(const Moves& moves)
     return rig.run(moves);
 }
 
-Samples by_the_time_law(const Moves& moves) { return test::LawRig{MachineLimits{}}.run(moves); }
-
 void check_program(std::uint64_t seed,
                    double tolerance,
                    const std::function<Samples(const Moves&)>& run)
@@ -154,14 +151,6 @@ TEST(PathDeviation, StaysWithinTheTolerance)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
         check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25), plain);
-    }
-}
-
-TEST(PathDeviation, StaysWithinTheToleranceByTheTimeLaw)
-{
-    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
-        check_program(kSeed + i, i % 3 == 0 ? 0.0 : 0.002 * static_cast<double>(1 + i % 25),
-                      by_the_time_law);
     }
 }
 

@@ -207,9 +207,9 @@ void count_three_ports()
 }
 
 // Dense lines of 0.1 mm along a circle of 30 mm, played as they come.
-void count_look_ahead()
+void count_planning()
 {
-    InstructionMeter meter{"look_ahead_g1"};
+    InstructionMeter meter{"plan_g1"};
     constexpr unsigned kLines = 1500;
     begin_at_zero();
     for (unsigned line = 1; line <= kLines; ++line) {
@@ -266,7 +266,7 @@ void cusp_main()
     count_pulses("frame_at_250k", "player_at_250k", 312500, 312500);
     // 10 m/s^2 on each axis.
     count_pulses("frame_to_250k", "player_to_250k", 312500, 10000);
-    count_look_ahead();
+    count_planning();
     count_three_ports();
     count_parsing();
     test::count_law(law_budget, out);

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/planner/corner_overlap.hpp"
 #include "firmware/planner/law_check.hpp"
-#include "firmware/planner/law_corner.hpp"
 #include "firmware/planner/station_spacing.hpp"
 #include "tests/target/budget/instruction_meter.hpp"
 
@@ -43,7 +43,9 @@ inline void count_law(LawBudget& now, const hal::qemu::HostFile& out)
                    0,
                    1 / (way * kPathUnitsPerMillimetre)};
         set_length(arc, static_cast<std::uint32_t>(way * kAngle * kPathUnitsPerMillimetre));
-        now.path.append({&arc, 10000.0F, 1e6F});
+        arc.feed = 10000.0F;
+        arc.centripetal = 1e6F;
+        now.path.append(arc);
     }
     now.path.close();
     const MachineLimits limits;

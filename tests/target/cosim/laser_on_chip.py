@@ -53,7 +53,7 @@ def play():
 
 
 def simulate():
-    """(us, power) of the samples, and us of the first step."""
+    """(us, power) of the samples, and us of the steps along X and Y."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "laser.ngc").write_text("\n".join(LINES) + "\n")
@@ -64,21 +64,26 @@ def simulate():
         with (folder / "samples.csv").open() as file:
             samples = [(int(row["t_us"]), int(row["power_ppm"])) for row in csv.DictReader(file)]
         text = (folder / "trace.vcd").read_text()
-        step = re.search(r"\$var wire 1 (\S) step_x", text).group(1)
+        marks = ["1" + re.search(r"\$var wire 1 (\S) step_" + axis, text).group(1) for axis in "xy"]
         body = text.partition("$end\n#0\n")[2].partition("$end\n")[2]
-        time = 0
+        time, steps = 0, []
         for line in body.splitlines():
             if line.startswith("#"):
                 time = int(line[1:])
-            elif line == f"1{step}":
-                return samples, time
-    raise AssertionError("no step")
+            elif line in marks:
+                steps.append(time)
+        return samples, steps
 
 
 class LaserOnChip(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.steps, cls.duties = play()
+
+    def offset_at(self, steps, time):
+        """us, from the simulator's clock to the chip's: from rest the chip needs time to plan, the simulator none."""
+        at = min(bisect.bisect_left(steps, time), len(steps) - 1)
+        return self.steps[at][0] / 1000 - steps[at]
 
     def power_at(self, time):
         index = bisect.bisect_right(self.duties, (time, 1 << 30)) - 1
@@ -100,13 +105,13 @@ class LaserOnChip(unittest.TestCase):
         self.assertGreater(judged, 80)
 
     def test_power_is_that_of_the_simulator_in_its_millisecond(self):
-        samples, first_step = simulate()
-        offset = self.steps[0][0] / 1000 - first_step  # us, from the simulator's clock to the chip's
+        samples, steps = simulate()
+        self.assertEqual(len(steps), len(self.steps))
         grain = 30 if options.board != "black_pill_f411" else 25
         wrong, seen = [], 0
         for time, power in samples:
             # In the middle of the millisecond that ends at `time`.
-            on_chip = round(self.power_at((time - 500 + offset) * 1000) * 1e6)
+            on_chip = round(self.power_at((time - 500 + self.offset_at(steps, time - 500)) * 1000) * 1e6)
             seen += power > 0
             if abs(on_chip - power) > grain:
                 wrong.append((time, power, on_chip))
@@ -114,10 +119,10 @@ class LaserOnChip(unittest.TestCase):
         self.assertGreater(seen, 500)
 
     def test_a_change_of_power_begins_with_its_frame(self):
-        samples, first_step = simulate()
-        offset = self.steps[0][0] / 1000 - first_step
-        changes = [time - 1000 for (time, power), (_, before) in zip(samples[1:], samples) if power != before]
-        changed = [time / 1000 - offset for (time, ppm), (_, before) in zip(self.duties[1:], self.duties) if ppm != before]
+        samples, steps = simulate()
+        changes = [time - 1000 + self.offset_at(steps, time - 1000)
+                   for (time, power), (_, before) in zip(samples[1:], samples) if power != before]
+        changed = [time / 1000 for (time, ppm), (_, before) in zip(self.duties[1:], self.duties) if ppm != before]
         for time in changed:
             at = bisect.bisect_right(changes, time + 20) - 1
             self.assertGreaterEqual(at, 0)

@@ -154,3 +154,33 @@ TEST(LawPlayer, a_brake_and_a_stop_bring_a_steady_speed_to_rest)
     CHECK(!brakes);
     DOUBLES_EQUAL(0, static_cast<double>(player.speed()), 0);
 }
+
+// Some nanometres from rest, over which the speed changes by as much as itself: the series turns back
+// within a tick.
+TEST(LawPlayer, cells_shorter_than_a_tick_end)
+{
+    std::mt19937_64 random{kPlayerSeed + 2};
+    std::uniform_real_distribution<float> part{0, 1};
+    for (int n = 0; n < 2000; ++n) {
+        const float speed = 1e-3F + 0.2F * part(random);
+        const auto travel = static_cast<std::uint32_t>(1 + random() % 100);
+        const float length = static_cast<float>(travel) / 16e6F;
+        // From x to at least a tenth of it at the end, falling all the way.
+        const float fall = 0.9F * part(random) * speed * speed;
+        const float bend = part(random) * fall / (length * length);
+        const LawCell cell{
+            {speed * speed, -fall / length - 0.5F * bend * length, bend}, travel, LawPiece::kCell};
+        LawPlayer player;
+        player.play(cell);
+        std::uint32_t gone = 0;
+        int ticks = 0;
+        while (!player.needs_cell() && ticks < 1000) {
+            float left = kServoTick;
+            gone += player.advance(left);
+            CHECK(left >= 0 && left <= kServoTick);
+            ++ticks;
+        }
+        CHECK(player.needs_cell());
+        LONGS_EQUAL(travel, gone);
+    }
+}

@@ -65,7 +65,8 @@ public:
         Vec3f speed{};
         Vec3f braking{1, 1, 1};
         Vec3f speeding{-1, -1, -1};
-        Vec3f jerk{};
+        Vec3f falling{1, 1, 1};
+        Vec3f rising{-1, -1, -1};
         for (unsigned i = 0; i < 3; ++i) {
             for (int k = 0; k <= 10; ++k) {
                 const double t = from + kCell * k / 10;
@@ -76,12 +77,13 @@ public:
                     std::max(speed[i], static_cast<float>(std::fabs(v)) / limits_.acceleration[i]);
                 braking[i] = std::min(braking[i], a);
                 speeding[i] = std::max(speeding[i], a);
-                jerk[i] =
-                    std::max(jerk[i], static_cast<float>(std::fabs(at(i, t, 3))) / limits_.jerk[i]);
+                const auto j = static_cast<float>((v < 0 ? -1 : 1) * at(i, t, 3)) / limits_.jerk[i];
+                falling[i] = std::min(falling[i], j);
+                rising[i] = std::max(rising[i], j);
             }
         }
-        return {to_lanes(speed), to_lanes(braking), to_lanes(speeding), to_lanes(jerk),
-                static_cast<float>(kCell)};
+        return {to_lanes(speed),  to_lanes(braking), to_lanes(speeding),       to_lanes(falling),
+                to_lanes(rising), all_lanes(0.0F),   static_cast<float>(kCell)};
     }
 
 private:

@@ -201,6 +201,34 @@ struct MillWithPlay : ControllerBench {
 
 }  // namespace
 
+// The way turns by less than what is taken up, and turns again before that is done: the slide is behind
+// the way once both are over.
+TEST(Backlash, ATurnBackDuringATakeUpEndsOnTheSideOfTheWay)
+{
+    constexpr float kPlay = 0.1F;
+    for (unsigned wait = 1; wait < 200; ++wait) {
+        Backlash backlash;
+        backlash.configure({kPlay, 0, 0}, MachineLimits{});
+        backlash.rest({});
+        Position way{};
+        Screw slide{100'000, -100'000};
+        const auto go = [&](std::int64_t step, unsigned ticks) {
+            std::int64_t at = 0;
+            for (unsigned i = 0; i < ticks; ++i) {
+                way.x += step;
+                at = slide.follow(backlash.follow(way).x);
+            }
+            return at;
+        };
+        go(2000, 50);
+        go(-2000, wait);  // turns; the take-up goes on while the way turns twice more
+        go(2000, 3);
+        go(-2000, 3);
+        const std::int64_t at = go(-2000, 2 * backlash.take_up_ticks(0) + 10);
+        CHECK_TEXT(std::llabs(at - way.x) <= Backlash::kTurn, std::to_string(wait).c_str());
+    }
+}
+
 TEST(Backlash, IsNotSeenAtTheSlidesOfAHomedMill)
 {
     MillWithPlay mill;

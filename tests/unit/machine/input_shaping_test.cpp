@@ -61,7 +61,8 @@ TEST(InputShaping, DrainsBeforeADwellAndTheEnd)
 {
     shape();
     (void)bench.exchange("G21G91\n", 50);
-    bench.board.byte_link.send("G1X3F6000\nG4P0.3\nG1X-1\n");
+    // The last line is there so that the move before it doesn't wait for what may follow.
+    bench.board.byte_link.send("G1X3F6000\nG4P0.3\nG1X-1\nM5\n");
     // The dwell is 300 ticks at the end of the first move, to the nanometre.
     unsigned at_end = 0;
     for (unsigned i = 0; i < 3000 && !(at_end > 0 && bench.app.machine().idle()); ++i) {

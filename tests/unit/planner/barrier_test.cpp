@@ -136,3 +136,18 @@ TEST(Barrier, fifteen_steps_come_within_a_hundredth_of_sixty)
     }
     CHECK_TEXT(slower < kBarrierCases / 20, std::to_string(slower).c_str());
 }
+
+// What has overflowed holds no limit.
+TEST(Barrier, a_coefficient_that_is_no_number_is_over_the_limits)
+{
+    RandomStations random{kBarrierSeed + 3000};
+    Case one = any_case(random);
+    newton_step(one.spline, one.window, {0.05F, 0.01F, 1.0F, 200.0F});
+    CHECK(greatest_use(one.spline, one.window) < 1);
+    for (std::uint32_t j = one.window.begin; j < one.window.end; ++j) {
+        const float before = one.spline.coefficient(j);
+        one.spline.coefficient(j) = std::sqrt(-1.0F);
+        CHECK(greatest_use(one.spline, one.window) >= 1);
+        one.spline.coefficient(j) = before;
+    }
+}

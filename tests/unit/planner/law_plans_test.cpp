@@ -103,3 +103,39 @@ TEST(LawPlans, nothing_is_played_before_a_start_and_after_an_end)
     CHECK(plans.next(cell) && cell.travel == 2);
     CHECK(!plans.next(cell));
 }
+
+// What the tick has looked at it plays: a plan that comes later does not change it.
+TEST(LawPlans, what_is_looked_at_is_what_is_played)
+{
+    for (int n = 0; n < kPlansCases; ++n) {
+        std::mt19937_64 random{kPlansSeed + 5000 + static_cast<std::uint64_t>(n)};
+        LawPlans plans;
+        Loop loop;
+        std::vector<std::uint32_t> promised;
+        for (int i = 0; i < 2000; ++i) {
+            LawCell cell;
+            if (random() % 12 == 0) {
+                loop.plan(plans, random);
+            } else if (random() % 2 == 0) {
+                const auto ahead = static_cast<std::uint32_t>(random() % 8);
+                for (std::uint32_t k = 0; k <= ahead; ++k) {
+                    const LawCell* seen = nullptr;
+                    const PackedBounds* bounds = nullptr;
+                    const bool is_there = plans.look(k, seen, bounds);
+                    if (k < promised.size()) {
+                        CHECK(is_there && seen->travel == promised[k]);
+                    } else if (is_there) {
+                        promised.push_back(seen->travel);
+                    }
+                }
+            } else if (plans.next(cell)) {
+                CHECK(promised.empty() || cell.travel == promised.front());
+                if (!promised.empty()) {
+                    promised.erase(promised.begin());
+                }
+            } else {
+                CHECK(promised.empty());
+            }
+        }
+    }
+}

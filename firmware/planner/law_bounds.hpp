@@ -1,0 +1,49 @@
+// Bounds of what a plan takes of the axes, for the tick to slow its time down.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/planner/station.hpp"
+
+namespace cusp::planner {
+
+// Bounds as a plan keeps them: each is no less than what it stands for, within a part in 100.
+struct PackedBounds {
+    PackedBounds() noexcept = default;
+    explicit PackedBounds(const WarpBounds& bounds) noexcept;
+    WarpBounds unpacked() const noexcept;
+
+private:
+    std::array<std::uint16_t, 3> speed_{};  // the upper half of a float
+    std::uint16_t time_{0};                 // the same
+    std::array<std::int8_t, 3> braking_{};  // parts of a plan's share
+    std::array<std::int8_t, 3> speeding_{};
+    std::array<std::int16_t, 3> falling_{};  // parts of 2^14: what is left may be little
+    std::array<std::int16_t, 3> rising_{};
+    std::array<std::int16_t, 3> joint_{};
+};
+
+// Over a cell that begins in a state.
+//
+//   ratio  jerk over acceleration of each axis, 1/s.
+WarpBounds bounds_of_cell(const Station& station,
+                          const SquaredSpeed& start,
+                          const LaneVec& ratio) noexcept;
+
+// Over an element from or to rest at its inner end.
+//
+//   place    of the station at the inner end: its number there.
+//   squared  speed at the inner end.
+//   length   mm.
+WarpBounds bounds_of_element(const Station& station,
+                             unsigned place,
+                             float squared,
+                             float length,
+                             bool starts,
+                             const LaneVec& ratio) noexcept;
+
+// Over the way from a crawl to rest, of a time.
+WarpBounds bounds_of_crawl(float squared, float time, const LaneVec& inverse_acceleration) noexcept;
+
+}  // namespace cusp::planner
