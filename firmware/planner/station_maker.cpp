@@ -18,6 +18,7 @@ constexpr float kKeptJerk = 0.1F;
 constexpr float kElementAcceleration = 0.8F;  // of what the axes allow
 constexpr unsigned kElementBlocks = 16;       // that it may span
 constexpr float kMostAlways = 0.5F;           // of the jerk
+constexpr float kReachTime = static_cast<float>(kReachTicks) * kServoTick;
 constexpr unsigned kShortenings = 30;
 constexpr float kShorter = 0.8F;
 constexpr float kFeltJoint = 0.01F;      // share of the jerk
@@ -87,9 +88,8 @@ ReadJoint StationMaker::joint(const LawPath& path, const PathCursor& before) con
     return {{at, at, smaller(always, all_lanes(kMostAlways)), product(bend, inverse_jerk_),
              all_lanes(0.0F), product(turn, inverse_jerk_) / second,
              product(turn, inverse_acceleration_), first + second,
-             cap_of_turn(path[before.block], turned, beside)},
-            product(magnitude(b.third - a.third), inverse_jerk_),
-            turned};
+             cap_of_turn(path[before.block], turned, beside), turned},
+            product(magnitude(b.third - a.third), inverse_jerk_)};
 }
 
 // A turn dT is left by dT v/2 times the mean of |t| under the kernel, a bend by its centripetal
@@ -144,7 +144,13 @@ Station StationMaker::make(const LawPath& path,
             station.cap = std::min(station.cap, joint.cap);
         }
     }
-    station.kept = kept_at(station, joints, speed);
+    const float second = static_cast<float>(path[cursor.block].block->filter.second) * kServoTick;
+    station.kept = kept_at(station, joints, speed, second);
+    if (greatest(0.0F, station.kept.turn) > 0) {
+        // As many turns act together as are counted.
+        const float counted = way_of_joints(second, speed) / (kReach * (second + kReachTime));
+        station.cap = std::min(station.cap, counted * counted);
+    }
     const Kinks kinks = kinks_of(q);
     station.kept.bend_acceleration =
         product(kinks.second, inverse_acceleration_) * kKeptAcceleration;
@@ -172,17 +178,16 @@ Station StationMaker::make(const LawPath& path,
 // The shares of joints within reach of the filters; none for bends.
 KeptShares StationMaker::kept_at(const Station& station,
                                  Span<const LawJoint> joints,
-                                 float speed) const noexcept
+                                 float speed,
+                                 float second) const noexcept
 {
     const LaneVec none = all_lanes(0.0F);
     KeptShares kept{none, none, none, none, none, none};
     JumpSums sums{none, none, none, none, 0.0F};
+    StaticVector<const LawJoint*, kMostJoints> near;
     const std::int64_t to = station.begin + station.travel;
     for (const LawJoint& joint : joints) {
-        const float window = joint.window + static_cast<float>(kReachTicks) * kServoTick;
-        // The speed may be above what is expected by what it gains in the window.
-        const float gain = greatest_acceleration_ * window;
-        const float reach = kReach * (speed + gain) * window + station.length;
+        const float reach = way_of_joints(joint.window, speed) + station.length;
         if (distance(to, joint.first) > reach || distance(joint.at, station.begin) > reach) {
             continue;
         }
@@ -193,11 +198,49 @@ KeptShares StationMaker::kept_at(const Station& station,
         sums.low = smaller(sums.low, sums.run);
         sums.magnitudes = sums.magnitudes + magnitude(joint.jump);
         sums.window = std::max(sums.window, joint.window);
-        kept.turn = kept.turn + joint.turn;
-        kept.turn_acceleration = kept.turn_acceleration + joint.turn_acceleration;
+        (void)near.try_push_back(&joint);
     }
+    keep_turns(kept, {near.begin(), near.size()}, speed, second);
     keep_jumps(kept, sums, speed);
     return kept;
+}
+
+float StationMaker::way_of_joints(float time, float speed) const noexcept
+{
+    const float window = time + kReachTime;
+    return kReach * (speed + greatest_acceleration_ * window) * window;
+}
+
+// The filters' kernel has slopes at both its ends, as long as the second filter, and they alone make jerk of a
+// turn; its whole length makes acceleration. No more turns act together than lie on such ways.
+void StationMaker::keep_turns(KeptShares& kept,
+                              Span<const LawJoint* const> joints,
+                              float speed,
+                              float second) const noexcept
+{
+    const LaneVec none = all_lanes(0.0F);
+    LaneVec most_within = none;
+    LaneVec most_on_slope = none;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        LaneVec on_slope = none;
+        LaneVec within = none;
+        LaneVec acceleration = none;
+        const float slope = way_of_joints(second, speed);
+        const float whole = way_of_joints(joints[i]->window, speed);
+        for (std::size_t k = i + 1; k-- > 0;) {
+            const float way = std::max(distance(joints[k]->at, joints[i]->first), 0.0F);
+            if (way >= whole) {
+                break;
+            }
+            on_slope = on_slope + (way < slope ? joints[k]->turn : none);
+            within = within + joints[k]->turn;
+            acceleration = acceleration + joints[k]->turn_acceleration;
+        }
+        most_on_slope = larger(most_on_slope, on_slope);
+        most_within = larger(most_within, within);
+        kept.turn_acceleration = larger(kept.turn_acceleration, acceleration);
+    }
+    kept.turn = kept.turn + smaller(most_within, most_on_slope * 2.0F);
 }
 
 // The axis filters weigh jumps by their kernel, which rises and falls once: their sum is at most the

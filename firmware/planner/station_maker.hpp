@@ -3,6 +3,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/span.hpp"
+#include "firmware/base/static_vector.hpp"
 #include "firmware/planner/input_shaper.hpp"
 #include "firmware/planner/law_path.hpp"
 #include "firmware/planner/station.hpp"
@@ -20,12 +21,12 @@ struct LawJoint {
     LaneVec turn_acceleration;  // of the acceleration, times v
     float window;               // s, of the axis filters
     float cap;                  // squared speed, for which filters and shaper stay near the path
+    float turned;               // sum of |dP/ds| that they turn by
 };
 
 // One of two blocks, as it is read.
 struct ReadJoint : LawJoint {
     LaneVec change;  // of the jerk, times v^3: not through the filters
-    float turned;    // |dP/ds| that it turns by
 };
 
 // How a stretch starts or ends: at a corner that overlaps in time both sides may share the jerk.
@@ -34,6 +35,7 @@ struct StopChoice {
     float share;  // of the axes' jerk, in (0, 1]
 };
 
+inline constexpr std::size_t kMostJoints = 32;  // that a station is given
 inline constexpr float kLongestElement = 0.5F;  // mm
 inline constexpr float kReach = 1.1F;           // of the filters' window in travel
 inline constexpr unsigned kReachTicks = 3;      // on top of the filters
@@ -54,6 +56,9 @@ public:
     // The squared speed at which filters and shaper leave a turn, with a bend beside it, by no more
     // than they may.
     float cap_of_turn(const LawBlock& block, float turned, float bend) const noexcept;
+
+    // mm of travel, no less than what the filters feel in a time: a speed, and what it may gain.
+    float way_of_joints(float time, float speed) const noexcept;
 
     // The joint at the end of a block that another follows.
     ReadJoint joint(const LawPath& path, const PathCursor& before) const noexcept;
@@ -94,7 +99,12 @@ private:
     };
     KeptShares kept_at(const Station& station,
                        Span<const LawJoint> joints,
-                       float speed) const noexcept;
+                       float speed,
+                       float second) const noexcept;
+    void keep_turns(KeptShares& kept,
+                    Span<const LawJoint* const> joints,
+                    float speed,
+                    float second) const noexcept;
     void keep_jumps(KeptShares& kept, const JumpSums& sums, float speed) const noexcept;
     float smooth_length(const LawPath& path,
                         PathCursor cursor,

@@ -29,8 +29,11 @@ constexpr float kNegligibleJoint = 1e-3F;
 constexpr float kNegligibleTurn = 1e-5F;
 constexpr float kGroupOfWindow = 0.125F;
 constexpr float kMostElement = 1.0F / 12.0F;  // of the stretch
-constexpr float kJointWindow = 0.06F;         // s, no shorter than the reach of a joint
-constexpr float kReachOfChoice = 5.0F;        // cells
+constexpr unsigned kSlowings = 24;
+constexpr float kSlowing = 0.85F;
+constexpr float kJointWindow = 0.06F;   // s, no shorter than the reach of a joint
+constexpr float kReachOfChoice = 5.0F;  // cells
+constexpr float kReachBehind = 2.0F;    // of joints: the speed may grow
 // mm, that elements take, and a plan to stop
 constexpr float kKnownBehind = 2.0F * kLongestElement + 0.3F;
 
@@ -63,6 +66,7 @@ void StationSpacing::begin(const StopChoice& start,
     span_begin_ = 0;
     span_end_ = 0;
     joints_.clear();
+    collected_ = cursor;
     turns_.clear();
     read_ = cursor;
     read_stretch_ = 0;
@@ -80,18 +84,14 @@ void StationSpacing::begin(const StopChoice& start,
 
 void StationSpacing::set_stop(const StopChoice& stop) noexcept { stop_choice_ = stop; }
 
-// Reads the path into spans as far as there is room; where joints are too dense for theirs, no farther
-// than the next station needs.
+// Reads the path into spans as far as there is room.
 void StationSpacing::read_spans() noexcept
 {
     bool read = false;
-    while (!joints_.full() && read_one()) {
+    while (read_one()) {
         read = true;
     }
     if (read) {
-        pass_backward();
-    }
-    while (joints_.full() && !knows_enough() && read_one()) {
         pass_backward();
     }
 }
@@ -115,7 +115,7 @@ bool StationSpacing::read_one() noexcept
         return true;
     }
     if (read_.block + 1 != path_.end()) {
-        add_joint(read_);
+        read_joint(read_);
     } else if (!path_.closed()) {
         return false;  // its joint with the next is not known
     }
@@ -126,66 +126,150 @@ bool StationSpacing::read_one() noexcept
     return true;
 }
 
-// The turns within a window before a place, and that at it.
-float StationSpacing::turned_near(std::int64_t at, float turned, float window) noexcept
+// Keeps a turn in mind; those within a part of a window count as one.
+void StationSpacing::add_turn(std::int64_t at, float turned, float window) noexcept
 {
-    float sum = turned;
-    for (const TurnGroup& group : turns_) {
-        sum += distance(group.last, at) < window ? group.turned : 0.0F;
-    }
     if (!turns_.empty() && distance(turns_.back().first, at) < kGroupOfWindow * window) {
         turns_.back().last = at;
         turns_.back().turned += turned;
-        return sum;
+        return;
     }
     if (turns_.full()) {
-        // The first is beyond the window, unless windows have grown.
-        if (distance(turns_[0].last, at) < window) {
-            turns_[1].turned += turns_[0].turned;
-        }
         std::copy(turns_.begin() + 1, turns_.end(), turns_.begin());
         turns_.shrink(kTurnGroups - 1);
     }
     (void)turns_.try_push_back({at, at, turned});
+}
+
+// The turns on a way up to a place, that at it too.
+float StationSpacing::turned_near(std::int64_t at, float way) const noexcept
+{
+    float sum = 0;
+    for (const TurnGroup& group : turns_) {
+        sum += distance(group.last, at) <= way ? group.turned : 0.0F;
+    }
     return sum;
 }
 
-void StationSpacing::add_joint(const PathCursor& before) noexcept
+// The speed, at most the one given, at which the filters take a joint and the turns before it, as stations
+// count them.
+float StationSpacing::speed_through(const ReadJoint& joint,
+                                    float speed,
+                                    float second) const noexcept
 {
-    ReadJoint joint = maker_.joint(path_, before);
+    const float each = 1.0F / std::max(joint.turned, kNegligibleTurn);
+    const float jerk = greatest(0.0F, joint.turn) * each;
+    const float acceleration = greatest(0.0F, joint.turn_acceleration) * each;
+    for (unsigned i = 0; i < kSlowings; ++i) {
+        const float within = turned_near(joint.at, maker_.way_of_joints(joint.window, speed));
+        const float on_slope = turned_near(joint.at, maker_.way_of_joints(second, speed));
+        if (speed * std::max(jerk * std::min(2.0F * on_slope, within), acceleration * within) <=
+            1) {
+            break;
+        }
+        speed *= kSlowing;
+    }
+    return speed;
+}
+
+void StationSpacing::read_joint(const PathCursor& before) noexcept
+{
+    const ReadJoint joint = maker_.joint(path_, before);
     const LawBlock last = path_[before.block];
     const LawBlock next = path_[before.block + 1];
     const float speed = std::min(span(span_end_ - 1).cap, next.feed);
     const float root = std::sqrt(speed);
-    const float jerk =
-        greatest(0.0F, joint.always + magnitude(joint.jump) * speed + joint.turn * root);
+    const float jerk = greatest(0.0F, joint.always + magnitude(joint.jump) * speed);
     const float change = greatest(0.0F, joint.change * (speed * root));
     entry_ = std::min(entry_, 1.0F / greatest(kTinyBound, magnitude(joint.jump)));
     mark_next_ = mark_next_ || std::fabs(last.feed - next.feed) > 1e-3F * last.feed ||
                  jerk * joint.window > kMarkedJump * longest_ || change > kMarkedChange;
+    if (joint.turned >= kNegligibleTurn) {
+        add_turn(joint.at, joint.turned, root * joint.window);
+        const float second = static_cast<float>(last.block->filter.second) * kServoTick;
+        const float through = speed_through(joint, root, second);
+        entry_ = std::min(entry_, through * through);
+    }
+}
+
+// The joints of the blocks up to a place, as far as they are known.
+void StationSpacing::collect_joints(std::int64_t until) noexcept
+{
+    while (collected_.block != read_.block && collected_.begin < until) {
+        collect_joints_of_block();
+        collected_.begin += path_[collected_.block].block->length;
+        ++collected_.block;
+    }
+}
+
+void StationSpacing::collect_joints_of_block() noexcept
+{
+    const LawBlock law_block = path_[collected_.block];
+    const Block& block = *law_block.block;
+    const LaneVec none = all_lanes(0.0F);
+    std::uint32_t begin = 0;
+    // A shaper leaves a bend by what the tool travels around it, not only in it.
+    for (std::uint8_t i = 0; maker_.shaper_length() > 0 && i < stretch_count(block); ++i) {
+        const Stretch stretch = StretchReader{block, i}.next();
+        const float bend = norm(stretch.derivatives.second);
+        if (bend > kTinyBound) {
+            add_joint({collected_.begin + begin, collected_.begin + stretch.end, none, none, none,
+                       none, none, 0.0F, law_block.centripetal / bend, 0.0F});
+        }
+        begin = stretch.end;
+    }
+    if (collected_.block + 1 == path_.end()) {
+        return;
+    }
+    ReadJoint joint = maker_.joint(path_, collected_);
+    const float speed = std::min(law_block.feed, path_[collected_.block + 1].feed);
+    const float root = std::sqrt(speed);
+    const float jerk =
+        greatest(0.0F, joint.always + magnitude(joint.jump) * speed + joint.turn * root);
     if (jerk < kNegligibleJoint && joint.turned < kNegligibleTurn) {
         return;
     }
     // Those within one window of filters and shaper act together.
-    const float window = root * (joint.window + maker_.shaper_length());
-    const float turned = turned_near(joint.at, joint.turned, window);
-    joint.cap = std::min(joint.cap, maker_.cap_of_turn(last, turned, 0.0F));
-    add_joint(static_cast<const LawJoint&>(joint));
+    const float way = root * (joint.window + maker_.shaper_length());
+    float turned = joint.turned;
+    for (const LawJoint& before : joints_) {
+        turned += distance(before.at, joint.at) < way ? before.turned : 0.0F;
+    }
+    joint.cap = std::min(joint.cap, maker_.cap_of_turn(law_block, turned, 0.0F));
+    add_joint(joint);
 }
 
 void StationSpacing::add_joint(const LawJoint& joint) noexcept
 {
-    if (!joints_.try_push_back(joint)) {
-        // Too dense to be told apart.
-        LawJoint& back = joints_.back();
-        back.at = joint.at;
-        back.always = back.always + joint.always;
-        back.loose = back.loose + joint.loose + magnitude(back.jump) + magnitude(joint.jump);
-        back.jump = all_lanes(0.0F);
-        back.turn = back.turn + joint.turn;
-        back.turn_acceleration = back.turn_acceleration + joint.turn_acceleration;
-        back.cap = std::min(back.cap, joint.cap);
+    if (joints_.full()) {
+        merge_nearest_joints();
     }
+    (void)joints_.try_push_back(joint);
+}
+
+// Joints too dense for their table: the two that are nearest to each other count as one.
+void StationSpacing::merge_nearest_joints() noexcept
+{
+    std::size_t nearest = 0;
+    float least_extent = kUnlimited;
+    for (std::size_t i = 0; i + 1 < joints_.size(); ++i) {
+        const float extent = distance(joints_[i].first, joints_[i + 1].at);
+        nearest = extent < least_extent ? i : nearest;
+        least_extent = std::min(least_extent, extent);
+    }
+    LawJoint& a = joints_[nearest];
+    const LawJoint& b = joints_[nearest + 1];
+    a.at = std::max(a.at, b.at);
+    a.always = a.always + b.always;
+    a.loose = a.loose + b.loose + magnitude(a.jump) + magnitude(b.jump);
+    a.jump = all_lanes(0.0F);
+    a.turn = a.turn + b.turn;
+    a.turn_acceleration = a.turn_acceleration + b.turn_acceleration;
+    a.window = std::max(a.window, b.window);
+    a.cap = std::min(a.cap, b.cap);
+    a.turned += b.turned;
+    std::copy(joints_.begin() + nearest + 2, joints_.end(), joints_.begin() + nearest + 1);
+    joints_.shrink(joints_.size() - 1);
 }
 
 void StationSpacing::add_span(const Stretch& stretch,
@@ -201,12 +285,6 @@ void StationSpacing::add_span(const Stretch& stretch,
     cap = least(cap, quotient(acceleration * kExpectedCentripetal, larger(q.second, tiny)));
     const float bend = norm(q.second);
     cap = std::min(cap, block.centripetal / std::max(bend, kTinyBound));
-    if (maker_.shaper_length() > 0 && bend > kTinyBound) {
-        // A shaper leaves a bend by what the tool travels around it, not only in it.
-        const LaneVec none = all_lanes(0.0F);
-        add_joint({begin, begin + (stretch.end - read_offset_), none, none, none, none, none, 0.0F,
-                   block.centripetal / bend});
-    }
     const float cube =
         least(1e15F, quotient(to_lanes(limits_.jerk) * kExpectedJerk, larger(q.third, tiny)));
     const float by_jerk = cube_root(std::max(cube, 1e-9F));
@@ -226,7 +304,7 @@ void StationSpacing::add_span(const Stretch& stretch,
             std::sqrt(std::min(cap, last.cap)) * (alike ? kLongestSpan : kShortestSpan);
         if (whole < most) {
             last.length = whole;
-            last.cap = std::min(last.cap, cap);
+            last.cap = std::min({last.cap, cap, entry});
             last.brake = std::min(last.brake, brake);
             last.forward = std::min(last.forward, last.cap);
             return;
@@ -409,7 +487,7 @@ float StationSpacing::reach_of_joints(float speed) const noexcept
     const float window =
         static_cast<float>(filter.first + filter.second + kReachTicks) * kServoTick;
     const float gain = greatest(0.0F, to_lanes(limits_.acceleration)) * window;
-    return speed * (kJointWindow + 2.0F * maker_.shaper_length()) + kReach * gain * window;
+    return kReach * (speed * (window + maker_.shaper_length()) + gain * window);
 }
 
 // Joints that no station from `at_` on can feel.
@@ -417,7 +495,7 @@ void StationSpacing::drop_joints() noexcept
 {
     const std::int64_t after = at_ + to_units(2.0F * last_);
     const float speed = std::sqrt(std::max(expected_at(at_), expected_at(after)));
-    const float reach = reach_of_joints(speed) + 2.0F * last_;
+    const float reach = kReachBehind * reach_of_joints(speed) + 2.0F * last_;
     std::size_t kept = 0;
     for (const LawJoint& joint : joints_) {
         if (distance(joint.at, at_) < reach) {
@@ -447,6 +525,7 @@ bool StationSpacing::next(Station& station) noexcept
     }
     const std::int64_t to = choose_end();
     const float speed = std::sqrt(std::max(expected_at(at_), expected_at(to)));
+    collect_joints(to + to_units(reach_of_joints(speed) + distance(at_, to)));
     station = maker_.make(path_, cursor_, at_, to, {joints_.begin(), joints_.size()}, speed);
     last_ = station.length;
     at_ = to;

@@ -64,7 +64,6 @@ private:
         float turned;  // sum of their |dP/ds|
     };
     static constexpr std::uint32_t kSpans = 128;
-    static constexpr std::size_t kJoints = 32;
     static constexpr std::size_t kTurnGroups = 12;
 
     PathSpan& span(std::uint32_t i) noexcept { return spans_[i % kSpans]; }
@@ -73,9 +72,14 @@ private:
     bool read_one() noexcept;
     bool may_grow() const noexcept;
     void add_span(const Stretch& stretch, std::int64_t begin, const LawBlock& block) noexcept;
-    void add_joint(const PathCursor& before) noexcept;
+    void read_joint(const PathCursor& before) noexcept;
+    void add_turn(std::int64_t at, float turned, float window) noexcept;
+    float turned_near(std::int64_t at, float way) const noexcept;
+    float speed_through(const ReadJoint& joint, float speed, float second) const noexcept;
+    void collect_joints(std::int64_t until) noexcept;
+    void collect_joints_of_block() noexcept;
     void add_joint(const LawJoint& joint) noexcept;
-    float turned_near(std::int64_t at, float turned, float window) noexcept;
+    void merge_nearest_joints() noexcept;
     void pass_backward() noexcept;
     void settle_stop() noexcept;
     float expected_at(std::int64_t at) const noexcept;
@@ -103,7 +107,8 @@ private:
     std::array<PathSpan, kSpans> spans_{};
     std::uint32_t span_begin_{0};
     std::uint32_t span_end_{0};
-    StaticVector<LawJoint, kJoints> joints_;
+    StaticVector<LawJoint, kMostJoints> joints_;  // around the next station
+    PathCursor collected_{};                      // the block whose joints come next
     StaticVector<TurnGroup, kTurnGroups> turns_;  // the last ones that were read
     // What is read next of the path.
     PathCursor read_{};

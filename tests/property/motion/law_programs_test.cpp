@@ -3,9 +3,11 @@
 // CUSP_LAW_PROGRAM=FILE adds a program, CUSP_LAW_FEED=MM_A_MINUTE replaces all feeds of it,
 // CUSP_LAW_SAMPLES=FOLDER writes every run's set points as FOLDER/PROGRAM-MACHINE.csv, and
 // CUSP_LAW_TABLE prints the times.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,9 +46,8 @@ const char* option(const char* name)
     return text != nullptr ? text : "";
 }
 
-std::vector<path::Move> read_program(const std::string& file, float feed)
+std::vector<path::Move> read_program(std::istream& in, float feed)
 {
-    std::ifstream in{file};
     gcode::Interpreter interpreter;
     interpreter.set_default_tolerance(kTolerance);
     std::vector<path::Move> moves;
@@ -100,16 +101,16 @@ double duration(const std::vector<Position>& samples, Position at)
 }
 
 // The time of a program on a machine, s; its limits and its end are checked.
-double time_of_program(const std::string& file, const Machine& machine)
+double time_of_program(std::istream& in, const std::string& program, const Machine& machine)
 {
-    const std::vector<path::Move> moves = read_program(file, machine.feed);
+    const std::vector<path::Move> moves = read_program(in, machine.feed);
     CHECK(!moves.empty());
     MotionRig rig{machine.limits};
     const Position start = moves.front().start;
     rig.start_at(start);
     const std::vector<Position> samples = rig.run(moves);
     const LimitUse use = limit_use(samples, start, machine.limits);
-    const std::string name = file.substr(file.rfind('/') + 1) + "-" + machine.name;
+    const std::string name = program + "-" + machine.name;
     for (unsigned axis = 0; axis < 3; ++axis) {
         CHECK_TEXT(use.velocity[axis] <= 1, name.c_str());
         CHECK_TEXT(use.acceleration[axis] <= 1, name.c_str());
@@ -124,6 +125,29 @@ double time_of_program(const std::string& file, const Machine& machine)
         write_samples(option("CUSP_LAW_SAMPLES") + ("/" + name) + ".csv", samples);
     }
     return time;
+}
+
+double time_of_program(const std::string& file, const Machine& machine)
+{
+    std::ifstream in{file};
+    return time_of_program(in, file.substr(file.rfind('/') + 1), machine);
+}
+
+// Lines of one length on the exact path, each turned by some degrees from the one before: all the same way, or to and fro.
+std::string lines_that_turn(double length, double turn, unsigned count, int feed, bool to_and_fro)
+{
+    constexpr double kDegree = 0.017453292519943295;
+    std::string text = "G61\nG1 F" + std::to_string(feed) + "\n";
+    double x = 0;
+    double y = 0;
+    double heading = 0;
+    for (unsigned i = 0; i < count; ++i) {
+        heading += to_and_fro && i % 2 == 0 ? -turn : turn;
+        x += length * std::cos(heading * kDegree);
+        y += length * std::sin(heading * kDegree);
+        text += "X" + std::to_string(x) + "Y" + std::to_string(y) + "\n";
+    }
+    return text;
 }
 
 }  // namespace
@@ -156,6 +180,34 @@ TEST(LawPrograms, hold_the_limits_within_their_times)
             const float feed = std::strtof(option("CUSP_LAW_FEED"), nullptr) / 60.0F;
             machine.feed = feed > 0 && machine.feed <= 0 ? feed : machine.feed;
             (void)time_of_program(option("CUSP_LAW_PROGRAM"), machine);
+        }
+    }
+}
+
+// Turns within reach of the filters count together, those farther off do not, however dense the lines are.
+TEST(LawPrograms, lines_that_turn_a_little_are_passed_on_the_exact_path)
+{
+    struct Row {
+        double length;
+        double turn;
+        unsigned count;
+        int feed;
+        bool to_and_fro;
+        double most;  // s, on the default machine
+    };
+    constexpr Row kRows[] = {
+        {0.105, 0.3, 1200, 3000, false, 6.4}, {0.785, 0.45, 800, 6000, false, 13.0},
+        {0.1, 0.3, 800, 3000, true, 4.4},     {0.5, 0.3, 100, 3000, true, 1.4},
+        {0.005, 0.45, 800, 3000, true, 4.2},
+    };
+    for (const Row& row : kRows) {
+        const std::string text =
+            lines_that_turn(row.length, row.turn, row.count, row.feed, row.to_and_fro);
+        for (const Machine& machine : machines()) {
+            std::istringstream in{text};
+            const double time = time_of_program(in, std::to_string(row.length), machine);
+            CHECK_TEXT(time <= row.most || &machine != &machines().front(),
+                       std::to_string(time).c_str());
         }
     }
 }
