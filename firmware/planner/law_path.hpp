@@ -74,7 +74,13 @@ inline float to_mm(std::int64_t path_units) noexcept
     return static_cast<float>(static_cast<std::int32_t>(path_units)) / kPathUnitsPerMillimetre;
 }
 
-// The same between two places; far is far.
+// To the nearest; of a length that is not negative.
+inline std::int64_t to_units(float mm) noexcept
+{
+    return static_cast<std::int64_t>(mm * kPathUnitsPerMillimetre + 0.5F);
+}
+
+// mm between two places; far is far.
 inline float distance(std::int64_t from, std::int64_t to) noexcept
 {
     constexpr std::int64_t kFar = 2'000'000'000;

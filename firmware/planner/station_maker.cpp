@@ -138,27 +138,12 @@ Station StationMaker::make(const LawPath& path,
     }
     const LaneVec ratio = quotient(to_lanes(limits_.velocity), first);
     station.cap = least(cap, product(ratio, ratio));
-    for (const LawJoint& joint : joints) {
-        const float reach = kReach * speed * (joint.window + shaper_length_) + station.length;
-        if (distance(to, joint.first) < reach && distance(joint.at, from) < reach) {
-            station.cap = std::min(station.cap, joint.cap);
-        }
-    }
-    const float second = static_cast<float>(path[cursor.block].block->filter.second) * kServoTick;
-    station.kept = kept_at(station, joints, speed, second);
-    if (greatest(0.0F, station.kept.turn) > 0) {
-        // As many turns act together as are counted.
-        const float counted = way_of_joints(second, speed) / (kReach * (second + kReachTime));
-        station.cap = std::min(station.cap, counted * counted);
-    }
+    feel_joints(station, joints, speed,
+                static_cast<float>(path[cursor.block].block->filter.second) * kServoTick);
     const Kinks kinks = kinks_of(q);
     station.kept.bend_acceleration =
         product(kinks.second, inverse_acceleration_) * kKeptAcceleration;
     station.kept.bend = product(kinks.third, inverse_jerk_) * kKeptJerk;
-    for (const LawJoint& joint : joints) {
-        station.acceleration_at_end =
-            station.acceleration_at_end || (joint.at <= to && joint.at > from);
-    }
     Vec3f moving{};
     const Vec3f used = to_vec(first);
     const Vec3f turned = to_vec(station.kept.turn);
@@ -173,6 +158,30 @@ Station StationMaker::make(const LawPath& path,
                              product(place.third, inverse_jerk_)};
     }
     return station;
+}
+
+// Caps and shares of a station by the joints around it.
+void StationMaker::feel_joints(Station& station,
+                               Span<const LawJoint> joints,
+                               float speed,
+                               float second) const noexcept
+{
+    const std::int64_t from = station.begin;
+    const std::int64_t to = from + station.travel;
+    for (const LawJoint& joint : joints) {
+        const float reach = kReach * speed * (joint.window + shaper_length_) + station.length;
+        if (distance(to, joint.first) < reach && distance(joint.at, from) < reach) {
+            station.cap = std::min(station.cap, joint.cap);
+        }
+        station.acceleration_at_end =
+            station.acceleration_at_end || (joint.at <= to && joint.at > from);
+    }
+    station.kept = kept_at(station, joints, speed, second);
+    if (greatest(0.0F, station.kept.turn) > 0) {
+        // As many turns act together as are counted.
+        const float counted = way_of_joints(second, speed) / (kReach * (second + kReachTime));
+        station.cap = std::min(station.cap, counted * counted);
+    }
 }
 
 // The shares of joints within reach of the filters; none for bends.

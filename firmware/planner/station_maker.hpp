@@ -97,6 +97,10 @@ private:
         LaneVec magnitudes;
         float window;  // s, the longest
     };
+    void feel_joints(Station& station,
+                     Span<const LawJoint> joints,
+                     float speed,
+                     float second) const noexcept;
     KeptShares kept_at(const Station& station,
                        Span<const LawJoint> joints,
                        float speed,

@@ -16,6 +16,9 @@
 
 namespace cusp::planner {
 
+inline constexpr float kTinyBound = 1e-20F;
+inline constexpr float kNegligibleTurn = 1e-5F;  // |dP/ds|
+
 // Context: main loop.
 class StationSpacing {
 public:
