@@ -136,6 +136,8 @@ test("a fault stands at its key, and undo takes it back", async () => {
   const before = (await state(page)).job;
   const field = page.getByLabel("scallop", { exact: true }).first();
   await field.fill("-3");
+  await page.waitForTimeout(1500);  // the answer about the job before comes meanwhile
+  assert.equal(await field.inputValue(), "-3");
   await field.press("Tab");
   const fault = page.locator(".field.wrong .fault");
   await fault.waitFor();

@@ -1,5 +1,5 @@
 // Zero, probe and tool length: a few fields, what will happen in words, one click.
-import { signal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { fixed } from "../elements";
 import { say } from "../studio/store";
@@ -13,8 +13,10 @@ const fields = { plate: signal(10), most: signal(20), fast: signal(100), slow: s
 const reference = signal<number | null>(null);
 
 function Field({ label, of, least, most }: { label: string; of: { value: number }; least: number; most: number }): JSX.Element {
-  return <label class="line">{label} <input type="number" min={least} max={most} step="any" value={of.value} onChange={(event) => {
+  const typing = useSignal<string | null>(null);
+  return <label class="line">{label} <input type="number" min={least} max={most} step="any" value={typing.value ?? of.value} onInput={(event) => { typing.value = event.currentTarget.value; }} onChange={(event) => {
     const typed = Number(event.currentTarget.value);
+    typing.value = null;
     of.value = Number.isFinite(typed) ? Math.min(Math.max(typed, least), most) : of.value;
     event.currentTarget.value = String(of.value);
   }} /></label>;

@@ -1,6 +1,8 @@
 // Fields for keys and cards for tables: a value that is typed goes into the job's text, and faults stand where they belong.
 import { useSignal } from "@preact/signals";
+import type { Signal } from "@preact/signals";
 import type { ComponentChildren, JSX } from "preact";
+import { useEffect } from "preact/hooks";
 import { removeTable, setKey, swapWithNext } from "../project/job_text";
 import type { KeyPlace } from "../project/job_text";
 import { shown, typed } from "../project/toml_values";
@@ -13,7 +15,8 @@ const plain = (text: string): string => text.replace(/`/g, "");
 const labelOf = (name: string): string => name.replace(/_/g, " ");
 const kPlaceholder = /^(none|needed|see)/;
 
-function Control({ item, id, value, listId, set }: { item: Key; id: string; value: unknown; listId: string; set: (text: string) => void }): JSX.Element {
+// What is being typed is the field's own until it is set: the page may be drawn anew meanwhile.
+function Control({ item, id, value, listId, typing, set }: { item: Key; id: string; value: unknown; listId: string; typing: Signal<string | null>; set: (text: string) => void }): JSX.Element {
   const described = `${id}-help ${id}-fault`;
   if (item.choices.length > 0 || item.kind === "true or false") {
     const choices = item.choices.length > 0 ? item.choices : ["true", "false"], now = shown(value);
@@ -22,19 +25,22 @@ function Control({ item, id, value, listId, set }: { item: Key; id: string; valu
       {choices.map((choice) => <option key={choice} value={choice}>{choice}</option>)}
     </select>;
   }
-  return <input id={id} aria-describedby={described} value={shown(value)} list={listId} spellcheck={false} autocomplete="off"
+  return <input id={id} aria-describedby={described} value={typing.value ?? shown(value)} list={listId} spellcheck={false} autocomplete="off"
+    onInput={(event) => { typing.value = event.currentTarget.value; }}
     inputMode={/length|feed|number|angle/.test(item.kind) ? "decimal" : "text"}
     placeholder={kPlaceholder.test(item.otherwise) ? "" : plain(item.otherwise)} onChange={(event) => set(event.currentTarget.value)} />;
 }
 
 export function KeyField({ place, item, value }: { place: KeyPlace; item: Key; value: unknown }): JSX.Element {
-  const wrong = useSignal("");
+  const wrong = useSignal(""), typing = useSignal<string | null>(null), now = shown(value);
+  useEffect(() => { typing.value = null; wrong.value = ""; }, [now, typing, wrong]);
   const id = `${place.table || "job"}-${place.index}-${item.name}`, unit = unitOf(item.kind, inch.value), range = rangeOf(item);
   const fault = wrong.value || faultAt(place);
   const set = (text: string) => {
     try {
       wrong.value = "";
       history.change({ job: setKey(project.value.job, place, typed(item.kind, text)) });
+      typing.value = null;
     } catch (reason) {
       wrong.value = reason instanceof Error ? reason.message : String(reason);
     }
@@ -42,7 +48,7 @@ export function KeyField({ place, item, value }: { place: KeyPlace; item: Key; v
   const listId = item.kind === "text" || item.kind === "text or list of texts" ? "files-of-project" : item.kind.includes("tool") ? "tools-of-project" : "";
   return <div class={`field${fault ? " wrong" : ""}`}>
     <label for={id}>{labelOf(item.name)}{item.needed && value === undefined ? <span class="needed" title="needed">•</span> : null}</label>
-    <div class="control"><Control item={item} id={id} value={value} listId={listId} set={set} />{unit ? <span class="unit">{unit}</span> : null}</div>
+    <div class="control"><Control item={item} id={id} value={value} listId={listId} typing={typing} set={set} />{unit ? <span class="unit">{unit}</span> : null}</div>
     <p class="help" id={`${id}-help`}>{plain(item.help)}{range ? ` (${range})` : ""}</p>
     <p class="fault" id={`${id}-fault`} role={fault ? "alert" : undefined}>{fault}</p>
   </div>;
