@@ -21,7 +21,7 @@ float element_time(const LawCell& cell) noexcept
            std::sqrt(cell.start.value);
 }
 
-// Of both, whichever is played.
+// Bounds of two pieces, whichever is played.
 WarpBounds either(const WarpBounds& a, const WarpBounds& b) noexcept
 {
     return {larger(a.speed, b.speed),
@@ -33,7 +33,8 @@ WarpBounds either(const WarpBounds& a, const WarpBounds& b) noexcept
             a.time + b.time};
 }
 
-// Of both, played at once: their sums are within the limits (law_corner). An axis may move both ways.
+// Bounds of two pieces played at once: their sums are within the limits (corner_overlap()). An axis may
+// move both ways.
 WarpBounds both(const WarpBounds& a, const WarpBounds& b) noexcept
 {
     const LaneVec share = all_lanes(planner::kPlanShare);
@@ -267,7 +268,7 @@ bool Interpolator::begin_next() noexcept
     return !waits;
 }
 
-// What look(0) gives.
+// The cell that look(0) gives is played.
 void Interpolator::begin_cell(const LawCell& next, const planner::PackedBounds& bounds) noexcept
 {
     before_ = playing_;

@@ -99,7 +99,7 @@ std::uint32_t LawPlayer::advance(float& left) noexcept
     const Series series{advanced(cell_.start, place_)};
     const float room = length_ - place_;
     const float travel = series.travel(left);
-    // Where the series would turn back the cell has ended before.
+    // The cell has ended before the series would turn back.
     if (travel < room && series.speed(left) > 0) {
         left = 0;
         return go_to(place_ + travel);

@@ -36,7 +36,7 @@ constexpr std::size_t kPiecesOfTick = 2;
 constexpr float kNearRate = 2e-5F;   // of the target: it is reached
 constexpr float kNearSlope = 1e-3F;  // 1/s
 
-// What a piece leaves of the jerks, for a change of the rate's slope: upwards, in the direction of V, or
+// The jerks that a piece leaves for a change of the rate's slope: upwards, in the direction of V, or
 // downwards. As r^3 J a jerk the other way is counted by a part: r may fall meanwhile.
 LaneVec jerk_left(const WarpBounds& plan, float rate, bool up) noexcept
 {
