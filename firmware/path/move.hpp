@@ -18,6 +18,13 @@ enum class MoveKind : std::uint8_t {
 
 inline constexpr std::size_t kMoveKinds = 3;
 
+// An end of a path that replaces the programmed one, where both meet.
+struct PathLean {
+    float slope{0};  // |dP/ds| between their directions
+    float length{
+        0};  // mm, over which the programmed path is a line from there; 0: they do not meet
+};
+
 struct Move {
     MoveKind kind{MoveKind::kFeed};
     Path path{Line{}};
@@ -31,6 +38,8 @@ struct Move {
     float departure{0};
     std::uint32_t line{0};  // of the program, for reports
     LaserPower power;       // off but for feed moves in laser mode
+    PathLean start_lean{};
+    PathLean end_lean{};
 };
 
 // Length of the path in mm, within 1e-9 relative for lines and arcs and 1e-6 for Bezier pieces.

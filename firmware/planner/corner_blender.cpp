@@ -44,16 +44,19 @@ void CornerBlender::clear() noexcept
     made_.clear();
 }
 
-void CornerBlender::add(const path::Move& move, float jerk_time) noexcept
+void CornerBlender::add(const path::Move& move, const Allowance& allowance) noexcept
 {
     path::Move next = move;
-    if (held_ && !(may_blend(move) && (blend(*held_, next) || join(*held_, next, jerk_time)))) {
+    const Allowance both{allowance.jerk_time, std::min(held_departure_, allowance.departure)};
+    if (held_ &&
+        !(may_blend(move) && (blend(*held_, next, both.departure) || join(*held_, next, both)))) {
         (void)made_.try_push_back(*held_);
     }
     held_.reset();
     if (may_blend(next)) {
         held_ = next;
-        release_front(*held_);
+        held_departure_ = allowance.departure;
+        release_front(*held_, allowance.departure);
     } else {
         release_last(next);
     }
@@ -61,11 +64,10 @@ void CornerBlender::add(const path::Move& move, float jerk_time) noexcept
 
 // Releases all of a long move but the end that a blend may need, so that the tool need not slow down
 // while the next move is not known.
-void CornerBlender::release_front(path::Move& move) noexcept
+void CornerBlender::release_front(path::Move& move, float departure) noexcept
 {
     const double length = path::length(move);
-    const double corner =
-        2.0 * static_cast<double>(kShareOfTolerance * move.tolerance) / (kApex * kLeastTurn);
+    const double corner = 2.0 * static_cast<double>(departure) / (kApex * kLeastTurn);
     const double kept = std::max(corner, static_cast<double>(kLongestReach) / kShareOfLine);
     if (length < 2.0 * kept) {
         return;
@@ -88,7 +90,7 @@ void CornerBlender::release_last(const path::Move& move) noexcept
 bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
                                      float reach,
                                      float feed,
-                                     float deviation) const noexcept
+                                     float departure) const noexcept
 {
     PathDerivatives bound{};
     for (const float u : {0.2F, 0.35F, 0.5F}) {
@@ -96,7 +98,7 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
         bound = larger(
             bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
     }
-    const float centripetal = shaper_square_ > 0 ? 2.0F * deviation / shaper_square_ : kUnlimited;
+    const float centripetal = shaper_square_ > 0 ? 2.0F * departure / shaper_square_ : kUnlimited;
     const float speed = std::sqrt(squared_cap(to_lanes(bound), limits_, centripetal, feed));
     const float travel = 2.0F * reach + speed * (ramp_time_ + 2.0F * shaper_length_);
     const float slowest =
@@ -106,23 +108,22 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
 }
 
 // A transition where the curvature jumps. False where there is none.
-bool CornerBlender::join(path::Move& before, path::Move& after, float jerk_time) noexcept
+bool CornerBlender::join(path::Move& before, path::Move& after, const Allowance& allowance) noexcept
 {
-    const float deviation = kShareOfTolerance * std::min(before.tolerance, after.tolerance);
     path::Move piece;
     if ((is_line(before) && is_line(after)) || before.power != after.power ||
-        !make_transition(before, after, piece, limits_, jerk_time,
-                         static_cast<double>(deviation))) {
+        !make_transition(before, after, piece, limits_, allowance.jerk_time,
+                         static_cast<double>(allowance.departure))) {
         return false;
     }
-    piece.departure = deviation;
+    piece.departure = allowance.departure;
     (void)made_.try_push_back(piece);
     (void)made_.try_push_back(before);
     return true;
 }
 
 // Shortens both lines and makes the curve between them. False where the corner stays.
-bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
+bool CornerBlender::blend(path::Move& before, path::Move& after, float departure) noexcept
 {
     if (!is_line(before) || !is_line(after) || before.power != after.power) {
         return false;
@@ -140,10 +141,8 @@ bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
     if (turn < kLeastTurn || turn > kGreatestTurn) {
         return false;
     }
-    const double deviation =
-        static_cast<double>(kShareOfTolerance * std::min(before.tolerance, after.tolerance));
-    const double reach = std::min(
-        {deviation / (kApex * turn), kShareOfLine * first_length, kShareOfLine * second_length});
+    const double reach = std::min({static_cast<double>(departure) / (kApex * turn),
+                                   kShareOfLine * first_length, kShareOfLine * second_length});
     if (reach < kShortestBlend) {
         return false;
     }
@@ -169,7 +168,7 @@ bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
     }
     const bool rapid = curve.kind == path::MoveKind::kRapid;
     const float feed = rapid ? norm(limits_.velocity) : curve.feed;
-    if (!faster_than_stop(piece, static_cast<float>(reach), feed, static_cast<float>(deviation))) {
+    if (!faster_than_stop(piece, static_cast<float>(reach), feed, departure)) {
         return false;
     }
     curve.path = piece;

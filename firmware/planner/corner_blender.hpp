@@ -16,8 +16,10 @@ namespace cusp::planner {
 // would take longer than a stop stays a corner.
 class CornerBlender {
 public:
-    // Part of a move's tolerance that the blend may leave the corner by.
-    static constexpr float kShareOfTolerance = 0.45F;
+    struct Allowance {
+        float jerk_time;  // s, over which the axis filters spread a jump of acceleration
+        float departure;  // mm, that a blend may leave the move by
+    };
 
     // ramp_time: s, in which the slowest axis reaches its acceleration.
     void set_limits(const MachineLimits& limits, float ramp_time) noexcept
@@ -38,9 +40,7 @@ public:
     bool empty() const noexcept { return made_.empty() && !held_; }
 
     // Precondition: ready().
-    //
-    //   jerk_time  s, over which the axis filters spread a jump of acceleration.
-    void add(const path::Move& move, float jerk_time) noexcept;
+    void add(const path::Move& move, const Allowance& allowance) noexcept;
 
     // The next move to play. With `ending`, the held one too.
     bool next(bool ending, path::Move& move) noexcept;
@@ -51,17 +51,18 @@ private:
     bool faster_than_stop(const path::BezierPiece& piece,
                           float reach,
                           float feed,
-                          float deviation) const noexcept;
-    void release_front(path::Move& move) noexcept;
+                          float departure) const noexcept;
+    void release_front(path::Move& move, float departure) noexcept;
     void release_last(const path::Move& move) noexcept;
-    bool blend(path::Move& before, path::Move& after) noexcept;
-    bool join(path::Move& before, path::Move& after, float jerk_time) noexcept;
+    bool blend(path::Move& before, path::Move& after, float departure) noexcept;
+    bool join(path::Move& before, path::Move& after, const Allowance& allowance) noexcept;
 
     MachineLimits limits_{};
     float ramp_time_{1};
     float shaper_square_{0};
     float shaper_length_{0};
     std::optional<path::Move> held_;
+    float held_departure_{0};           // mm, for it
     StaticVector<path::Move, 4> made_;  // last first
 };
 

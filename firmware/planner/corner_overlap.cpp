@@ -25,6 +25,19 @@ float bend_jerk(const LaneDerivatives& q, float jerk, float time) noexcept
     return 3.5F * second * speed * jerk * time + third * speed * speed * speed;
 }
 
+// Distance of a side from the programmed path, mm, up to so much travel from the corner. It and the cut are
+// not greatest at once, nor are both sides': each is convex in the time from its end of the overlap.
+float departure_within(const CornerSide& side, float travel) noexcept
+{
+    if (travel > side.lean.length) {
+        return side.departure;
+    }
+    const float second = norm(side.end.second);
+    const float third = std::max(norm(side.end.third), second * second);
+    return std::min(side.departure,
+                    travel * (side.lean.slope + travel * (0.5F * second + travel * third / 6.0F)));
+}
+
 float longest_ramp(const MachineLimits& limits) noexcept
 {
     return greatest(0.0F, quotient(to_lanes(limits.acceleration), to_lanes(limits.jerk)));
@@ -86,7 +99,9 @@ CornerOverlap corner_overlap(const CornerSide& before,
         const float share = 1.0F / std::max(1.0F, signed_demand + added / least_jerk);
         const float cut = share * norm(other - one) * mean_cube(0.5F * time, filter);
         const float way = share * std::max(braking, speeding) * time * time * time / 6.0F;
-        if (cut > deviation || way > room) {
+        const float departure =
+            std::max(departure_within(before, way), departure_within(after, way));
+        if (cut + departure > deviation || way > room) {
             break;
         }
         const float lowered = time + kServoTick;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "firmware/base/machine_limits.hpp"
+#include "firmware/path/move.hpp"
 #include "firmware/planner/block.hpp"
 #include "firmware/planner/station_maker.hpp"
 
@@ -19,6 +20,8 @@ struct CornerSide {
     LaneDerivatives end;  // by arc length at the corner
     float length;         // mm, of the stretch
     float block;          // mm, of the block at the corner
+    float departure;      // mm, of the path from the programmed one
+    path::PathLean lean;  // at the corner
 };
 
 // The element of a stop that nothing overlaps.
@@ -30,7 +33,8 @@ StopChoice full_stop(const MachineLimits& limits) noexcept;
 // tool leaves the corner by |t1 w1 - t0 w0| (h^3/6 + h (a^2 + b^2)/24), h half the overlap, a and b
 // the axis filters. If an axis would have too much of both, both elements are lowered.
 //
-//   deviation  mm, by how much the corner may be cut; 0 or less: no overlap.
+//   deviation  mm, by how much the corner may be cut, with the departure of both sides where they
+//              overlap; 0 or less: no overlap.
 //
 // The overlap ends with the shorter of both elements, unless no axis moves on both sides.
 // Source: docs/numerics.md, "Corners". Held by tests/property/motion/motion_limits_test.cpp and path_deviation_test.cpp.

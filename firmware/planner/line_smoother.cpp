@@ -87,6 +87,13 @@ Vec3f unit(Vec3f a) noexcept
     return length > 0 ? a / length : a;
 }
 
+// Of a curve that begins or ends on a line's end.
+path::PathLean lean_of(Vec3f tangent, Vec3f line) noexcept
+{
+    const float length = norm(line);
+    return {norm(tangent - unit(line)), length};
+}
+
 }  // namespace
 
 bool LineSmoother::accepts(const path::Move& move) noexcept
@@ -117,12 +124,13 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     return dot(turn, turn) <= kCornerTurnSquared;
 }
 
-void LineSmoother::add(const path::Move& move) noexcept
+void LineSmoother::add(const path::Move& move, float departure) noexcept
 {
     if (vertices_.empty()) {
         kind_ = move.kind;
         feed_ = move.feed;
         tolerance_ = move.tolerance;
+        departure_ = departure;
         power_ = move.power;
         at_ = move.start;
         origin_ = move.start;
@@ -297,8 +305,7 @@ LineSmoother::Knot LineSmoother::knot_at(std::size_t index) const noexcept
 
 bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noexcept
 {
-    const float tolerance = kShareOfTolerance * tolerance_;
-    const float square = tolerance * tolerance;
+    const float square = departure_ * departure_;
     float whole = 0;
     const Vertex* const vertices = vertices_.begin();
     for (std::size_t i = 0; i < last; ++i) {
@@ -375,6 +382,24 @@ std::size_t LineSmoother::longest_fit(std::size_t most, Fit& best) const noexcep
     return good;
 }
 
+// From the first vertex to the one of a number, where the line piece ends.
+void LineSmoother::make_curve(const Fit& fit,
+                              bool begins,
+                              std::size_t passed,
+                              path::Move& piece) const noexcept
+{
+    if (begins) {
+        piece.start_lean = lean_of(start_.end.tangent, between(0, 1));
+    }
+    if (passed + 1 == vertices_.size()) {
+        piece.end_lean = lean_of(fit.end.end.tangent, between(passed - 1, passed));
+    }
+    piece.end = piece.end + to_position(to_double(fit.end.at));
+    // The chord of whole nanometres.
+    piece.path =
+        hermite(millimetres(piece.end - piece.start), start_.end, fit.end.end, fit.piece.length);
+}
+
 bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
     const bool ending = patience == Patience::kNone;
@@ -390,7 +415,8 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     if (lines <= beyond) {
         return false;
     }
-    if (!has_start_) {
+    const bool begins = !has_start_;
+    if (begins) {
         start_ = knot_at(0);
         has_start_ = true;
     }
@@ -403,7 +429,9 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     piece.feed = feed_;
     piece.tolerance = tolerance_;
     piece.power = power_;
-    piece.departure = kShareOfTolerance * tolerance_;
+    piece.departure = departure_;
+    piece.start_lean = {};
+    piece.end_lean = {};
     piece.start = at_;
     const std::size_t passed = std::max<std::size_t>(good, 1);
     lines_before_ = static_cast<std::uint8_t>(passed);
@@ -412,12 +440,11 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     piece.path = path::Line{};
     // If not even one line can be rounded it stays, and its ends are corners.
     has_start_ = good != 0;
-    if (good != 0) {
-        const Position off = to_position(to_double(best.end.at));
-        piece.end = piece.end + off;
-        // The chord of whole nanometres.
-        piece.path = hermite(millimetres(piece.end - piece.start), start_.end, best.end.end,
-                             best.piece.length);
+    if (good == 0) {
+        piece.departure = begins ? 0.0F : departure_;
+        piece.end_lean = lean_of(unit(millimetres(piece.end - piece.start)), between(0, 1));
+    } else {
+        make_curve(best, begins, passed, piece);
         start_ = best.end;
     }
     at_ = piece.end;

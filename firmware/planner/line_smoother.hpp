@@ -17,9 +17,6 @@ namespace cusp::planner {
 
 class LineSmoother {
 public:
-    // Part of a move's tolerance that the curve may leave the lines by.
-    static constexpr float kShareOfTolerance = 0.45F;
-
     // Lines longer than this, mm, are no part of a curve.
     static constexpr float kLongestLine = 2.0F;
 
@@ -34,7 +31,9 @@ public:
     bool full() const noexcept { return vertices_.full(); }
 
     // Precondition: accepts(move), continues(move), !full().
-    void add(const path::Move& move) noexcept;
+    //
+    //   departure  mm, that the curve may leave the lines by; that of the run's first move counts.
+    void add(const path::Move& move, float departure) noexcept;
 
     // Time that next() may wait for more vertices: the longer, the longer the pieces.
     enum class Patience : std::uint8_t {
@@ -85,6 +84,10 @@ private:
     bool fit(std::size_t last, Fit& fit) const noexcept;
     std::size_t longest_fit(std::size_t most, Fit& best) const noexcept;
     bool within_tolerance(const Fit& fit, std::size_t last) const noexcept;
+    void make_curve(const Fit& fit,
+                    bool begins,
+                    std::size_t passed,
+                    path::Move& piece) const noexcept;
     void drop(std::size_t count) noexcept;
 
     Position origin_{};
@@ -92,6 +95,7 @@ private:
     path::MoveKind kind_{path::MoveKind::kFeed};  // of the run, as feed and tolerance
     float feed_{0};                               // mm/s
     float tolerance_{0};                          // mm
+    float departure_{0};                          // mm
     path::LaserPower power_;
     Knot start_{};  // at the first vertex, where a piece ended there
     bool has_start_{false};

@@ -19,9 +19,11 @@ constexpr float kJointShare = 0.5F;
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
 constexpr float kExactDeviation = 0.0009F;
-constexpr float kFilterShareOfTolerance = 0.45F;
-// Deviation by which a corner may be cut, less that of the path itself.
-constexpr float kCornerShareOfTolerance = 0.985F;
+constexpr float kFilterShareOfTolerance = 0.18F;
+// As a share of it where the filters can't be so short, or a shaper is behind them.
+constexpr float kMostFilterShareOfTolerance = 0.45F;
+// Deviation of all together.
+constexpr float kUseOfTolerance = 0.985F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 // The law keeps about so far from a squared speed that it may have.
 constexpr float kFeedOfBarrier = 1.0004F;
@@ -45,19 +47,22 @@ float circle_factor(AxisFilter filter) noexcept
 
 }  // namespace
 
-// The longest filter that leaves a circle at the axes' greatest acceleration by no more than its
-// part of the tolerance, but long enough to smooth the rounding of positions.
+// The longest filter that leaves a circle at the greatest acceleration of all axes by no more than its
+// part of the tolerance, but long enough to smooth the rounding of positions. What such a filter and
+// the shaper do not need of the tolerance is for the path.
 Planner::FilterChoice Planner::filter_for(float tolerance) const noexcept
 {
     const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
     constexpr float kSecond = 2.0F;
-    const float square = deviation * 24.0F / (greatest_acceleration_ * kServoTick * kServoTick) -
+    const float square = deviation * 24.0F / (whole_acceleration_ * kServoTick * kServoTick) -
                          kSecond * kSecond + 2.0F;
     const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kLongestFilterTicks);
     const auto first = static_cast<std::uint8_t>(std::max(ticks, least_filter_));
     const AxisFilter filter{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}};
-    const float factor = circle_factor(filter) + 0.5F * shaper_.square;
-    return {filter, deviation, deviation / std::max(factor, 1e-12F)};
+    const float factor = std::max(circle_factor(filter) + 0.5F * shaper_.square, 1e-12F);
+    const float most = std::max(kExactDeviation, kMostFilterShareOfTolerance * tolerance);
+    const float kept = std::min(factor * whole_acceleration_, most);
+    return {filter, std::max(kUseOfTolerance * tolerance - kept, 0.0F), kept / factor};
 }
 
 void Planner::set_limits(const MachineLimits& limits) noexcept
@@ -73,6 +78,7 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
     least_filter_ =
         std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kLongestFilterTicks);
+    whole_acceleration_ = norm(limits.acceleration);
     limits_ = with_margin(limits);
     blender_.set_limits(limits_, longest);
     law_.set_limits(limits_);
@@ -101,7 +107,7 @@ void Planner::push(const path::Move& move) noexcept
     close_requested_ = false;
     tail_ = move.end;
     if (LineSmoother::accepts(move) && smoother_.continues(move)) {
-        smoother_.add(move);
+        smoother_.add(move, filter_for(move.tolerance).departure);
     } else {
         waiting_ = move;
     }
@@ -142,7 +148,7 @@ bool Planner::next_smoothed(path::Move& move) noexcept
         return false;
     }
     if (LineSmoother::accepts(*waiting_)) {
-        smoother_.add(*waiting_);
+        smoother_.add(*waiting_, filter_for(waiting_->tolerance).departure);
         waiting_.reset();
         return smoother_.next(close_requested_ ? Patience::kNone : patience, move);
     }
@@ -157,8 +163,9 @@ bool Planner::next_move() noexcept
 {
     while (!blender_.next(false, move_)) {
         if (next_smoothed(move_)) {
-            const AxisFilter filter = filter_for(move_.tolerance).filter;
-            blender_.add(move_, static_cast<float>(filter.first) * kServoTick);
+            const FilterChoice choice = filter_for(move_.tolerance);
+            blender_.add(move_,
+                         {static_cast<float>(choice.filter.first) * kServoTick, choice.departure});
             continue;
         }
         const bool ending = close_requested_ && !waiting_ && smoother_.empty();
@@ -217,7 +224,9 @@ void Planner::add_block(Block& block) noexcept
     queue_.append_block();
     end_ = end_geometry(block);
     end_length_ += static_cast<float>(block.length) / kPathUnitsPerMillimetre;
-    end_left_ = kCornerShareOfTolerance * move_.tolerance - move_.departure;
+    end_deviation_ = kUseOfTolerance * move_.tolerance;
+    end_departure_ = move_.departure;
+    end_lean_ = move_.end_lean;
 }
 
 void Planner::join(const EndGeometry& after, const Block& block) noexcept
@@ -251,8 +260,7 @@ bool Planner::must_stop(const EndGeometry& after, const Block& block) const noex
 CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
                                          const Block& block) const noexcept
 {
-    const float deviation =
-        std::min(end_left_, kCornerShareOfTolerance * move_.tolerance - move_.departure);
+    const float deviation = std::min(end_deviation_, kUseOfTolerance * move_.tolerance);
     const Block& last = queue_.block(queue_.block_end() - 1);
     if (deviation <= 0 || shaper_.on() || last.filter != block.filter ||
         block.shape == BlockShape::kCurve || block.power != last.power) {
@@ -261,9 +269,10 @@ CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
     (void)after;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
     const float before = static_cast<float>(last.length) / kPathUnitsPerMillimetre;
-    return corner_overlap({derivatives_at(last, before), end_length_, before},
-                          {derivatives_at(block, 0.0F), length, length}, limits_, block.filter,
-                          deviation);
+    return corner_overlap(
+        {derivatives_at(last, before), end_length_, before, end_departure_, end_lean_},
+        {derivatives_at(block, 0.0F), length, length, move_.departure, move_.start_lean}, limits_,
+        block.filter, deviation);
 }
 
 void Planner::end_in_stop(const CornerOverlap& overlap) noexcept

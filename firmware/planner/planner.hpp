@@ -78,8 +78,8 @@ public:
 private:
     struct FilterChoice {
         AxisFilter filter;
-        float deviation;    // mm
-        float centripetal;  // mm/s^2, most that leaves no more than the deviation
+        float departure;    // mm, left to the path
+        float centripetal;  // mm/s^2, the most at which the filters leave the path by their part
     };
     FilterChoice filter_for(float tolerance) const noexcept;
     bool go_on() noexcept;
@@ -96,6 +96,7 @@ private:
     MachineLimits limits_{};
     InputShaper shaper_{};
     float greatest_acceleration_{1};  // of any axis
+    float whole_acceleration_{1};     // of all together
     float least_filter_{1};           // ticks of the first axis filter
     PathQueue& queue_;
     StretchPlanner law_;
@@ -112,7 +113,10 @@ private:
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     float end_length_{0};  // mm, from the last stop
-    float end_left_{0};    // mm, part of the tolerance not used by its path
+    float end_deviation_{
+        0};  // mm, that is left to a corner there, the path's own departure included
+    float end_departure_{0};  // mm
+    path::PathLean end_lean_{};
 };
 
 }  // namespace cusp::planner

@@ -154,6 +154,18 @@ TEST(PathDeviation, StaysWithinTheTolerance)
     }
 }
 
+TEST(PathDeviation, StaysWithinTheToleranceOnRandomMachines)
+{
+    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
+        const auto other = [i](const Moves& moves) {
+            MotionRig rig{test::random_limits(kSeed + i)};
+            rig.start_at({});
+            return rig.run(moves);
+        };
+        check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25), other);
+    }
+}
+
 TEST(PathDeviation, StaysWithinTheToleranceBehindAnInputShaper)
 {
     for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
