@@ -52,6 +52,8 @@ FAULTS = {
         "host_tools/cam/plan/prove_edges.cpp", "if (deepest != met.end() && deepest->path == k) {", "if (false) {", "random_orders"),
     "a drill meets nothing between the points": (
         "host_tools/judge/verify/machined_stock.cpp", "if (left < begin || right >= end) {", "if (left <= right) {", "random_orders"),
+    "a sinking ball cuts no farther back than a level one": (
+        "host_tools/judge/verify/ahead.hpp", "2 * tool.radius * sunk", "0 * sunk", "verify_test"),
     "a sweep ends before its tool": (
         "host_tools/cam/rest_machining/tool_sweep.cpp", "radius{std::max(0.0, tool.radius - shrink)}",
         "radius{std::max(0.0, 0.9 * tool.radius - shrink)}", "rest_machining_test"),

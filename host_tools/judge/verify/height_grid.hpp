@@ -42,13 +42,36 @@ struct HeightGrid {
     std::size_t first_row(double low) const { return clamped((low - y0) / pitch - 1, ny); }
     std::size_t end_row(double high) const { return clamped((high - y0) / pitch + 2, ny); }
 
-private:
+    // A value as a number of points, at most a limit.
     static std::size_t clamped(double value, std::size_t limit)
     {
         return value <= 0                            ? 0
                : value >= static_cast<double>(limit) ? limit
                                                      : static_cast<std::size_t>(value);
     }
+};
+
+// first_row() and end_row() without a division.
+class GridRows {
+public:
+    explicit GridRows(const HeightGrid& grid)
+        : y0_{grid.y0}, per_mm_{1 / grid.pitch}, count_{grid.ny}
+    {
+    }
+
+    std::size_t first(double low) const
+    {
+        return HeightGrid::clamped((low - y0_) * per_mm_ - 1, count_);
+    }
+    std::size_t end(double high) const
+    {
+        return HeightGrid::clamped((high - y0_) * per_mm_ + 2, count_);
+    }
+
+private:
+    double y0_;
+    double per_mm_;
+    std::size_t count_;
 };
 
 }  // namespace cusp::verify

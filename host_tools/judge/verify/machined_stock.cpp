@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/judge/verify/ahead.hpp"
 #include "host_tools/judge/verify/bands.hpp"
+#include "host_tools/judge/verify/cut_rows.hpp"
 #include "host_tools/judge/verify/end_sweeps.hpp"
 #include "host_tools/judge/verify/engagement_trace.hpp"
 #include "host_tools/judge/verify/tool_contact.hpp"
@@ -88,7 +90,6 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Tools with round corners leave no more between positions than the square of their distance.
     const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
-    const bool is_cylinder = is_cylindrical(tool);
     CutFigures figures;
     std::size_t measured = 0;  // rapid positions before this one are
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
@@ -113,7 +114,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
             contact->look(heights_, k, band, begin, end);
         }
         const bool from_here = !ends_alone || !positions.rapid[k];
-        const bool goes_on = is_cylinder && from_here && k > 0 && positions.tips[k - 1].z <= tip.z;
+        const bool goes_on = from_here && k > 0;
         const double depth =
             cut_at(tool, tip, shrink, goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
         if (trace != nullptr && depth > 0) {
@@ -139,7 +140,6 @@ DeepRapid MachinedStock::deepest_of(const ToolPositions& positions,
                                     std::size_t begin,
                                     std::size_t end) const
 {
-    const bool is_cylinder = is_cylindrical(positions.tool);
     bool is_empty = first > 0 && !positions.rapid[first - 1];  // what it has cut
     DeepRapid deepest{last - 1, first, 0, 0};
     for (std::size_t k = first; k < last; ++k) {
@@ -147,11 +147,8 @@ DeepRapid MachinedStock::deepest_of(const ToolPositions& positions,
             is_empty = true;
             continue;
         }
-        // A cylinder goes on through the empty disc of the position before.
-        const bool goes_on =
-            is_cylinder && is_empty && positions.tips[k - 1].z <= positions.tips[k].z;
         const double depth = depth_at(positions.tool, positions.tips[k], shrink,
-                                      goes_on ? &positions.tips[k - 1] : nullptr, begin, end);
+                                      is_empty ? &positions.tips[k - 1] : nullptr, begin, end);
         is_empty = depth <= 0;
         if (depth > deepest.depth) {
             deepest.position = k;
@@ -320,20 +317,24 @@ void MachinedStock::visit_disc(const Tool& tool,
                                Visit visit) const
 {
     const double max_error = grid_.pitch / 2;
+    const GridRows rows{grid_};
+    const Ahead ahead{tool, tip, before, grid_};
+    const bool leaves_disc = before != nullptr && is_cylindrical(tool) && before->z <= tip.z;
     const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
     for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
         const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
         DiscColumn column{i, 0, 0, x - tip.x, grid_.shift(i) - tip.y, row_x_.data(), row_y_.data()};
         const double half = half_chord(reach, std::max(0.0, std::abs(column.x) - max_error));
-        column.first = grid_.first_row(tip.y - half);
-        column.last = grid_.end_row(tip.y + half);
-        if (before == nullptr) {
+        column.first = rows.first(tip.y - half);
+        column.last = rows.end(tip.y + half);
+        ahead.narrow(rows, column.x, column.first, column.last);
+        if (!leaves_disc) {
             visit(column);
             continue;
         }
         const double inner = half_chord(reach, std::abs(x - before->x) + max_error);
-        const std::size_t done = grid_.end_row(before->y - inner);
-        const std::size_t open = std::max(done, grid_.first_row(before->y + inner));
+        const std::size_t done = rows.end(before->y - inner);
+        const std::size_t open = std::max(done, rows.first(before->y + inner));
         DiscColumn above = column;
         column.last = std::min(done, column.last);
         above.first = std::max(open, above.first);
@@ -349,47 +350,55 @@ double MachinedStock::cut_at(const Tool& tool,
                              std::size_t begin,
                              std::size_t end)
 {
-    // Rows that are compared together: most are below the tool.
-    constexpr std::size_t kRun = 16;
-    const Profile profile{tool, 0};
-    const Profile probe{tool, shrink};
-    const double steepness = profile.steepness();
+    const Cutter cutter{tip.z, shrink, Profile{tool, 0}, Profile{tool, shrink}};
+    const bool is_flat = is_cylindrical(tool);
     double deepest = 0;
-    visit_disc(tool, tip, profile.reach, before, begin, end, [&](const DiscColumn column) {
-        double* height = heights_.data() + column.index * grid_.ny;
-        for (std::size_t j0 = column.first; j0 < column.last; j0 += kRun) {
-            const std::size_t j1 = std::min(column.last, j0 + kRun);
-            double over = 0;
-#pragma omp simd reduction(max : over)
-            for (std::size_t j = j0; j < j1; ++j) {
-                const double squared = column.squared(j);
-                over = std::max(over, std::min(profile.reach - squared,
-                                               height[j] - tip.z - steepness * squared));
-            }
-            if (over <= 0) {
-                continue;
-            }
-#pragma omp simd reduction(max : deepest)
-            for (std::size_t j = j0; j < j1; ++j) {
-                const double squared = column.squared(j);
-                const double tracked = height[j] - tip.z - shrink - probe.at(squared);
-                deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
-                const double lower = tip.z + profile.at(squared);
-                height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
-            }
-        }
+    visit_disc(tool, tip, cutter.profile.reach, before, begin, end, [&](const DiscColumn& column) {
+        double* heights = heights_.data() + column.index * grid_.ny;
+        deepest = is_flat ? cut_rows_flat(cutter, column, heights, deepest)
+                          : cut_rows(cutter, column, heights, deepest);
     });
     return deepest;
 }
 
-// Only a crescent beside the lower of the two end positions is still uncut.
+// Both end positions are cut: of a level way, all but two slivers at its sides.
 void MachinedStock::sweep_flat(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double radius = flat_radius(tool);
+    if (from.z != to.z) {
+        sweep_slope(radius, from, to, begin, end);
+        return;
+    }
+    const FlatSweep sweep{from, to, radius};
+    const Vec2d way = in_plan(to) - in_plan(from);
+    const double length = norm(way);
+    const double near = half_chord(radius * radius, length / 2);
+    for (const double side : {-1 / length, 1 / length}) {
+        const Vec2d across = length > 0 ? Vec2d{-way.y, way.x} * side : Vec2d{};
+        const auto [x_low, x_high] =
+            std::minmax({from.x + across.x * near, from.x + across.x * radius,
+                         to.x + across.x * near, to.x + across.x * radius});
+        const auto [y_low, y_high] =
+            std::minmax({from.y + across.y * near, from.y + across.y * radius,
+                         to.y + across.y * near, to.y + across.y * radius});
+        const std::size_t first = grid_.first_row(y_low);
+        const std::size_t stop = grid_.end_row(y_high);
+        const std::size_t last = std::min(end, grid_.end_column(x_high));
+        for (std::size_t i = std::max(begin, grid_.first_column(x_low)); i < last; ++i) {
+            sweep_rows(sweep, from.z, i, first, stop);
+        }
+    }
+}
+
+// Only a crescent beside the lower of the two end positions is still uncut.
+void MachinedStock::sweep_slope(
+    double radius, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
+{
     const double squared = radius * radius;
     const double max_error = grid_.pitch / 2;
     const FlatSweep sweep{from, to, radius};
+    const GridRows rows{grid_};
     const Vec3d lower = from.z < to.z ? from : to;
     const auto [x_low, x_high] = std::minmax(from.x, to.x);
     const auto [y_low, y_high] = std::minmax(from.y, to.y);
@@ -399,20 +408,24 @@ void MachinedStock::sweep_flat(
         const double outer =
             half_chord(squared, std::max({0.0, x_low - x - max_error, x - x_high - max_error}));
         const double inner = half_chord(squared, std::abs(x - lower.x) + max_error);
-        const std::size_t high = grid_.end_row(y_high + outer);
-        const std::size_t done = grid_.end_row(lower.y - inner);
-        const std::size_t open = std::max(done, grid_.first_row(lower.y + inner));
-        const double shift = grid_.shift(i);
-        const auto cut_rows = [&](std::size_t first, std::size_t stop) {
-            for (std::size_t j = first; j < stop; ++j) {
-                double& height = heights_[grid_.index(i, j)];
-                if (height > lower.z) {
-                    height = std::min(height, sweep.lowest(x + row_x_[j], row_y_[j] + shift));
-                }
-            }
-        };
-        cut_rows(grid_.first_row(y_low - outer), std::min(done, high));
-        cut_rows(open, high);
+        const std::size_t high = rows.end(y_high + outer);
+        const std::size_t done = rows.end(lower.y - inner);
+        const std::size_t open = std::max(done, rows.first(lower.y + inner));
+        sweep_rows(sweep, lower.z, i, rows.first(y_low - outer), std::min(done, high));
+        sweep_rows(sweep, lower.z, i, open, high);
+    }
+}
+
+void MachinedStock::sweep_rows(
+    const FlatSweep& sweep, double low, std::size_t i, std::size_t first, std::size_t stop)
+{
+    const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+    const double shift = grid_.shift(i);
+    double* heights = heights_.data() + i * grid_.ny;
+    for (std::size_t j = first; j < stop; ++j) {
+        if (heights[j] > low) {
+            heights[j] = std::min(heights[j], sweep.lowest(x + row_x_[j], row_y_[j] + shift));
+        }
     }
 }
 

@@ -14,6 +14,7 @@ namespace cusp::verify {
 
 class ContactTrace;
 class EngagementTrace;
+class FlatSweep;
 
 // mm: rapid moves may cut as deep as slivers and rounding.
 inline constexpr double kRapidCutAllowed = 0.005;
@@ -86,28 +87,11 @@ private:
                          double shrink,
                          std::size_t begin,
                          std::size_t end) const;
-    // Rows of a column that a disc reaches.
-    struct DiscColumn {
-        std::size_t index;
-        std::size_t first;
-        std::size_t last;
-        double x;  // mm, of the column from the disc's centre
-        double y;
-        const double* row_x;
-        const double* row_y;
-
-        // mm^2, from the centre
-        double squared(std::size_t j) const
-        {
-            const double dx = x + row_x[j];
-            const double dy = y + row_y[j];
-            return dx * dx + dy * dy;
-        }
-    };
     // Calls visit(DiscColumn) for the points under the tool, and some around.
     //
     // reach   mm^2: square of the disc's radius
-    // before  centre of such a disc whose points are left out, but for some at its edge; null: none
+    // before  position that has cut, or is over all stock: points that it leaves nothing of are left out, but for
+    //         some at the edge; null: none
     template <class Visit>
     void visit_disc(const toolpath::Tool& tool,
                     Vec3d tip,
@@ -118,7 +102,7 @@ private:
                     Visit visit) const;
     // mm: how deep the tool, reduced by `shrink`, is in the stock.
     //
-    // before  of a cylinder: where it meets nothing, no higher. May be null.
+    // before  where it meets nothing. May be null.
     double depth_at(const toolpath::Tool& tool,
                     Vec3d tip,
                     double shrink,
@@ -136,8 +120,7 @@ private:
     // Returns the depth, mm.
     //
     // shrink  mm: reduction of the measuring tool
-    // before  of a cylinder: where it has just cut, no higher. Only what lies outside is cut. May be
-    //         null.
+    // before  where it has just cut, or was over all stock. May be null.
     double cut_at(const toolpath::Tool& tool,
                   Vec3d tip,
                   double shrink,
@@ -146,6 +129,10 @@ private:
                   std::size_t end);
     void sweep_flat(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+    void sweep_slope(double radius, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+    // Rows of a column, over a height.
+    void sweep_rows(
+        const FlatSweep& sweep, double low, std::size_t i, std::size_t first, std::size_t stop);
 
     void sweep_cone(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
