@@ -104,6 +104,11 @@ private:
              {"Z drive UART", wires[2]},
              {"second drive UART", wires[3]}},
             "40 kbaud", "TMC2209");
+        const auto& bus = detail::drive_bus_pins<Table>;
+        row({{"drives SPI clock", bus.clock},
+             {"drives SPI out", bus.to_drives},
+             {"drives SPI in", bus.from_drives}},
+            "mode 3", "TMC5160, selected by the pin above");
         row({{"drives power", kPins.power}}, "high from the start on");
     }
     void write_inputs()

@@ -11,6 +11,8 @@
 //                       board without has neither
 //   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
 //                       their sense resistors; a board without has neither
+//   kDriveBus, kBusSenseMilliohms   hal/stm32f4/drive_bus.hpp: of TMC5160 drives in the same sockets, and their
+//                       sense resistors; a board without has neither
 //   kSpindleWire, SpindlePort   hal/stm32f4/spindle_wire.hpp: of an RS-485 transceiver for a spindle's drive, and
 //                       the USART that it hangs on; a board without has neither
 //   Settings            hal/stm32f4/flash_settings.hpp: where they are kept; without it, behind the vectors
@@ -33,6 +35,7 @@
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/dma_link.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
+#include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/flash_settings.hpp"
 #include "hal/stm32f4/peripheral_clocks.hpp"
@@ -99,6 +102,9 @@ struct ChipTraits {
     static constexpr std::uint8_t kDriveWires = hal::stm32f4::drive_wires(kDrivePins);
     static constexpr float kSenseMilliohms = detail::sense_milliohms<Table>;
     using DriveWire = hal::stm32f4::DriveWire<Chip, Table>;
+    static constexpr bool kDriveBus = is_there(detail::drive_bus_pins<Table>.clock);
+    static constexpr float kBusSenseMilliohms = detail::bus_sense_milliohms<Table>;
+    using DriveBus = hal::stm32f4::DriveBus<Chip, Table>;
 
     // The spindle's.
     static constexpr const hal::stm32f4::SpindleWirePins& kSpindlePins =
@@ -153,6 +159,7 @@ struct ChipTraits {
             hal::stm32f4::start_peripherals<Chip>({clocks_of_ports(), 0, 0});
             Panel::rest(off);
             PulsePlayer::rest(off.inverted_lines);
+            rest_drives();
         }
     }
 
@@ -176,6 +183,7 @@ struct ChipTraits {
         serial_link(board).start(
             SerialPort::kOnFastBus ? Table::kClocks.fast_bus_hz() : Table::kClocks.slow_bus_hz(),
             Table::kBaud);
+        rest_drives();
         if constexpr (kDriveWires != 0) {
             board.drive_wire.start(kFastTimerHz);
             enable_interrupt<Chip>(drive_interrupt(), kSerialPriority);
@@ -241,6 +249,15 @@ struct ChipTraits {
     }
 
 private:
+    static void rest_drives() noexcept
+    {
+        if constexpr (kDriveWires != 0) {
+            DriveWire::rest();
+        }
+        if constexpr (kDriveBus) {
+            DriveBus::rest();
+        }
+    }
     template <class Board>
     static SerialLink& serial_link(Board& board) noexcept
     {
@@ -272,6 +289,10 @@ private:
             ports |= clock_bit(pin);
         }
         for (const Pin pin : kDrivePins) {
+            ports |= clock_bit(pin);
+        }
+        const hal::stm32f4::DriveBusPins& bus = detail::drive_bus_pins<Table>;
+        for (const Pin pin : {bus.clock, bus.to_drives, bus.from_drives}) {
             ports |= clock_bit(pin);
         }
         for (const Pin pin : {kSpindlePins.transmit, kSpindlePins.receive, kSpindlePins.sends}) {

@@ -21,6 +21,16 @@ struct DrivePart<Traits, std::enable_if_t<Traits::kDriveWires != 0>> {
     typename Traits::DriveWire drive_wire;
 };
 
+template <class Traits, class = void>
+struct DriveBusPart {
+};
+template <class Traits>
+struct DriveBusPart<Traits, std::enable_if_t<Traits::kDriveBus>> {
+    static constexpr float kBusSenseMilliohms = Traits::kBusSenseMilliohms;
+
+    typename Traits::DriveBus drive_bus;
+};
+
 // And only one with a line to a spindle's drive has that.
 template <class Traits, class = void>
 struct SpindlePart {
@@ -35,7 +45,9 @@ struct SpindlePart<Traits, std::enable_if_t<Traits::kSpindleWire>> {
 // Boards of this kind differ only in `Traits`; boards/mill3/chip_traits.hpp lists its
 // members.
 template <class Traits>
-struct MillBoard : detail::DrivePart<Traits>, detail::SpindlePart<Traits> {
+struct MillBoard : detail::DrivePart<Traits>,
+                   detail::DriveBusPart<Traits>,
+                   detail::SpindlePart<Traits> {
     // Sets up clocks and pins before the application is constructed.
     MillBoard() noexcept { Traits::start(*this); }
     MillBoard(const MillBoard&) = delete;

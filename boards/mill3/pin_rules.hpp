@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/spindle_wire.hpp"
@@ -27,6 +28,12 @@ inline constexpr hal::stm32f4::DrivePins
     drive_pins<Table, std::void_t<decltype(Table::kDriveWires)>> = Table::kDriveWires;
 
 template <class Table, class = void>
+inline constexpr hal::stm32f4::DriveBusPins drive_bus_pins{};
+template <class Table>
+inline constexpr hal::stm32f4::DriveBusPins
+    drive_bus_pins<Table, std::void_t<decltype(Table::kDriveBus)>> = Table::kDriveBus;
+
+template <class Table, class = void>
 inline constexpr hal::stm32f4::SpindleWirePins spindle_wire_pins{};
 template <class Table>
 inline constexpr hal::stm32f4::SpindleWirePins
@@ -38,14 +45,21 @@ template <class Table>
 inline constexpr float sense_milliohms<Table, std::void_t<decltype(Table::kSenseMilliohms)>> =
     Table::kSenseMilliohms;
 
+template <class Table, class = void>
+inline constexpr float bus_sense_milliohms = 0;
+template <class Table>
+inline constexpr float
+    bus_sense_milliohms<Table, std::void_t<decltype(Table::kBusSenseMilliohms)>> =
+        Table::kBusSenseMilliohms;
+
 constexpr bool same(Pin a, Pin b) noexcept { return a.port == b.port && a.number == b.number; }
 constexpr bool exists(Pin pin) noexcept
 {
     return pin.port >= 'A' && pin.port <= 'I' && pin.number < 16;
 }
 
-// All that a table names, absent ones too.
-using AllPins = std::array<Pin, 8 + 12 + 10 + 4 + 3>;
+// All that a table names, absent ones too, but for the one that drives on a bus answer on.
+using AllPins = std::array<Pin, 8 + 12 + 10 + 4 + 2 + 3>;
 template <class Table>
 constexpr AllPins all_pins() noexcept
 {
@@ -61,6 +75,9 @@ constexpr AllPins all_pins() noexcept
         all[count++] = pin;
     }
     for (const Pin pin : drive_pins<Table>) {
+        all[count++] = pin;
+    }
+    for (const Pin pin : {drive_bus_pins<Table>.clock, drive_bus_pins<Table>.to_drives}) {
         all[count++] = pin;
     }
     for (const Pin pin : {spindle_wire_pins<Table>.transmit, spindle_wire_pins<Table>.receive,
@@ -143,6 +160,16 @@ struct PinRules {
     static_assert(hal::stm32f4::drive_wires(detail::drive_pins<Table>) == 0 ||
                       (Pace::kTimer != 1 && Table::kPanelPins.spindle_pulses.timer != 1),
                   "timer 1 is that of the drives' wires");
+    static_assert(!detail::names_one(kAll, detail::drive_bus_pins<Table>.from_drives),
+                  "the pin that drives answer on is named twice");
+    static_assert(is_there(detail::drive_bus_pins<Table>.clock) ==
+                          is_there(detail::drive_bus_pins<Table>.to_drives) &&
+                      is_there(detail::drive_bus_pins<Table>.clock) ==
+                          is_there(detail::drive_bus_pins<Table>.from_drives),
+                  "the drives' bus lacks a pin");
+    static_assert(!is_there(detail::drive_bus_pins<Table>.clock) ||
+                      hal::stm32f4::drive_wires(detail::drive_pins<Table>) != 0,
+                  "the drives' bus has no select lines");
     static_assert(is_there(detail::spindle_wire_pins<Table>.transmit) ==
                           is_there(detail::spindle_wire_pins<Table>.receive) &&
                       is_there(detail::spindle_wire_pins<Table>.transmit) ==

@@ -6,6 +6,7 @@
 
 #include "boards/mill3/mill_panel.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
@@ -36,13 +37,16 @@ struct OctopusTable {
         pins.mist = {'A', 3};
         pins.spindle_on = {'A', 8};
         pins.spindle_reverse = {'E', 5};
-        pins.spindle_pulses = {{'A', 6}, 1};
+        pins.spindle_pulses = {{'B', 1}, 4};
         return pins;
     }();
 
     // Of TMC2209 modules of the maker.
     static constexpr hal::stm32f4::DrivePins kDriveWires{{{'C', 4}, {'D', 11}, {'C', 6}, {'F', 2}}};
     static constexpr float kSenseMilliohms = 110;
+    // And TMC5160.
+    static constexpr hal::stm32f4::DriveBusPins kDriveBus{{'A', 5}, {'A', 7}, {'A', 6}};
+    static constexpr float kBusSenseMilliohms = 75;
 
     // RS-485, to a spindle's drive: the WIFI header.
     static constexpr hal::stm32f4::SpindleWirePins kSpindleWire{{'D', 8}, {'D', 9}, {'D', 7}};

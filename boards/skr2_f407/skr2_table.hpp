@@ -6,6 +6,7 @@
 
 #include "boards/mill3/mill_panel.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"
@@ -43,6 +44,9 @@ struct Skr2Table {
     // Of TMC2209 modules of the maker.
     static constexpr hal::stm32f4::DrivePins kDriveWires{{{'E', 0}, {'D', 3}, {'D', 0}, {'C', 6}}};
     static constexpr float kSenseMilliohms = 110;
+    // And TMC5160. They answer on the debugger's clock.
+    static constexpr hal::stm32f4::DriveBusPins kDriveBus{{'E', 15}, {'E', 14}, {'A', 14}};
+    static constexpr float kBusSenseMilliohms = 75;
 
     template <class Chip>
     using Pace = hal::stm32f4::Timer8Pace<Chip>;

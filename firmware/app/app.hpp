@@ -77,6 +77,10 @@ private:
             limits.drive_wires = Board::kDriveWires;
             limits.sense_milliohms = Board::kSenseMilliohms;
         }
+        if constexpr (hal::has_drive_bus<Board>) {
+            limits.drive_bus = true;
+            limits.bus_sense_milliohms = Board::kBusSenseMilliohms;
+        }
         return limits;
     }
     bool read_bytes() noexcept;
@@ -187,13 +191,24 @@ void App<Board>::serve_drives() noexcept
             if (busy && !drives.overdue(tick)) {
                 return;
             }
-            std::array<std::uint8_t, drives::kReplySize> answer{};
+            std::array<std::uint8_t, drives::kMostBytes> answer{};
             const std::size_t size = busy ? 0 : wire.take(answer);
             drives.take(Span<const std::uint8_t>{answer}.first(size), tick);
         }
-        if (const std::optional<drives::DriveRequest> request = drives.next(tick)) {
-            wire.begin(request->drive, request->bytes.span(), request->replies);
+        const std::optional<drives::DriveRequest> request = drives.next(tick);
+        if (!request) {
+            return;
         }
+        if constexpr (hal::has_drive_bus<Board>) {
+            if (request->kind == drives::DriveKind::kTmc5160) {
+                std::array<std::uint8_t, drives::kMostBytes> answer{};
+                const auto bytes = Span<std::uint8_t>{answer}.first(request->bytes.size());
+                board_.drive_bus.ask(request->drive, request->bytes.span(), bytes);
+                drives.take({bytes.data(), bytes.size()}, tick);
+                return;
+            }
+        }
+        wire.begin(request->drive, request->bytes.span(), request->replies);
     }
 }
 

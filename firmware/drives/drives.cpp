@@ -1,34 +1,11 @@
 // Each drive is set and watched step by step.
 #include "firmware/drives/drives.hpp"
 
+#include "firmware/drives/tmc2209.hpp"
+#include "firmware/drives/tmc5160.hpp"
+
 namespace cusp::drives {
 namespace {
-
-struct Step {
-    Register place;
-    bool writes;
-};
-// Setting a drive. The count of writes is read before and after them.
-constexpr std::array<Step, 12> kSetting{{
-    {Register::kInputs, false},
-    {Register::kWriteCount, false},
-    {Register::kGlobalSettings, true},
-    {Register::kChopper, true},
-    {Register::kCurrents, true},
-    {Register::kHoldDelay, true},
-    {Register::kStealthLimit, true},
-    {Register::kGlobalStatus, true},
-    {Register::kWriteCount, false},
-    {Register::kGlobalSettings, false},
-    {Register::kChopper, false},
-    {Register::kStatus, false},
-}};
-constexpr unsigned kFirstCount = 1;
-constexpr std::uint32_t kWritesOfSetting = 6;
-constexpr std::array<Step, 2> kWatching{{
-    {Register::kStatus, false},
-    {Register::kGlobalStatus, false},
-}};
 
 constexpr std::uint32_t kStartTicks = 100;  // until the drives' supply is up
 constexpr std::uint32_t kWatchTicks = 10;   // between two questions
@@ -36,13 +13,36 @@ constexpr std::uint32_t kAgainTicks = 5;
 constexpr std::uint32_t kMostTicks = 50;  // of a datagram and its answer
 constexpr unsigned kAttempts = 3;
 
-constexpr std::uint32_t kVersion = 0x21;
-constexpr std::uint32_t kWasReset = 1;                // of GSTAT
-constexpr std::uint32_t kAllOfGlobalStatus = 7;       // written ones clear
-constexpr std::uint32_t kOverTemperature = 1U << 1U;  // of DRV_STATUS
-constexpr std::uint32_t kShorts = 0xFU << 2U;
+constexpr std::uint32_t kWasReset = 1;           // of GSTAT
+constexpr std::uint32_t kAllOfGlobalStatus = 7;  // written ones clear
+
+// A word on a line that nobody drives, whichever way it is pulled.
+constexpr bool is_nobodys(std::uint32_t value) noexcept { return value == 0 || value == ~0U; }
+
+std::uint32_t writes_in(Span<const Step> steps) noexcept
+{
+    std::uint32_t count = 0;
+    for (const Step& step : steps) {
+        count += step.action == Action::kWrite ? 1U : 0U;
+    }
+    return count;
+}
+
+std::optional<std::uint32_t> parse_reply(DriveKind kind,
+                                         Span<const std::uint8_t> answer,
+                                         Register place) noexcept
+{
+    return kind == DriveKind::kTmc5160 ? tmc5160::parse_reply(answer)
+                                       : tmc2209::parse_reply(answer, place);
+}
 
 }  // namespace
+
+DriveRegisters registers_for(DriveKind kind, const MotorSetup& setup) noexcept
+{
+    return kind == DriveKind::kTmc5160 ? tmc5160::registers_for(setup)
+                                       : tmc2209::registers_for(setup);
+}
 
 void Drives::configure(const std::array<DriveRegisters, kMostDrives>& registers,
                        std::uint8_t motors) noexcept
@@ -75,21 +75,31 @@ void Drives::begin() noexcept
     next_drive();
 }
 
-bool Drives::writes() const noexcept { return phase_ == Phase::kSetting && kSetting[step_].writes; }
-
-Register Drives::place() const noexcept
+const Recipe& Drives::recipe() const noexcept
 {
-    return phase_ == Phase::kSetting ? kSetting[step_].place : kWatching[step_].place;
+    return registers_[drive_].kind == DriveKind::kTmc5160 ? tmc5160::kRecipe : tmc2209::kRecipe;
 }
 
-std::uint32_t Drives::value_to_write() const noexcept
+const Step& Drives::step() const noexcept
+{
+    return (phase_ == Phase::kSetting ? recipe().setting : recipe().watching)[step_];
+}
+
+bool Drives::replies() const noexcept
+{
+    return step().action != Action::kWrite || recipe().mirrors_writes;
+}
+
+std::uint32_t Drives::wanted_value() const noexcept
 {
     const DriveRegisters& wanted = registers_[drive_];
-    switch (place()) {
+    switch (step().place) {
         case Register::kGlobalSettings:
             return wanted.global_settings;
         case Register::kChopper:
             return wanted.chopper;
+        case Register::kScaler:
+            return wanted.scaler;
         case Register::kCurrents:
             return wanted.currents;
         case Register::kHoldDelay:
@@ -100,6 +110,7 @@ std::uint32_t Drives::value_to_write() const noexcept
             return kAllOfGlobalStatus;
         case Register::kWriteCount:
         case Register::kInputs:
+        case Register::kBusInputs:
         case Register::kStatus:
             break;
     }
@@ -117,8 +128,18 @@ std::optional<DriveRequest> Drives::next(std::uint32_t tick) noexcept
     }
     waits_ = true;
     asked_ = tick;
-    return writes() ? DriveRequest{drive_, write_request(place(), value_to_write()), false}
-                    : DriveRequest{drive_, read_request(place()), true};
+    const DriveKind kind = registers_[drive_].kind;
+    const bool on_bus = kind == DriveKind::kTmc5160;
+    const Register place = step().place;
+    if (step().action == Action::kWrite) {
+        const std::uint32_t value = wanted_value();
+        return DriveRequest{
+            drive_, kind,
+            on_bus ? tmc5160::write_request(place, value) : tmc2209::write_request(place, value),
+            replies()};
+    }
+    return DriveRequest{drive_, kind,
+                        on_bus ? tmc5160::read_request(place) : tmc2209::read_request(place), true};
 }
 
 bool Drives::overdue(std::uint32_t tick) const noexcept { return tick - asked_ > kMostTicks; }
@@ -130,13 +151,15 @@ void Drives::take(Span<const std::uint8_t> answer, std::uint32_t tick) noexcept
         stale_ = false;
         return;
     }
-    if (writes()) {
+    if (!replies()) {
         go_on(tick);
         return;
     }
-    const std::optional<std::uint32_t> value = parse_reply(answer, place());
+    const std::optional<std::uint32_t> value =
+        parse_reply(registers_[drive_].kind, answer, step().place);
     if (!value) {
-        ask_again(answer.empty() ? FaultKind::kSilent : FaultKind::kGarbled, tick);
+        const bool garbled = !answer.empty() && recipe().has_checksum;
+        ask_again(garbled ? FaultKind::kGarbled : FaultKind::kSilent, tick);
         return;
     }
     judge(*value, tick);
@@ -149,67 +172,75 @@ void Drives::put_off(std::uint32_t tick) noexcept
     due_ = tick + kAgainTicks;
 }
 
-// An answer, by the register that was asked for.
 void Drives::judge(std::uint32_t value, std::uint32_t tick) noexcept
 {
-    const DriveRegisters& wanted = registers_[drive_];
-    constexpr std::uint32_t kCounts = 256;
-    bool kept = true;
-    switch (place()) {
-        case Register::kInputs:
-            if (value >> 24U != kVersion) {
-                fail(FaultKind::kOtherChip);
-                return;
-            }
-            break;
-        case Register::kWriteCount:
-            if (step_ == kFirstCount) {
-                writes_before_ = value;
-            }
-            kept = step_ == kFirstCount ||
-                   value % kCounts == (writes_before_ + kWritesOfSetting) % kCounts;
-            break;
-        case Register::kGlobalSettings:
-            kept = value == wanted.global_settings;
-            break;
-        case Register::kChopper:
-            kept = value == wanted.chopper;
-            break;
-        case Register::kStatus:
-            judge_status(value, tick);
-            return;
-        case Register::kGlobalStatus:
-            if ((value & kWasReset) != 0) {
-                fail(FaultKind::kRestarted);
-                return;
-            }
-            break;
-        case Register::kCurrents:
-        case Register::kHoldDelay:
-        case Register::kStealthLimit:
-            break;
-    }
-    if (kept) {
+    if (const std::optional<FaultKind> fault = fault_in(value)) {
+        suspect(*fault, tick);
+    } else if (kept(value)) {
         go_on(tick);
     } else {
         set_again(tick);
     }
 }
 
-void Drives::judge_status(std::uint32_t value, std::uint32_t tick) noexcept
+// What the drive says of itself.
+std::optional<FaultKind> Drives::fault_in(std::uint32_t value) const noexcept
 {
-    if ((value & kOverTemperature) != 0) {
-        fail(FaultKind::kHot);
-    } else if ((value & kShorts) != 0) {
-        fail(FaultKind::kShort);
-    } else {
-        go_on(tick);
+    std::optional<FaultKind> fault;
+    switch (step().action) {
+        case Action::kReadVersion:
+            if (value >> 24U != recipe().version) {
+                fault = is_nobodys(value) ? FaultKind::kSilent : FaultKind::kOtherChip;
+            }
+            break;
+        case Action::kReadStatus:
+            if ((value & recipe().hot) != 0) {
+                fault = FaultKind::kHot;
+            } else if ((value & recipe().shorts) != 0) {
+                fault = FaultKind::kShort;
+            }
+            break;
+        case Action::kReadRestarts:
+            if ((value & kWasReset) != 0) {
+                fault = FaultKind::kRestarted;
+            } else if ((value & recipe().undervoltage) != 0) {
+                fault = FaultKind::kUndervoltage;
+            }
+            break;
+        case Action::kWrite:
+        case Action::kCompare:
+        case Action::kCountBefore:
+        case Action::kCountAfter:
+            break;
     }
+    return fault;
+}
+
+// Whether it has taken in what was written.
+bool Drives::kept(std::uint32_t value) noexcept
+{
+    constexpr std::uint32_t kCounts = 256;
+    switch (step().action) {
+        case Action::kWrite:
+        case Action::kCompare:
+            return value == wanted_value();
+        case Action::kCountBefore:
+            writes_before_ = value;
+            return true;
+        case Action::kCountAfter:
+            return value % kCounts == (writes_before_ + writes_in(recipe().setting)) % kCounts;
+        case Action::kReadVersion:
+        case Action::kReadStatus:
+        case Action::kReadRestarts:
+            break;
+    }
+    return true;
 }
 
 void Drives::go_on(std::uint32_t tick) noexcept
 {
-    const std::size_t steps = phase_ == Phase::kSetting ? kSetting.size() : kWatching.size();
+    const std::size_t steps =
+        phase_ == Phase::kSetting ? recipe().setting.size() : recipe().watching.size();
     due_ = phase_ == Phase::kWatching ? tick + kWatchTicks : tick;
     attempts_ = 0;
     ++step_;
@@ -238,6 +269,15 @@ void Drives::next_drive() noexcept
     attempts_ = 0;
 }
 
+void Drives::suspect(FaultKind kind, std::uint32_t tick) noexcept
+{
+    if (recipe().has_checksum) {
+        fail(kind);
+    } else {
+        ask_again(kind, tick);
+    }
+}
+
 void Drives::ask_again(FaultKind reason, std::uint32_t tick) noexcept
 {
     ++attempts_;
@@ -262,7 +302,7 @@ void Drives::set_again(std::uint32_t tick) noexcept
 void Drives::fail(FaultKind kind) noexcept
 {
     phase_ = Phase::kFailed;
-    fault_ = {drive_, kind};
+    fault_ = {drive_, kind, registers_[drive_].kind};
 }
 
 }  // namespace cusp::drives

@@ -1,4 +1,4 @@
-// Drives: sets the motors' drives over their wires before anything moves, and watches them from then on.
+// Drives: sets the motors' drives before anything moves, each as its kind asks for, and watches them from then on.
 //
 //   drives.configure(registers, motors);
 //   if (const auto request = drives.next(tick)) { send it; }          // main loop, again and again
@@ -8,14 +8,14 @@
 // One datagram at a time: the one that is on its way is waited for without blocking. A drive that does
 // not answer, or wrongly, is asked again; the third time it is a fault, after which nothing is asked until
 // restart(). What can be read of a drive is read back and compared; what can't is proven by its count of
-// accepted writes.
+// accepted writes, or by what it mirrors.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 
-#include "firmware/drives/tmc2209.hpp"
+#include "firmware/drives/drive_kind.hpp"
 
 namespace cusp::drives {
 
@@ -24,22 +24,27 @@ inline constexpr unsigned kMostDrives = 4;
 
 struct DriveRequest {
     unsigned drive;
+    DriveKind kind;
     Datagram bytes;
-    bool replies;  // an answer of kReplySize bytes follows
+    bool replies;  // an answer follows
 };
+// What makes a drive of this kind do what its motor needs.
+DriveRegisters registers_for(DriveKind kind, const MotorSetup& setup) noexcept;
 
 enum class FaultKind : std::uint8_t {
-    kSilent,     // no answer
-    kGarbled,    // answers that are none
-    kOtherChip,  // no TMC2209
-    kUnset,      // it does not keep what is written
-    kRestarted,  // its supply was gone, and its settings with it
-    kHot,        // it has switched off for its temperature
-    kShort,      // of a motor's coil, to ground or supply
+    kSilent,        // no answer
+    kGarbled,       // answers that are none
+    kOtherChip,     // not of the kind that it should be
+    kUnset,         // it does not keep what is written
+    kRestarted,     // its supply was gone, and its settings with it
+    kUndervoltage,  // its supply sank, and it was off meanwhile
+    kHot,           // it has switched off for its temperature
+    kShort,         // of a motor's coil, to ground or supply
 };
 struct DriveFault {
     unsigned drive;
     FaultKind kind;
+    DriveKind wanted;  // what it should be
 };
 
 // Context: main loop. `tick` counts servo ticks and wraps.
@@ -79,13 +84,16 @@ private:
     enum class Phase : std::uint8_t { kStarting, kSetting, kWatching, kFailed };
 
     void begin() noexcept;
-    bool writes() const noexcept;
-    Register place() const noexcept;
-    std::uint32_t value_to_write() const noexcept;
+    const Recipe& recipe() const noexcept;
+    const Step& step() const noexcept;
+    bool replies() const noexcept;
+    std::uint32_t wanted_value() const noexcept;
     void judge(std::uint32_t value, std::uint32_t tick) noexcept;
-    void judge_status(std::uint32_t value, std::uint32_t tick) noexcept;
+    std::optional<FaultKind> fault_in(std::uint32_t value) const noexcept;
+    bool kept(std::uint32_t value) noexcept;
     void go_on(std::uint32_t tick) noexcept;
     void next_drive() noexcept;
+    void suspect(FaultKind kind, std::uint32_t tick) noexcept;
     void ask_again(FaultKind reason, std::uint32_t tick) noexcept;
     void set_again(std::uint32_t tick) noexcept;
     void fail(FaultKind kind) noexcept;
@@ -103,7 +111,7 @@ private:
     std::uint32_t writes_before_{0};
     std::uint32_t due_{0};    // tick of the next request
     std::uint32_t asked_{0};  // tick of the last one
-    DriveFault fault_{0, FaultKind::kSilent};
+    DriveFault fault_{0, FaultKind::kSilent, DriveKind::kTmc2209};
 };
 
 }  // namespace cusp::drives

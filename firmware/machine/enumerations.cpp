@@ -76,7 +76,7 @@ struct SettingName {
     std::string_view unit;
     std::string_view choices;  // of bits and choices, in order
 };
-constexpr std::array<SettingName, 83> kNames{{
+constexpr std::array<SettingName, 84> kNames{{
     {0, Group::kStepper, Type::kInteger, "Step pulse time", "us", ""},
     {1, Group::kStepper, Type::kInteger, "Step idle delay", "ms", ""},
     {2, Group::kStepper, Type::kAxes, "Step pulse invert", "", ""},
@@ -161,6 +161,7 @@ constexpr std::array<SettingName, 83> kNames{{
     {795, Group::kControls, Type::kSwitch, "Optional stop", "", ""},
     {796, Group::kGeneral, Type::kSwitch, "Hold if the sender leaves USB", "", ""},
     {797, Group::kSpindle, Type::kSwitch, "Wait for the at-speed input", "", ""},
+    {798, Group::kStepper, Type::kAxes, "Drivers that are TMC5160", "", ""},
     {800, Group::kAxis, Type::kDecimal, "jerk", "mm/sec^3", ""},
     {810, Group::kAxis, Type::kChoice, "input shaper", "", "None,ZV,ZVD,EI"},
     {820, Group::kAxis, Type::kDecimal, "vibration frequency", "Hz", ""},

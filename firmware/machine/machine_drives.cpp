@@ -6,19 +6,22 @@ namespace {
 
 using drives::FaultKind;
 
-std::string_view text_of(FaultKind kind) noexcept
+std::string_view text_of(const drives::DriveFault& fault) noexcept
 {
-    switch (kind) {
+    switch (fault.kind) {
         case FaultKind::kSilent:
-            return "does not answer. No such wire: take its axis out of $338";
+            return "does not answer. If it is of another kind see $798, if there is none $338";
         case FaultKind::kGarbled:
             return "answers with a wrong checksum";
         case FaultKind::kOtherChip:
-            return "is no TMC2209: take its axis out of $338";
+            return fault.wanted == drives::DriveKind::kTmc5160 ? "is no TMC5160: see $798 and $338"
+                                                               : "is no TMC2209: see $798 and $338";
         case FaultKind::kUnset:
             return "does not keep its settings";
         case FaultKind::kRestarted:
             return "was without power and has lost its settings";
+        case FaultKind::kUndervoltage:
+            return "had too little voltage";
         case FaultKind::kHot:
             return "is too hot and has switched off";
         case FaultKind::kShort:
@@ -44,12 +47,16 @@ void Machine::configure_drives() noexcept
             continue;
         }
         motors |= 1U << drive;
+        const bool on_bus =
+            board_.drive_bus && (settings.whole(Setting::kBusDrives) >> *axis & 1U) != 0;
         registers[drive] = drives::registers_for(
+            on_bus ? drives::DriveKind::kTmc5160 : drives::DriveKind::kTmc2209,
             {settings.value(Setting::kMotorCurrent, *axis),
              settings.value(Setting::kHoldCurrent, *axis),
              static_cast<std::uint32_t>(settings.value(Setting::kMicrosteps, *axis)),
              settings.value(Setting::kStealthSpeed, *axis),
-             settings.value(Setting::kStepsPerMillimetre, *axis), board_.sense_milliohms});
+             settings.value(Setting::kStepsPerMillimetre, *axis),
+             on_bus ? board_.bus_sense_milliohms : board_.sense_milliohms});
     }
     drives_.configure(registers, static_cast<std::uint8_t>(motors));
 }
@@ -99,7 +106,7 @@ void Machine::tell_drive_fault(const drives::DriveFault& fault) noexcept
     constexpr std::array<std::string_view, drives::kMostDrives> kNames{"X", "Y", "Z",
                                                                        "of the second motor"};
     (void)replies_.text("[MSG:Drive ").text(kNames[fault.drive]).character(' ');
-    (void)replies_.text(text_of(fault.kind)).text("; then reset]").end_line();
+    (void)replies_.text(text_of(fault)).text("; then reset]").end_line();
 }
 
 }  // namespace cusp::machine

@@ -65,9 +65,9 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {44, 0, 4, 0, 7, 9},
     {45, 0, 3, 0, 7, 9},
     {46, 0, 0, 0, 7, 9},
-    {140, 0, 500, 50, 1700, 8},
-    {141, 0, 500, 50, 1700, 8},
-    {142, 0, 500, 50, 1700, 8},
+    {140, 0, 500, 50, 3000, 8},
+    {141, 0, 500, 50, 3000, 8},
+    {142, 0, 500, 50, 3000, 8},
     {150, 0, 16, 1, 256, 8},
     {151, 0, 16, 1, 256, 8},
     {152, 0, 16, 1, 256, 8},
@@ -113,6 +113,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {795, 0, 0, 0, 1, 5},
     {796, 0, 1, 0, 1, 6},
     {797, 0, 0, 0, 1, 7},
+    {798, 0, 0, 0, 7, 11},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
@@ -206,17 +207,17 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
 
 std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const noexcept
 {
-    if (on(Setting::kSecondMotor) && !board.second_motor) {
-        return SettingFault{Error::kSettingDisabled,
-                            kTable[index_of(Setting::kSecondMotor)].number};
-    }
-    if (on(Setting::kAtSpeedInput) && !board.at_speed_input) {
-        return SettingFault{Error::kSettingDisabled,
-                            kTable[index_of(Setting::kAtSpeedInput)].number};
-    }
-    if (on(Setting::kSpindleType) && !board.spindle_wire) {
-        return SettingFault{Error::kSettingDisabled,
-                            kTable[index_of(Setting::kSpindleType)].number};
+    struct Need {
+        Setting setting;
+        bool met;
+    };
+    for (const Need& need : {Need{Setting::kSecondMotor, board.second_motor},
+                             Need{Setting::kAtSpeedInput, board.at_speed_input},
+                             Need{Setting::kSpindleType, board.spindle_wire},
+                             Need{Setting::kBusDrives, board.drive_bus}}) {
+        if (on(need.setting) && !need.met) {
+            return SettingFault{Error::kSettingDisabled, kTable[index_of(need.setting)].number};
+        }
     }
     const auto most_rate = static_cast<float>(board.most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;
@@ -299,7 +300,7 @@ bool Settings::mend(const Settings& standard, const BoardLimits& board) noexcept
         }
     };
     // A fault names two settings of an axis at most, and there are three kinds of an axis.
-    constexpr unsigned kMostFaults = 3 * kAxisCount + 4;
+    constexpr unsigned kMostFaults = 3 * kAxisCount + 5;
     for (unsigned i = 0; i < kMostFaults; ++i) {
         const std::optional<SettingFault> fault = find_fault(board);
         if (!fault) {

@@ -62,7 +62,7 @@ enum class Setting : std::uint8_t {
     kKeepCurrent,                 // $37 mask: axes whose drives stay on, whatever $1 says
     kHomingPass,                  // $44 to $46 masks: axes that are homed first, second, third
     kMotorCurrent =
-        kHomingPass + kHomingPasses,   // $140 mA rms, of a drive that is set over its wire
+        kHomingPass + kHomingPasses,   // $140 mA rms, of a drive that is set over its wires
     kMicrosteps = kMotorCurrent + 3,   // $150: of a full step, a power of two
     kBacklash = kMicrosteps + 3,       // $160 mm: the play of the axis
     kSquareOffset = kBacklash + 3,     // $170 mm: offset of the second motor towards plus
@@ -100,6 +100,7 @@ enum class Setting : std::uint8_t {
     kOptionalStop,                     // $795: M1 stops
     kHoldWhenLeft,                     // $796: a sender that leaves while something moves
     kAtSpeedInput,                     // $797: the spindle's drive says when it is at speed
+    kBusDrives,                        // $798 mask: axes of $338 whose drives are TMC5160
     kJerk,                             // $800 mm/s^3
     kShaperType = kJerk + 3,           // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz
@@ -127,7 +128,7 @@ struct SettingEntry {
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 10;
+inline constexpr std::uint8_t kSettingsLayout = 11;
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -153,6 +154,8 @@ struct BoardLimits {
     // Motors whose drives it has a wire to: a bit each, as drives::kMostDrives counts them.
     std::uint8_t drive_wires{0};
     float sense_milliohms{110};  // of these drives
+    bool drive_bus{false};       // they may be TMC5160, with these sense resistors
+    float bus_sense_milliohms{75};
 };
 
 class Settings {
@@ -188,7 +191,8 @@ public:
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms, or $810 to $832 for
     //                          shapers over planner::kMostShaperTicks together
     //   kSoftLimitError        soft limits without homing
-    //   kSettingDisabled       a second motor, an at-speed signal, or a spindle's drive, on a board without pins for it
+    //   kSettingDisabled       a second motor, an at-speed signal, a spindle's drive, or drives on a bus, on a board
+    //                          without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
     // Every value is in its range.

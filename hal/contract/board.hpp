@@ -156,6 +156,25 @@ template <class Board>
 inline constexpr bool has_drive_wire<Board, std::void_t<decltype(Board::drive_wire)>> =
     is_drive_wire<decltype(Board::drive_wire)>();
 
+// DriveBus carries datagrams to drives that share their wires. Context: main loop; takes some 50 us. Only a board
+// that has a drive_wire may have one, as its drive_bus, with kBusSenseMilliohms, the sense resistors of drives on it.
+//
+//   ask(drive, bytes, answer)  sends a datagram as long as the answer, then one of zeros: what comes with that is
+//                              the answer.
+template <class T>
+constexpr bool is_drive_bus()
+{
+    static_assert(
+        std::is_same_v<decltype(&T::ask), void (T::*)(unsigned, Span<const std::uint8_t>,
+                                                      Span<std::uint8_t>) const noexcept>);
+    return true;
+}
+template <class Board, class = void>
+inline constexpr bool has_drive_bus = false;
+template <class Board>
+inline constexpr bool has_drive_bus<Board, std::void_t<decltype(Board::drive_bus)>> =
+    is_drive_bus<decltype(Board::drive_bus)>();
+
 // SpindleWire carries messages to a spindle's drive and back over a line that both share (RS-485), one at a
 // time. Context: main loop; no call waits. Only a board with such a line has one, as its spindle_wire.
 //

@@ -41,8 +41,9 @@ public:
     static constexpr unsigned kInterrupt = dma2_interrupt(kStream);
     static constexpr PeripheralClocks kClocks{1U << 22U, 0, 1U};
 
-    // Drives the wires high. Precondition: the clocks of ports, timer and controller are on; timer 1 counts
-    // `timer_hz`.
+    // Drives the wires high. Uses no statics. Precondition: the clocks of the ports are on.
+    static void rest() noexcept;
+    // Precondition: the clocks of timer and controller are on; timer 1 counts `timer_hz`.
     void start(std::uint32_t timer_hz) noexcept;
 
     // See hal/contract/board.hpp.
@@ -97,16 +98,21 @@ private:
 };
 
 template <class Chip, class Table>
-void DriveWire<Chip, Table>::start(std::uint32_t timer_hz) noexcept
+void DriveWire<Chip, Table>::rest() noexcept
 {
-    constexpr std::uint32_t kUpdateRequest = 1U << 8U;
-    sample_counts_ = timer_hz / (kBaud * kSamples);
     for (const Pin pin : Table::kDriveWires) {
         if (is_there(pin)) {
             set_level(Chip::port(pin.port), pin.number, true);
             set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
         }
     }
+}
+
+template <class Chip, class Table>
+void DriveWire<Chip, Table>::start(std::uint32_t timer_hz) noexcept
+{
+    constexpr std::uint32_t kUpdateRequest = 1U << 8U;
+    sample_counts_ = timer_hz / (kBaud * kSamples);
     timer().cr1.write(0);
     timer().psc.write(0);
     timer().dier.write(kUpdateRequest);

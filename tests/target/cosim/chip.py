@@ -26,6 +26,7 @@ USART_OF_SPINDLE = {"PA2": "2", "PD8": "3"}
 CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")
 # A drive in the wiring table whose module is in its socket.
 DRIVES = ("X drive UART", "Y drive UART", "Z drive UART", "second drive UART")
+BUS = ("drives SPI clock", "drives SPI out", "drives SPI in")  # of TMC5160 modules
 DRIVES_UP = 400  # ms after the banner, until they are set
 LINES = ("X step", "Y step", "Z step", "X direction", "Y direction", "Z direction")
 
@@ -70,7 +71,8 @@ def wiring(board):
 class Chip:
     """The image of a board from power-up on. A context manager: the end checks for violations."""
 
-    def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True, spindle=None):
+    def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True, spindle=None, on_bus=()):
+        """`on_bus`: places of the sockets that have a TMC5160."""
         chip, nominal, *more = chip_of(board)
         if board.endswith(BEHIND_LOADER):
             loader = pathlib.Path(image).resolve().parents[1] / "test_loader.bin"
@@ -83,7 +85,9 @@ class Chip:
         self.process = subprocess.Popen(
             [str(cosim), chip, str(nominal if crystal is None else crystal), str(image), *more,
              *USARTS[self.pins["serial transmit"]],
-             *(word for drive in self.drives for word in ("drive", self.pins[drive])),
+             *(word for place, drive in enumerate(self.drives)
+               for word in (*(("bus_drive", self.pins[drive], *(self.pins[wire] for wire in BUS)) if place in on_bus
+                            else ("drive", self.pins[drive])),)),
              *(("spindle", str(spindle), USART_OF_SPINDLE[self.pins["spindle transmit"]], self.pins["spindle sends"])
                if spindle else ())],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

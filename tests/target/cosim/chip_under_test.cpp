@@ -73,9 +73,17 @@ PortModel& ChipUnderTest::port(char letter)
     return *found->second;
 }
 
-void ChipUnderTest::add_drive(const std::string& name, char letter, unsigned pin)
+void ChipUnderTest::add_drive(const std::string& name, const std::vector<Place>& wires)
 {
-    drives_.push_back(std::make_unique<DriveModel>(circuit_, name, port(letter), pin));
+    const auto wire = [this, &wires](std::size_t place) {
+        return BusDriveModel::Wire{port(wires[place].port), wires[place].pin};
+    };
+    if (wires.size() == 1) {
+        drives_.push_back(std::make_unique<DriveModel>(circuit_, name, wire(0).port, wire(0).pin));
+    } else {
+        drives_.push_back(
+            std::make_unique<BusDriveModel>(circuit_, name, wire(0), wire(1), wire(2), wire(3)));
+    }
     active_.push_back(drives_.back().get());
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "tests/target/cosim/bus_drive_model.hpp"
 #include "tests/target/cosim/clock_model.hpp"
 #include "tests/target/cosim/core_model.hpp"
 #include "tests/target/cosim/dma_model.hpp"
@@ -56,12 +57,17 @@ public:
     LineModel& line() { return usb_is_line_ ? static_cast<LineModel&>(*host_) : serial(); }
     void make_usb_the_line(bool on) { usb_is_line_ = on; }
     PortModel& port(char letter);
-    // A drive whose single wire goes to this pin. They are told apart by their places.
-    void add_drive(const std::string& name, char port, unsigned pin);
+    // A drive whose single wire goes to this pin; or one on a bus: its select line, then clock, data to it and data
+    // from it. They are told apart by their places.
+    struct Place {
+        char port;
+        unsigned pin;
+    };
+    void add_drive(const std::string& name, const std::vector<Place>& wires);
     // A spindle's drive at a USART, whose transceiver has this pin.
     void add_spindle(vfd::Protocol protocol, unsigned usart, char port, unsigned pin);
     SpindleModel& spindle() { return *spindle_; }
-    DriveModel& drive(std::size_t place) { return *drives_.at(place); }
+    SocketModel& drive(std::size_t place) { return *drives_.at(place); }
     std::size_t drives() const { return drives_.size(); }
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
     // Duty cycle of a channel of timer 3, 1 to 4, in parts of a million; and its rate, Hz.
@@ -143,7 +149,7 @@ private:
     bool usb_is_line_{false};
     std::map<char, std::unique_ptr<PortModel>> ports_;
     std::map<std::string, std::unique_ptr<TimerModel>> timers_;
-    std::vector<std::unique_ptr<DriveModel>> drives_;
+    std::vector<std::unique_ptr<SocketModel>> drives_;
     std::unique_ptr<CoreModel> core_;
     std::map<std::uint32_t, Block> blocks_;
     std::vector<Model*> active_;  // those that do something by themselves

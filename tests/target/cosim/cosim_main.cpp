@@ -1,8 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [spindle PROTOCOL USART PIN] [loader FILE.bin SECTOR]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [bus_drive SELECT CLOCK TO FROM]... [spindle PROTOCOL USART PIN] [loader FILE.bin SECTOR]
 //
-// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at this USART, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
+// `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `bus_drive`: a TMC5160 at these; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at this USART, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -174,7 +174,7 @@ void Console::power(std::istream& words)
     }
 }
 
-// drive PLACE missing|there|garbled COUNT|version N|deaf 0|1|drift PER_THOUSAND|status BITS|restart
+// drive PLACE missing|there|garbled COUNT|version N|deaf 0|1|drift PER_THOUSAND|status BITS|starve|restart
 void Console::drive(std::istream& words)
 {
     std::size_t place = 0;
@@ -182,7 +182,7 @@ void Console::drive(std::istream& words)
     std::int64_t number = 0;
     words >> place >> what >> number;
     const auto value = static_cast<std::uint32_t>(number);
-    DriveModel& drive = chip_.drive(place);
+    SocketModel& drive = chip_.drive(place);
     if (what == "missing" || what == "there") {
         drive.set_missing(what == "missing");
     } else if (what == "garbled") {
@@ -195,6 +195,8 @@ void Console::drive(std::istream& words)
         drive.set_drift(static_cast<std::int32_t>(number));
     } else if (what == "status") {
         drive.set_status(value);
+    } else if (what == "starve") {
+        drive.starve();
     } else if (what == "restart") {
         drive.reset();
     } else {
@@ -227,7 +229,7 @@ void Console::spindle(std::istream& words)
 void Console::tell_drives()
 {
     for (std::size_t place = 0; place < chip_.drives(); ++place) {
-        const DriveModel& drive = chip_.drive(place);
+        const SocketModel& drive = chip_.drive(place);
         std::cout << "drive " << place << " written_ns " << drive.written_at() / 1000 << "\n"
                   << "drive " << place << " answers " << drive.answers() << "\n"
                   << "drive " << place << " damaged " << drive.damaged() << "\n"
@@ -398,7 +400,7 @@ int run_commands(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
-    std::vector<PinName> drives;
+    std::vector<std::vector<ChipUnderTest::Place>> drives;
     std::vector<std::uint8_t> image = read_file(arguments[3]);
     unsigned settings = 1;  // their first sector
     struct Spindle {
@@ -413,9 +415,14 @@ int run_commands(int count, char** arguments)
             kind.clocks.external = true;
         } else if (word == "usart2") {
             kind.serial = 2;
-        } else if (word == "drive" && i + 1 < count) {
-            ++i;
-            drives.push_back(pin_name(arguments[i]));
+        } else if (const int wires = word == "drive" ? 1 : 4;
+                   (word == "drive" || word == "bus_drive") && i + wires < count) {
+            drives.emplace_back();
+            for (int end = i + wires; i < end;) {
+                ++i;
+                const PinName pin = pin_name(arguments[i]);
+                drives.back().push_back({pin.port, pin.number});
+            }
         } else if (word == "spindle" && i + 3 < count) {
             spindle = {static_cast<vfd::Protocol>(std::stoi(arguments[i + 1])),
                        static_cast<unsigned>(std::stoul(arguments[i + 2])),
@@ -436,8 +443,8 @@ int run_commands(int count, char** arguments)
     if (settings > 4) {
         chip.flash().set_times(2 * kSecond, 16 * kMicrosecond);  // 128 KB
     }
-    for (const PinName& pin : drives) {
-        chip.add_drive("drive " + std::to_string(chip.drives()), pin.port, pin.number);
+    for (const auto& wires : drives) {
+        chip.add_drive("drive " + std::to_string(chip.drives()), wires);
     }
     if (spindle) {
         chip.add_spindle(spindle->protocol, spindle->usart, spindle->pin.port, spindle->pin.number);

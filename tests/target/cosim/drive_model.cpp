@@ -36,7 +36,7 @@ std::uint8_t checksum(const std::vector<std::uint8_t>& bytes, std::size_t count)
 }  // namespace
 
 DriveModel::DriveModel(Circuit& circuit, std::string name, PortModel& port, unsigned pin)
-    : Model{circuit}, name_{std::move(name)}, port_{port}, pin_{pin}
+    : SocketModel{circuit}, name_{std::move(name)}, port_{port}, pin_{pin}
 {
     port_.set_listener(pin_, [this] { look(); });
     DriveModel::reset();

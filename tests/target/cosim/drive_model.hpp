@@ -8,10 +8,11 @@
 #include <map>
 
 #include "tests/target/cosim/port_model.hpp"
+#include "tests/target/cosim/socket_model.hpp"
 
 namespace cusp::cosim {
 
-class DriveModel final : public Model {
+class DriveModel final : public SocketModel {
 public:
     // `pin`: of the port that the wire goes to.
     DriveModel(Circuit& circuit, std::string name, PortModel& port, unsigned pin);
@@ -24,23 +25,18 @@ public:
     // The port's levels may have changed.
     void look();
 
-    // Faults: no module, or none with power; a wrong checksum in so many answers; another chip; writes that
-    // are lost; bits of DRV_STATUS.
-    void set_missing(bool on);
-    void garble_answers(unsigned count) { garbled_ = count; }
-    void set_version(std::uint32_t version) { version_ = version; }
-    void set_deaf(bool on) { deaf_ = on; }
-    // By how much its bits are longer than those of the request.
-    void set_drift(std::int32_t parts_per_thousand) { drift_ = parts_per_thousand; }
-    void set_status(std::uint32_t bits);
+    void set_missing(bool on) override;
+    void garble_answers(unsigned count) override { garbled_ = count; }
+    void set_version(std::uint32_t version) override { version_ = version; }
+    void set_deaf(bool on) override { deaf_ = on; }
+    void set_drift(std::int32_t parts_per_thousand) override { drift_ = parts_per_thousand; }
+    void set_status(std::uint32_t bits) override;
 
-    const std::map<std::uint32_t, std::uint32_t>& registers() const { return registers_; }
-    const std::string& name() const { return name_; }
-    std::uint64_t answers() const { return answers_; }
-    std::uint64_t damaged() const { return damaged_; }  // requests that came with a wrong checksum
-    Picoseconds written_at() const { return written_at_; }
-    // Of the last datagram, bits a second.
-    double baud() const { return bit_ > 0 ? 1e12 / static_cast<double>(bit_) : 0; }
+    const std::map<std::uint32_t, std::uint32_t>& registers() const override { return registers_; }
+    std::uint64_t answers() const override { return answers_; }
+    std::uint64_t damaged() const override { return damaged_; }
+    Picoseconds written_at() const override { return written_at_; }
+    double baud() const override { return bit_ > 0 ? 1e12 / static_cast<double>(bit_) : 0; }
 
 private:
     enum class State { kIdle, kSync, kBits, kBetween, kAnswer };

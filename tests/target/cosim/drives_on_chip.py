@@ -287,18 +287,19 @@ def trial_load(chip):
 TRIALS = {name[6:]: function for name, function in list(globals().items()) if name.startswith("trial_")}
 
 
-def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+def run_trials(usage, trials, chip_of):
+    """The exit status. `chip_of`: of the options and a trial's name."""
+    parser = argparse.ArgumentParser(usage=usage)
     for name in ("cosim", "cusp", "board", "image"):
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("trials", nargs="*", metavar="TRIAL")
     options = parser.parse_args()
     failed = 0
-    for name in options.trials or TRIALS:
+    for name in options.trials or trials:
         begin = time.monotonic()
         try:
-            with Chip(options.cosim, options.image, options.board) as chip:
-                TRIALS[name](chip)
+            with chip_of(options, name) as chip:
+                trials[name](chip)
             print(f"{name}: holds ({time.monotonic() - begin:.1f} s)")
         except AssertionError as error:
             failed += 1
@@ -310,4 +311,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_trials(__doc__, TRIALS, lambda options, name: Chip(options.cosim, options.image, options.board)))

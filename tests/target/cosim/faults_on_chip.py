@@ -8,7 +8,7 @@ import re
 import sys
 import unittest
 
-from chip import CHIPS, ROOT, WIRED_AS, Chip, CosimFailed
+from chip import BUS, CHIPS, DRIVES, ROOT, WIRED_AS, Chip, CosimFailed
 
 options = None
 MOST_HZ = {"black_pill_f411": 96e6}  # the others: 168 MHz
@@ -101,12 +101,15 @@ class Pins(unittest.TestCase):
                 wanted = {machine.pins[name]: high for name in names if name in machine.pins}
                 wanted.update({pin: high for pin in machine.lines})
                 wanted.update({pin: 1 - high for pin in machine.enables})
+                wires = [machine.pins[name] for name in (*DRIVES, *BUS[:2]) if name in machine.pins]
+                wanted.update({pin: 1 for pin in wires})
                 for pin, level in wanted.items():
                     driven = [time for time, port, driven, _ in changes[1:]
                               if port == pin[1] and driven >> int(pin[2:]) & 1]
                     self.assertTrue(driven, pin)
                     self.assertLessEqual((driven[0] - began) / 1e6 * slower, 1.0, pin)
-                    if pin != machine.pins.get("spindle pulses"):
+                    # Those of the pulses and of the drives go on.
+                    if pin not in (machine.pins.get("spindle pulses"), *wires):
                         edges = machine.edges_of(pin, changes[1:])
                         self.assertEqual({at for _, at in edges} - {level}, set(), pin)
 

@@ -151,6 +151,24 @@ FAULTS_OF_DRIVES = {
 }
 
 
+# Faults of the drives' bus; bus_drives_on_chip.py judges. `--bus-faults` plants these, on skr2_f407.
+BUS = "hal/stm32f4/drive_bus.hpp"
+FAULTS_OF_BUS = {
+    "bits closer than a drive takes them": (BUS, "kPauseReads = 16", "kPauseReads = 1"),
+    "lowest bit of a byte first": (BUS, "byte >> (bit - 1)", "byte >> (kBitsOfByte - bit)"),
+    "the clock upside down": (BUS, "kDriveBus.clock, false);\n            pause();", "kDriveBus.clock, true);\n            pause();"),
+    "the answer to the datagram before": (BUS, "        exchange(drive, {}, answer);\n", ""),
+    "one long datagram": (BUS, "        put(select, true);\n", ""),
+    "the other level selects": (BUS, "put(select, false);", "put(select, true);"),
+    "pins left as inputs": ("boards/mill3/chip_traits.hpp", "            DriveBus::rest();\n", ""),
+    "data and clock swapped": (SKR2, "{{'E', 15}, {'E', 14}", "{{'E', 14}, {'E', 15}"),
+    "the answer from another pin": (SKR2, "{'A', 14}}", "{'E', 13}}"),
+    "select lines of two drives swapped": (SKR2, "{'E', 0}, {'D', 3}", "{'D', 3}, {'E', 0}"),
+    "another resistor": (SKR2, "kBusSenseMilliohms = 75", "kBusSenseMilliohms = 110"),
+    "answers not taken": (APP, "drives.take({bytes.data(), bytes.size()}, tick);", ""),
+}
+
+
 # Faults of the spindle's line; spindle_on_chip.py judges. `--spindle-faults` plants these, on a board with one.
 SPINDLE_WIRE = "hal/stm32f4/spindle_wire.hpp"
 FAULTS_OF_SPINDLE = {
@@ -254,10 +272,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("cosim", "cusp", "board", "image"):
         parser.add_argument(f"--{name}", required=True)
-    parser.add_argument("--stops", action="store_true", help="the faults that delay a stop")
-    parser.add_argument("--usb-faults", action="store_true", help="the faults of USB and of two links")
-    parser.add_argument("--drive-faults", action="store_true", help="the faults of the drives' wires")
-    parser.add_argument("--spindle-faults", action="store_true", help="the faults of the spindle's line")
+    sets = {"stops": ("the faults that delay a stop", "stops_on_chip.py", FAULTS_OF_STOPS),
+            "usb-faults": ("the faults of USB and of two links", "usb_on_chip.py", FAULTS_OF_USB),
+            "drive-faults": ("the faults of the drives' wires", "drives_on_chip.py", FAULTS_OF_DRIVES),
+            "bus-faults": ("the faults of the drives' bus", "bus_drives_on_chip.py", FAULTS_OF_BUS),
+            "spindle-faults": ("the faults of the spindle's line", "spindle_on_chip.py", FAULTS_OF_SPINDLE)}
+    for name, (what, _, _) in sets.items():
+        parser.add_argument(f"--{name}", dest="chosen", action="store_const", const=name, help=what)
     parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
@@ -269,17 +290,14 @@ def main():
         options.chip_seconds = options.seconds = 0.0
         options.most_ticks = 20000  # ten times what it takes
         missed = []
-        script = "stops_on_chip.py" if options.stops else "usb_on_chip.py" if options.usb_faults else \
-            "drives_on_chip.py" if options.drive_faults else "spindle_on_chip.py" if options.spindle_faults else None
+        by_board = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}
+        _, script, faults = sets.get(options.chosen, ("", None, by_board.get(options.board, FAULTS)))
         look = functools.partial(find_by, script) if script else find
         try:
             builder = Builder(options.image, folder)
             said = look(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
-            faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
-            faults = FAULTS_OF_STOPS if options.stops else FAULTS_OF_USB if options.usb_faults else \
-                FAULTS_OF_DRIVES if options.drive_faults else FAULTS_OF_SPINDLE if options.spindle_faults else faults
             faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
                 said = look(options, builder.make(file, old, new))

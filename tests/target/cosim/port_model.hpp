@@ -31,6 +31,8 @@ public:
     bool driven(unsigned pin) const { return mode(pin) == 1; }
     bool high(unsigned pin) const { return (odr_ >> pin & 1U) != 0; }
     char letter() const { return letter_; }
+    // Something outside drives it.
+    bool held(unsigned pin) const { return outside_[pin] >= 0; }
     // Level of the wire at a pin, whoever drives it; a wire that nobody drives is high.
     bool wire_high(unsigned pin) const { return driven(pin) ? high(pin) : outside_[pin] != 0; }
     // Called when the port's outputs change.

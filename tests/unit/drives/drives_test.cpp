@@ -7,6 +7,8 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/drives/tmc2209.hpp"
+
 using namespace cusp;
 using namespace cusp::drives;
 
@@ -25,8 +27,8 @@ public:
     Bench()
     {
         for (unsigned drive = 0; drive < kMostDrives; ++drive) {
-            registers[drive] =
-                registers_for({500.0F + 100.0F * static_cast<float>(drive), 50, 16, 0, 800, 110});
+            registers[drive] = tmc2209::registers_for(
+                {500.0F + 100.0F * static_cast<float>(drive), 50, 16, 0, 800, 110});
         }
         drives.configure(registers, 7);
         drives.restart(tick);
@@ -75,7 +77,7 @@ public:
         }
         const unsigned wrong = drive.garbled > 0 ? 1 : 0;
         drive.garbled -= wrong;
-        (void)answer.try_push_back(static_cast<std::uint8_t>(crc8(answer.span()) ^ wrong));
+        (void)answer.try_push_back(static_cast<std::uint8_t>(tmc2209::crc8(answer.span()) ^ wrong));
     }
     void fails(unsigned drive, FaultKind kind)
     {
@@ -222,7 +224,7 @@ TEST(Drives, other_settings_are_written_with_the_current_on)
     bench.run(kSetTime);
     bench.drives.configure(bench.registers, 7);
     CHECK_TRUE(bench.drives.ready());
-    bench.registers[1] = registers_for({900, 20, 64, 0, 800, 110});
+    bench.registers[1] = tmc2209::registers_for({900, 20, 64, 0, 800, 110});
     bench.drives.configure(bench.registers, 7);
     CHECK_FALSE(bench.drives.ready());
     CHECK_TRUE(bench.drives.may_have_current());
@@ -247,8 +249,8 @@ TEST(Drives, settings_that_change_at_any_time_end_in_the_last_ones)
                 fresh.drives.restart(fresh.tick);
             }
             motors = static_cast<std::uint8_t>(1 + random() % 15);
-            fresh.registers[random() % 4] =
-                registers_for({static_cast<float>(100 + random() % 1500), 50, 16, 0, 800, 110});
+            fresh.registers[random() % 4] = tmc2209::registers_for(
+                {static_cast<float>(100 + random() % 1500), 50, 16, 0, 800, 110});
             fresh.drives.configure(fresh.registers, motors);
         }
         fresh.run(600);

@@ -4,6 +4,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/drives/tmc2209.hpp"
 #include "tests/support/controller_bench.hpp"
 
 using namespace cusp;
@@ -47,7 +48,7 @@ public:
         for (unsigned shift = 32; shift > 0; shift -= 8) {
             (void)reply.try_push_back(static_cast<std::uint8_t>(value >> (shift - 8)));
         }
-        (void)reply.try_push_back(drives::crc8(reply.span()));
+        (void)reply.try_push_back(drives::tmc2209::crc8(reply.span()));
         for (std::size_t i = 0; i < reply.size(); ++i) {
             answer[i] = reply[i];
         }
@@ -147,6 +148,14 @@ TEST(MachineDrives, an_axis_without_one_is_left_out_by_338)
     bench.exchange("$338=5\n", kSet);
     CHECK_FALSE(has_text(bench.exchange("G0Y1\n", 1000), "ALARM"));
     CHECK_TRUE(bench.app.machine().state() == State::kIdle);
+}
+
+TEST(MachineDrives, a_board_without_their_bus_has_no_tmc5160)
+{
+    const std::string heard = bench.exchange("$798=2\n", kSet);
+    CHECK_TRUE(has_text(heard, "error:5"));
+    CHECK_TRUE(has_text(heard, "[MSG:$798: this board has no pin for it]"));
+    CHECK_TRUE(has_text(bench.exchange("$798=8\n", kSet), "error:"));
 }
 
 TEST(MachineDrives, a_fault_in_motion_stops_it_and_takes_the_current)

@@ -124,8 +124,9 @@ void check_carried_over(const PowerCycle& mill, double rate)
     LONGS_EQUAL(-114300000, parameters.tools.length_nm(3));
 }
 
-// The settings that layout 10, 9, 8, 7, 6, 5, 4 and 3 brought, as `$` numbers.
+// The settings that layout 11, 10, 9, 8, 7, 6, 5, 4 and 3 brought, as `$` numbers.
 const std::vector<std::vector<std::uint16_t>> kBrought{
+    {798},
     {340, 374, 375, 395, 460, 462, 463, 464, 465, 466, 467, 468, 469, 470, 471},
     {37, 44, 45, 46, 160, 161, 162, 850, 851, 852},
     {140, 141, 142, 150, 151, 152, 210, 211, 212, 338, 840, 841, 842},
