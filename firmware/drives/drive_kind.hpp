@@ -1,4 +1,4 @@
-// What kinds of drives have in common: registers, the needs of a motor, and the steps of setting and watching
+// Kinds of drives share: registers, the needs of a motor, and the steps of setting and watching
 // one. A kind is a table of these steps, its datagrams, and the registers that a motor needs.
 #pragma once
 
@@ -101,7 +101,7 @@ inline constexpr std::uint32_t kHoldDelay = 20;  // TPOWERDOWN: 0.44 s after the
 inline constexpr float kRootOfTwo = 1.41421356F;
 inline constexpr float kMostScale = 32;  // CS + 1
 
-// Of datagrams: a byte, and a word with its highest byte first.
+// These append to a datagram: a byte, and a word with its highest byte first.
 void put(std::uint32_t byte, Datagram& datagram) noexcept;
 void put_word(std::uint32_t word, Datagram& datagram) noexcept;
 // Precondition: four bytes from there on.

@@ -183,7 +183,7 @@ void Drives::judge(std::uint32_t value, std::uint32_t tick) noexcept
     }
 }
 
-// What the drive says of itself.
+// The drive's own report of its state.
 std::optional<FaultKind> Drives::fault_in(std::uint32_t value) const noexcept
 {
     std::optional<FaultKind> fault;
@@ -216,7 +216,7 @@ std::optional<FaultKind> Drives::fault_in(std::uint32_t value) const noexcept
     return fault;
 }
 
-// Whether it has taken in what was written.
+// True if it has taken in what was written.
 bool Drives::kept(std::uint32_t value) noexcept
 {
     constexpr std::uint32_t kCounts = 256;

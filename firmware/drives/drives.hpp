@@ -28,7 +28,7 @@ struct DriveRequest {
     Datagram bytes;
     bool replies;  // an answer follows
 };
-// What makes a drive of this kind do what its motor needs.
+// The registers by which a drive of this kind does what its motor needs.
 DriveRegisters registers_for(DriveKind kind, const MotorSetup& setup) noexcept;
 
 enum class FaultKind : std::uint8_t {

@@ -87,7 +87,7 @@ Vec3f unit(Vec3f a) noexcept
     return length > 0 ? a / length : a;
 }
 
-// Of a curve that begins or ends on a line's end.
+// The lean of a curve that begins or ends on a line's end.
 path::PathLean lean_of(Vec3f tangent, Vec3f line) noexcept
 {
     const float length = norm(line);

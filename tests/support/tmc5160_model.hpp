@@ -29,7 +29,7 @@ public:
         kDrvStatus = 0x6F,
         kPwmconf = 0x70,
     };
-    // Of GSTAT.
+    // Bits of GSTAT.
     static constexpr std::uint32_t kReset = 1, kDriverError = 2, kUndervoltage = 4;
 
     Tmc5160Model() { power_up(); }

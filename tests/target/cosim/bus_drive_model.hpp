@@ -18,7 +18,7 @@ public:
         bool high() const { return port.wire_high(pin); }
     };
 
-    // What the chip has for CSN, SCK, SDI and SDO.
+    // The chip's pins for CSN, SCK, SDI and SDO.
     BusDriveModel(Circuit& circuit,
                   std::string name,
                   Wire select,

@@ -12,7 +12,7 @@ import sys
 
 import drives_on_chip
 from chip import Chip
-from drives_on_chip import AXES, Wrong, bits, expect_alarm, first_edge, run_trials, set_all
+from drives_on_chip import AXES, Wrong, bits, expect_alarm, first_edge, run_trials, set_all, stop_at_faults
 
 GCONF, GSTAT, GLOBALSCALER, IHOLD_IRUN, TPWMTHRS, CHOPCONF = 0x00, 0x01, 0x0B, 0x10, 0x13, 0x6C
 ALL = (0, 1, 2, 3)
@@ -156,29 +156,12 @@ def trial_answers(chip):
 def trial_faults_in_motion(chip):
     """Over-temperature, shorts, a supply that fails or sinks, amid a move: motion ends at once."""
     ready(chip)
-    worst = 0.0
-    for drive, fault, cure, words in ((1, f"status {1 << 25}", "status 0", "Drive Y is too hot"),
-                                      (0, f"status {1 << 27}", "status 0", "Drive X has a short"),
-                                      (2, f"status {1 << 13}", "status 0", "Drive Z has a short"),
-                                      (2, "starve", "there", "Drive Z had too little voltage"),
-                                      (1, "restart", "there", "Drive Y was without power"),
-                                      (0, "missing", "there", "Drive X does not answer")):
-        chip.ask("$J=G91X60F1500")
-        chip.run(200)
-        chip.changes()
-        begin = chip.state()["now"] * 1000
-        chip.command(f"drive {drive} {fault}")
-        heard = chip.run(400)
-        last = (chip.edges_of("X step", chip.changes())[-1][0] - begin) / 1e6
-        worst = max(worst, last)
-        if last > 200:
-            raise Wrong(f"{words}: steps until {last:.1f} ms after it")
-        expect_alarm(chip, heard, words)
-        chip.command(f"drive {drive} {cure}")
-        chip.send("\x18")
-        chip.run(500)
-        chip.ask("$X")
-    print(f"the last step comes at most {worst:.0f} ms after the fault")
+    stop_at_faults(chip, ((1, f"status {1 << 25}", "status 0", "Drive Y is too hot"),
+                          (0, f"status {1 << 27}", "status 0", "Drive X has a short"),
+                          (2, f"status {1 << 13}", "status 0", "Drive Z has a short"),
+                          (2, "starve", "there", "Drive Z had too little voltage"),
+                          (1, "restart", "there", "Drive Y was without power"),
+                          (0, "missing", "there", "Drive X does not answer")), 200)
 
 
 def trial_mixed(chip):

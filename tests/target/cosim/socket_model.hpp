@@ -32,7 +32,7 @@ public:
     virtual std::uint64_t answers() const = 0;
     virtual std::uint64_t damaged() const = 0;  // requests that it could not take
     virtual Picoseconds written_at() const = 0;
-    // Of the last datagram, bits a second.
+    // The rate of the last datagram, bits a second.
     virtual double baud() const = 0;
 };
 
