@@ -201,8 +201,8 @@ class Solids(unittest.TestCase):
         (self.folder / "bracket.step").write_bytes(BRACKET.read_bytes())
         said, program = self.one_line("bracket.step", "--tool", "flat:5", "drill:6", "drill:6.6")
         self.assertIn("4 holes of 6 mm, all through: drill, drill 6 mm", said)
-        self.assertIn("1 hole of 12 mm: milled where a flat end fits; --tool drill:12 drills it", said)
-        self.assertIn("z 15 to 10: cleared, flat 5 mm", said)
+        self.assertIn("1 hole of 12 mm, none through: bore, flat 5 mm", said)
+        self.assertIn("z 15 to 9: cleared, flat 5 mm", said)
         cycle = program.split("\nT2 ")[1].split("G80")[0].splitlines()
         self.assertEqual(4, sum("G81" in line or "G83" in line or line.startswith("X") for line in cycle))
         _, program = self.one_line("bracket.step", "--tool", "flat:5")  # against the part's surfaces
@@ -218,12 +218,18 @@ class Solids(unittest.TestCase):
         self.assertEqual(0, figures["rapid_cut_max_mm"])
 
     @unittest.skipUnless(WITH_CAD, "no Open CASCADE")
-    def test_drilled_holes_are_left_out_of_the_pockets(self):
+    def test_holes_are_left_out_of_the_pockets(self):
         (self.folder / "bracket.step").write_bytes(BRACKET.read_bytes())
-        _, program = self.one_line("bracket.step", "--tool", "flat:4", "drill:6")
-        self.assertIn("except_diameters = [6]", (self.folder / "job.toml").read_text())
-        drilled = [line for line in program.split("T1")[0].splitlines() if "G81" in line or "G83" in line]
-        self.assertTrue(drilled or "T2" in program)
+        self.one_line("bracket.step", "--tool", "flat:4", "drill:6")
+        self.assertIn("#below:9:no_holes", (self.folder / "job.toml").read_text())
+        self.job(['strategy = "drill"\nboundary = "bracket.step#holes:10:12"'], diameter=6, stock=(0, 80, 0, 50, 15))
+        path = self.folder / "job.toml"
+        path.write_text(path.read_text().replace('"flat"', '"drill"'))
+        self.run_cusp("plan", "job.toml", "-o", "p.ngc")
+        self.assertIn("(drill: 1 hole", (self.folder / "p.ngc").read_text())
+        path.write_text(path.read_text().replace("#holes:10:12", "#level:9"))
+        self.assertIn("bracket.step#level:9: holes of a part are chosen by #holes:Z:Z",
+                      self.run_cusp("plan", "job.toml", "-o", "p.ngc", status=2))
 
 
 if __name__ == "__main__":

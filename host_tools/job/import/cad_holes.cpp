@@ -282,6 +282,19 @@ CadHoles holes_of(const CadModel& model)
     return found;
 }
 
+std::vector<Hole> mouths_of(const CadHoles& holes)
+{
+    std::vector<Hole> mouths = holes.holes;
+    for (std::size_t k = 0; k < holes.holes.size(); ++k) {
+        if (const auto& cone = holes.cones[k]) {
+            const double foot = holes.holes[k].span->top;
+            mouths.push_back(
+                {holes.holes[k].at, cone->diameter, Hole::Span{foot + cone->depth, foot, false}});
+        }
+    }
+    return mouths;
+}
+
 CadHoles read_cad_holes(const std::string& file, const Similarity& placed)
 {
     CadModel model = read_cad_model(file);

@@ -29,6 +29,9 @@ struct CadHoles {
 // model  with all of its faces (read_cad_model())
 CadHoles holes_of(const CadModel& model);
 
+// The holes, and over those that a cone widens one as wide as that, down to the cone's lower end.
+std::vector<job::Hole> mouths_of(const CadHoles& holes);
+
 // The holes of a file, placed; z is the tool's axis.
 //
 // Errors: as read_cad_model().

@@ -290,7 +290,10 @@ const DrawnPaths* PartFiles::drawn(const std::string& name, double millimetres)
     }
     const auto [found, is_new] = regions_.try_emplace(name);
     if (is_new) {
-        found->second = part_region(name, millimetres, facets(without_layer(name), millimetres));
+        const std::string file = without_layer(name);
+        const bool filled = names_filled_region(name) && is_cad_file(file);
+        found->second = part_region(name, millimetres, facets(file, millimetres),
+                                    filled ? mouths_of(cad_holes(file)) : std::vector<job::Hole>{});
     }
     return &found->second;
 }
@@ -310,10 +313,10 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
                                         DiameterRange range,
                                         bool only_circles)
 {
-    const Similarity move = placed_drawing(file);
-    if (is_cad_file(file)) {
-        return model_holes(file, range);
+    if (is_cad_file(without_layer(file))) {
+        return model_holes(file, range, hole_tops(file, millimetres));
     }
+    const Similarity move = placed_drawing(file);
     const double scale = norm(move.axes[0]);
     const DiameterRange drawn{range.least / scale, range.greatest / scale};
     std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
@@ -327,13 +330,19 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
     return holes;
 }
 
-std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterRange range)
+const CadHoles& PartFiles::cad_holes(const std::string& file)
 {
     const auto [known, is_new] = cad_holes_.try_emplace(file);
     CadHoles& found = known->second;
     if (is_new) {
         found = read_cad_holes(file, placed(file));
+        const std::size_t places = std::max<std::size_t>(copies(file).size(), 1);
         repeat(copies(file), found.holes);
+        std::vector<std::optional<job::HoleMouth>> cones;
+        for (const auto& cone : found.cones) {
+            cones.insert(cones.end(), places, cone);
+        }
+        found.cones = cones;
         if (found.closed_above > 0) {
             notes_.push_back(fmt::format("{}: {} below alone and {} not drilled", file,
                                          found.closed_above == 1
@@ -342,9 +351,19 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
                                          found.closed_above == 1 ? "is" : "are"));
         }
     }
+    return found;
+}
+
+std::vector<job::Hole> PartFiles::model_holes(const std::string& name,
+                                              DiameterRange range,
+                                              std::optional<std::array<double, 2>> tops)
+{
     std::vector<job::Hole> holes;
     std::set<double> diameters;
-    for (const job::Hole& hole : found.holes) {
+    for (const job::Hole& hole : cad_holes(without_layer(name)).holes) {
+        if (tops && (hole.span->top < tops->front() || hole.span->top > tops->back())) {
+            continue;
+        }
         diameters.insert(std::round(hole.diameter * 1e4) / 1e4);
         if (hole.diameter >= range.least && hole.diameter <= range.greatest) {
             holes.push_back(hole);
@@ -352,9 +371,9 @@ std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterR
     }
     if (holes.empty()) {
         throw InputError(diameters.empty()
-                             ? file + ": no vertical hole to drill"
+                             ? name + ": no vertical hole to drill"
                              : fmt::format("{}: no hole of the wanted diameter; there are {:g} mm",
-                                           file, fmt::join(diameters, ", ")));
+                                           name, fmt::join(diameters, ", ")));
     }
     return holes;
 }

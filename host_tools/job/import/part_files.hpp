@@ -53,6 +53,8 @@ public:
                                  DiameterRange range,
                                  bool only_circles);
     std::vector<job::Chain> chains(const std::string& file, double millimetres);
+    // Those of a model with their cones, placed.
+    const CadHoles& cad_holes(const std::string& file);
 
     // A drawing that is no file, such as a text: loops(), shapes() and chains() find it by its name.
     void draw(const std::string& name, DrawnPaths drawn) { drawn_[name] = std::move(drawn); }
@@ -83,7 +85,10 @@ public:
 private:
     // A drawing that is no file, where the name is that of one; null: it is a file.
     const DrawnPaths* drawn(const std::string& name, double millimetres);
-    std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
+    // tops  z at which they begin; none: all
+    std::vector<job::Hole> model_holes(const std::string& name,
+                                       DiameterRange range,
+                                       std::optional<std::array<double, 2>> tops);
     Similarity placed(const std::string& file) const;
     std::optional<ReliefSize> relief(const std::string& file) const;
     // From where placed() says to all places of the file.

@@ -28,6 +28,9 @@ using offset::Region2d;
 namespace {
 
 constexpr const char* kRegions = "#outline, #above:Z, #below:Z, #level:Z";
+constexpr const char* kFilled = ":no_holes";
+constexpr const char* kHoleTops = "holes:";
+constexpr double kSameTop = 1e-3;  // mm
 
 struct RegionName {
     std::string file;
@@ -35,26 +38,41 @@ struct RegionName {
     double z;  // of `kind` "outline" 0
 };
 
-RegionName read_name(const std::string& name, double millimetres)
+double height_of(const std::string& name,
+                 const std::string& kind,
+                 const std::string& text,
+                 double millimetres)
+{
+    const auto z = number_text::number_of(text);
+    if (!z || !std::isfinite(*z)) {
+        throw InputError(fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4",
+                                     name, text, kind));
+    }
+    return *z * millimetres;
+}
+
+std::string region_text(const std::string& name)
 {
     const std::size_t mark = layer_mark(name);
-    const std::string text = name.substr(mark + 1);
+    return mark == std::string::npos ? "" : name.substr(mark + 1);
+}
+
+RegionName read_name(const std::string& name, double millimetres)
+{
+    std::string text = region_text(name);
+    if (names_filled_region(name)) {
+        text.erase(text.size() - std::string{kFilled}.size());
+    }
     const std::size_t colon = std::min(text.find(':'), text.size());
-    RegionName read{name.substr(0, mark), text.substr(0, colon), 0};
+    RegionName read{name.substr(0, layer_mark(name)), text.substr(0, colon), 0};
     const bool has_height = read.kind == "above" || read.kind == "below" || read.kind == "level";
     if (!has_height && text != "outline") {
         throw InputError(
             fmt::format("{}: a part has no \"{}\"; its regions are {}", name, text, kRegions));
     }
     if (has_height) {
-        const std::string height = text.substr(std::min(colon + 1, text.size()));
-        const auto z = number_text::number_of(height);
-        if (!z || !std::isfinite(*z)) {
-            throw InputError(
-                fmt::format("{}: \"{}\" is no height: a number is needed, such as #{}:-4", name,
-                            height, read.kind));
-        }
-        read.z = *z * millimetres;
+        read.z =
+            height_of(name, read.kind, text.substr(std::min(colon + 1, text.size())), millimetres);
     }
     return read;
 }
@@ -142,6 +160,57 @@ bool names_part_region(const std::string& name)
     return is_cad_file(file) || is_mesh_file(file);
 }
 
+bool names_filled_region(const std::string& name)
+{
+    const std::string text = region_text(name);
+    const std::string ending = kFilled;
+    return text.size() > ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::optional<std::array<double, 2>> hole_tops(const std::string& name, double millimetres)
+{
+    const std::string text = region_text(name);
+    if (text.empty()) {
+        return std::nullopt;
+    }
+    const std::string begin = kHoleTops;
+    const std::size_t colon = text.find(':', begin.size());
+    if (text.rfind(begin, 0) != 0 || colon == std::string::npos) {
+        throw InputError(fmt::format(
+            "{}: holes of a part are chosen by #holes:Z:Z, the heights between which they begin",
+            name));
+    }
+    const auto at = [&](const std::string& number) {
+        return height_of(name, "holes:-4", number, millimetres);
+    };
+    return std::array{at(text.substr(begin.size(), colon - begin.size())) - kSameTop,
+                      at(text.substr(colon + 1)) + kSameTop};
+}
+
+Region2d hole_disc(const job::Hole& hole)
+{
+    const double radius = hole.diameter / 2 + kRegionFit;
+    const std::array<Vec2d, 4> ends{hole.at + Vec2d{radius, 0}, hole.at + Vec2d{0, radius},
+                                    hole.at - Vec2d{radius, 0}, hole.at - Vec2d{0, radius}};
+    offset::Contour contour;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        contour.push_back(offset::arc_edge(ends[k], ends[(k + 1) % ends.size()], hole.at, 1));
+    }
+    return {{contour}};
+}
+
+Region2d with_holes_filled(const Region2d& region, const std::vector<job::Hole>& holes, double z)
+{
+    Region2d discs;
+    for (const job::Hole& hole : holes) {
+        if (hole.span->top > z + kSameTop) {
+            discs.contours.push_back(hole_disc(hole).contours.front());
+        }
+    }
+    return offset::united(region, discs);
+}
+
 DrawnPaths drawn_region(const Region2d& region)
 {
     DrawnPaths drawn;
@@ -155,15 +224,17 @@ DrawnPaths drawn_region(const Region2d& region)
 
 DrawnPaths part_region(const std::string& name,
                        double millimetres,
-                       const std::vector<std::array<Vec3d, 3>>& facets)
+                       const std::vector<std::array<Vec3d, 3>>& facets,
+                       const std::vector<job::Hole>& filled)
 {
     const RegionName wanted = read_name(name, millimetres);
     const PartExtent box = extent_of_triangles(facets);
     const double z = wanted.kind == "outline" ? box.low.z - 1 : wanted.z;
-    const Region2d region = wanted.kind == "level" ? offset::level_ground(facets, z)
-                            : wanted.kind == "below"
-                                ? offset::without(box_region(box), offset::shadow_above(facets, z))
-                                : offset::shadow_above(facets, z);
+    const bool is_level = wanted.kind == "level";
+    const Region2d stands = with_holes_filled(
+        is_level ? offset::level_ground(facets, z) : offset::shadow_above(facets, z), filled, z);
+    const Region2d region =
+        wanted.kind == "below" ? offset::without(box_region(box), stands) : stands;
     const Region2d fitted = waterline_slices::fitted_region(region, kRegionFit);
     if (fitted.contours.empty()) {
         refuse_empty(name, wanted, box, facets);

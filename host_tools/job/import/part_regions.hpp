@@ -6,6 +6,11 @@
 //   FILE#above:Z    what stands above Z: a profile around it finishes the walls down to there
 //   FILE#below:Z    what the part's box has beside that: a pocket of it clears the part down to Z
 //   FILE#level:Z    the level ground at Z
+//
+// After Z may follow ":no_holes": round holes of a model that begin above Z are filled in. Holes themselves, for what
+// drills and bores, are chosen by
+//
+//   FILE#holes:Z:Z  those whose walls begin between both heights
 #pragma once
 
 #include <array>
@@ -17,6 +22,7 @@
 #include "host_tools/geometry/offset/contour.hpp"
 #include "host_tools/job/import/drawing.hpp"
 #include "host_tools/job/import/part_extent.hpp"
+#include "host_tools/job/job/prismatic_keys.hpp"
 
 namespace cusp::import {
 
@@ -26,16 +32,33 @@ inline constexpr double kRegionFit = 1e-3;
 // True if a "#" follows the name of a model or of a mesh.
 bool names_part_region(const std::string& name);
 
+// True if the region has no round holes.
+bool names_filled_region(const std::string& name);
+
+// The least and the greatest z, mm, at which the wanted holes of a model begin; none: the name wants all of them.
+//
+// Errors: InputError: the name is that of another region, or a height is no number.
+std::optional<std::array<double, 2>> hole_tops(const std::string& name, double millimetres);
+
 // The region's loops, of lines and arcs, not nested.
 //
 // name         FILE#REGION, for messages too
 // millimetres  of one unit of Z
 // facets       of the whole part, placed
+// filled       holes, placed, that it shall not have: empty where names_filled_region() is false
 //
 // Errors: InputError: no such region, Z is no number, nothing is there, with the heights that there are.
 DrawnPaths part_region(const std::string& name,
                        double millimetres,
-                       const std::vector<std::array<Vec3d, 3>>& facets);
+                       const std::vector<std::array<Vec3d, 3>>& facets,
+                       const std::vector<job::Hole>& filled);
+
+offset::Region2d hole_disc(const job::Hole& hole);
+
+// The region and the discs of the holes that begin above z.
+offset::Region2d with_holes_filled(const offset::Region2d& region,
+                                   const std::vector<job::Hole>& holes,
+                                   double z);
 
 // The rectangle of the box.
 offset::Region2d box_region(const PartExtent& box);

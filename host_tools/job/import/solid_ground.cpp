@@ -63,21 +63,12 @@ bool is_on_side(const Triangle& t, const PartExtent& box)
            lie(&Vec3d::y, box.high.y);
 }
 
-Contour circle(Vec2d centre, double radius)
-{
-    const std::array<Vec2d, 4> ends{centre + Vec2d{radius, 0}, centre + Vec2d{0, radius},
-                                    centre - Vec2d{radius, 0}, centre - Vec2d{0, radius}};
-    Contour contour;
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-        contour.push_back(offset::arc_edge(ends[k], ends[(k + 1) % ends.size()], centre, 1));
-    }
-    return contour;
-}
-
 class SolidSurvey {
 public:
-    SolidSurvey(const Triangles& facets, const std::vector<job::Hole>& holes)
-        : facets_{facets}, holes_{holes}
+    SolidSurvey(const Triangles& facets,
+                const std::vector<job::Hole>& holes,
+                const std::vector<job::Hole>& mouths)
+        : facets_{facets}, holes_{holes}, mouths_{mouths}
     {
         ground_.box = extent_of_triangles(facets);
     }
@@ -109,23 +100,32 @@ private:
     {
         std::vector<double> bottoms;
         for (const offset::LevelHeight& level : offset::level_heights(facets_)) {
-            bottoms.insert(bottoms.begin(), level.z);
+            if (mouths_.empty() || !is_floor_of_holes(level.z)) {
+                bottoms.insert(bottoms.begin(), level.z);
+            }
         }
         bottoms.push_back(ground_.box.low.z);
         for (const SolidBand& band : bands_down(bottoms)) {
-            if (has_opening(offset::shadow_above(facets_, band.bottom))) {
+            if (has_opening(filled(offset::shadow_above(facets_, band.bottom), band.bottom))) {
                 ground_.openings.push_back(band);
             }
         }
     }
 
+    Region2d filled(const Region2d& region, double z) const
+    {
+        return with_holes_filled(region, mouths_, z);
+    }
+
+    bool is_floor_of_holes(double z) const
+    {
+        const Region2d level = offset::level_ground(facets_, z);
+        return area(offset::without(level, filled({}, z))) < offset::kLeastLevel;
+    }
+
     bool has_opening(const Region2d& stands) const
     {
-        Region2d covered = stands;
-        for (const job::Hole& hole : holes_) {
-            covered.contours.push_back(circle(hole.at, hole.diameter / 2 + kRegionFit));
-        }
-        const Region2d open = offset::without(box_region(ground_.box), covered);
+        const Region2d open = offset::without(box_region(ground_.box), stands);
         // Strips beside the box are rounding.
         return std::any_of(open.contours.begin(), open.contours.end(), [](const Contour& contour) {
             return std::abs(area(contour)) > 2 * kRegionFit * length(contour);
@@ -177,7 +177,7 @@ private:
         ground_.wall = std::max(0.0, ground_.wall);
         ground_.walls = bands_down(feet);
         for (SolidBand& band : ground_.walls) {
-            const Region2d stands = offset::shadow_above(facets_, band.bottom);
+            const Region2d stands = filled(offset::shadow_above(facets_, band.bottom), band.bottom);
             band.fills_box = fills_box(stands);
             if (band.fills_box) {
                 band.widest = widest(offset::without(box_region(ground_.box), stands));
@@ -217,14 +217,17 @@ private:
 
     const Triangles& facets_;
     const std::vector<job::Hole>& holes_;
+    const std::vector<job::Hole>& mouths_;
     SolidGround ground_;
 };
 
 }  // namespace
 
-SolidGround ground_of_solid(const Triangles& facets, const std::vector<job::Hole>& holes)
+SolidGround ground_of_solid(const Triangles& facets,
+                            const std::vector<job::Hole>& holes,
+                            const std::vector<job::Hole>& mouths)
 {
-    return SolidSurvey{facets, holes}.ground();
+    return SolidSurvey{facets, holes, mouths}.ground();
 }
 
 }  // namespace cusp::import

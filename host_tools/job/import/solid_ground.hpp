@@ -32,7 +32,9 @@ struct SolidGround {
 // Sides of the part's box are no walls, and nothing in the holes counts.
 //
 // facets  of the whole part
-// holes   that are cut by themselves
-SolidGround ground_of_solid(const Triangles& facets, const std::vector<job::Hole>& holes);
+// holes   that are cut by themselves, with their mouths (mouths_of())
+SolidGround ground_of_solid(const Triangles& facets,
+                            const std::vector<job::Hole>& holes,
+                            const std::vector<job::Hole>& mouths);
 
 }  // namespace cusp::import

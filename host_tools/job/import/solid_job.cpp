@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "firmware/base/inch.hpp"
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/job/import/cleared_ground.hpp"
 #include "host_tools/job/import/drawing_choice.hpp"
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/one_line_check.hpp"
@@ -18,6 +18,7 @@
 #include "host_tools/job/import/sheet_layers.hpp"
 #include "host_tools/job/import/sheet_tools.hpp"
 #include "host_tools/job/import/solid_ground.hpp"
+#include "host_tools/job/import/solid_holes.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -38,6 +39,15 @@ bool has_shape(const OneLineRequest& request, const char* shape)
 {
     return std::any_of(request.tools.begin(), request.tools.end(), [&](const std::string& text) {
         return text.rfind(std::string{shape} + ":", 0) == 0;
+    });
+}
+
+// Down along a hole's wall, in steps from its middle.
+const job::Strategy& boring_strategy(const job::Strategies& strategies)
+{
+    return **std::find_if(strategies.begin(), strategies.end(), [](const job::Strategy* one) {
+        return one->traits.region == Region::kHoles &&
+               find_key(keys_of(*one), "step_over") != nullptr;
     });
 }
 
@@ -64,8 +74,11 @@ public:
 
     SolidCuts cuts()
     {
-        const std::vector<Hole> drilled = drilled_holes();
-        const SolidGround ground = ground_of_solid(parts_.facets(file_, unit_), drilled);
+        const CadHoles found = is_cad_file(file_) ? parts_.cad_holes(file_) : CadHoles{};
+        const std::vector<Hole> mouths = mouths_of(found);
+        has_holes_ = !found.holes.empty();
+        const Triangles& facets = parts_.facets(file_, unit_);
+        const SolidGround ground = ground_of_solid(facets, found.holes, mouths);
         const Vec3d size = ground.box.size();
         check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
         const bool slants = ground.slanted > kLeastSlant;
@@ -88,7 +101,9 @@ public:
             say_part(ground);
             add_face(ground);
         }
-        add_drills(drilled);
+        if (!cuts_.is_all) {
+            cuts_.before += hole_operations(found, facets, mouths, ground);
+        }
         for (const SolidBand& band : cuts_.is_all ? ground.openings : ground.walls) {
             if (cuts_.is_all) {
                 add_band(Region::kLevelPocket, "below", band);
@@ -96,6 +111,9 @@ public:
                        choice_.tools[flats_.back()].diameter * unit_ / 2 < band.widest) {
                 add_band(Region::kOutline, "above", band);
             }
+        }
+        if (cuts_.is_all) {
+            cuts_.after += hole_operations(found, facets, mouths, ground);
         }
         if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
             throw InputError(fmt::format(
@@ -113,6 +131,8 @@ private:
     {
         return std::round(millimetres / unit_ * 1e6) / 1e6 + 0.0;
     }
+    // mm
+    double across(std::size_t tool) const { return choice_.tools[tool].diameter * unit_; }
     std::string tool_words(std::size_t tool) const
     {
         return words_of(choice_.tools[tool], request_.inch);
@@ -133,30 +153,10 @@ private:
         return found == kFinishing.end() ? "" : *found;
     }
 
-    // The vertical holes of a model that a tool of the call has the diameter of.
-    std::vector<Hole> drilled_holes()
+    std::string finishing_words() const
     {
-        std::vector<Hole> drilled;
-        if (!is_cad_file(file_)) {
-            return drilled;
-        }
-        try {
-            for (const Hole& hole : parts_.holes(file_, unit_, {0, job::kLargest}, true)) {
-                if (tool_for(hole)) {
-                    drilled.push_back(hole);
-                } else {
-                    ++milled_[number(hole.diameter)];
-                }
-            }
-        } catch (const InputError&) {
-            return {};  // there is none
-        }
-        return drilled;
-    }
-
-    std::optional<std::size_t> tool_for(const Hole& hole) const
-    {
-        return tools_.drill_for(hole.diameter / unit_, kSameDiameter / unit_, false);
+        const std::string shape = finishing_end();
+        return shape.empty() ? tool_words(flats_.back()) : shape;
     }
 
     void add_face(const SolidGround& ground)
@@ -174,35 +174,83 @@ private:
             fmt::format("top: face, {}, {:.6g} {} deep", tool_words(tool), above, choice_.unit));
     }
 
-    void add_drills(const std::vector<Hole>& drilled)
+    // A ball finishes before holes are cleared down to their ground: they begin at the stock's top then.
+    std::string hole_operations(const CadHoles& found,
+                                const Triangles& facets,
+                                const std::vector<Hole>& mouths,
+                                const SolidGround& ground)
     {
-        std::map<double, std::vector<Hole>> by_diameter;
-        for (const Hole& hole : drilled) {
-            by_diameter[std::round(hole.diameter * 1e3) / 1e3].push_back(hole);
-        }
-        for (const auto& [diameter, holes] : by_diameter) {
-            const std::size_t tool = *tool_for(holes.front());
-            double deepest = 0;
-            for (const Hole& hole : holes) {
-                deepest = std::max(deepest, top_ * unit_ - hole.span->bottom);
+        const double top = std::max(top_ * unit_, ground.box.high.z);
+        const bool cleared = cuts_.is_all && !flats_.empty();
+        const ClearedGround levels{facets, mouths, cleared ? ground : SolidGround{},
+                                   cleared ? across(flats_.back()) / 2 : 0.0};
+        const GroundAround around = [&](const Hole& hole, double height) {
+            return cleared ? levels.around(hole, height) : top;
+        };
+        std::string text;
+        for (const SolidHoles& holes : solid_holes(found, choice_.tools, unit_, around)) {
+            if (holes.way == HoleWay::kLeft) {
+                say_left(holes);
+            } else {
+                text += hole_operation(holes);
             }
-            const double across = choice_.tools[tool].diameter;
-            cuts_.before += operation(Region::kHoles, file_) +
-                            fmt::format("tool = {}\ndiameter = {}\n", tool + 1, number(diameter));
-            if (deepest > kPeckFrom * across * unit_) {
-                cuts_.before += fmt::format("peck = {}\n", across);
-            }
-            drilled_diameters_.push_back(number(diameter));
-            const auto through = static_cast<std::size_t>(std::count_if(
-                holes.begin(), holes.end(), [](const Hole& hole) { return hole.span->through; }));
-            cuts_.said.push_back(fmt::format("{} of {:.6g} {}, {} through: drill, {}",
-                                             counted(holes.size(), "hole"), number(diameter),
-                                             choice_.unit,
-                                             through == holes.size() ? "all"
-                                             : through == 0          ? "none"
-                                                                     : std::to_string(through),
-                                             tool_words(tool)));
         }
+        return text;
+    }
+
+    std::string hole_operation(const SolidHoles& holes)
+    {
+        const bool bored = holes.way == HoleWay::kBored;
+        const job::Strategy& strategy =
+            bored ? boring_strategy(strategies_) : strategy_for(Region::kHoles, strategies_);
+        const std::string chosen =
+            holes.alone ? file_
+                        : fmt::format("{}#holes:{}:{}", file_, number(holes.least_top),
+                                      number(holes.greatest_top));
+        std::string text = fmt::format(
+            "\n[[operation]]\nstrategy = \"{}\"\nboundary = {}\ntool = {}\ndiameter = {}\n"
+            "top = {}\n",
+            strategy.name, quoted(chosen), holes.tool + 1, number(holes.diameter),
+            number(holes.begins));
+        double deepest = 0;
+        std::size_t through = 0;
+        for (const Hole& hole : holes.holes) {
+            deepest = std::max(deepest, holes.begins - hole.span->bottom);
+            through += hole.span->through ? 1U : 0U;
+        }
+        if (bored) {
+            text += fmt::format("output = \"{}\"\n", request_.output);
+        } else if (deepest > kPeckFrom * across(holes.tool)) {
+            text += fmt::format("peck = {}\n", choice_.tools[holes.tool].diameter);
+        }
+        cuts_.said.push_back(fmt::format("{} of {:.6g} {}, {} through: {}, {}",
+                                         counted(holes.holes.size(), "hole"),
+                                         number(holes.diameter), choice_.unit,
+                                         through == holes.holes.size() ? "all"
+                                         : through == 0                ? "none"
+                                                                       : std::to_string(through),
+                                         strategy.name, tool_words(holes.tool)));
+        return text;
+    }
+
+    void say_left(const SolidHoles& holes)
+    {
+        constexpr std::size_t kPlaces = 4;
+        std::vector<std::string> places;
+        for (std::size_t k = 0; k < std::min(kPlaces, holes.holes.size()); ++k) {
+            const Vec2d at = holes.holes[k].at;
+            places.push_back(fmt::format("x {:.6g} y {:.6g}", number(at.x), number(at.y)));
+        }
+        const std::size_t more = holes.holes.size() - places.size();
+        const double diameter = number(holes.diameter);
+        const bool one = holes.holes.size() == 1;
+        cuts_.said.push_back(fmt::format(
+            "{} of {:.6g} {}: {}, at {}{}: no drill has {} diameter and no flat end is narrower; "
+            "--tool drill:{:.6g} drills {}",
+            counted(holes.holes.size(), "hole"), diameter, choice_.unit,
+            cuts_.is_all ? one ? "stays" : "stay" : "left to the " + finishing_words(),
+            fmt::join(places, ", "), more > 0 ? fmt::format(" and {} more places", more) : "",
+            one ? "its" : "their", diameter, one ? "it" : "them"));
     }
 
     // Down to a band's bottom: what the part's box has beside it is cleared, or its walls are finished.
@@ -223,10 +271,9 @@ private:
         } else if (band.fills_box) {
             keys += "loops = \"inner\"\nside = \"inside\"\n";
         }
-        if (!drilled_diameters_.empty()) {
-            keys += fmt::format("except_diameters = [{}]\n", fmt::join(drilled_diameters_, ", "));
-        }
-        cuts_.after += operation(region, fmt::format("{}#{}:{}", file_, part, bottom)) + keys;
+        cuts_.after += operation(region, fmt::format("{}#{}:{}{}", file_, part, bottom,
+                                                     has_holes_ ? ":no_holes" : "")) +
+                       keys;
         cuts_.said.push_back(
             fmt::format("z {:.6g} to {:.6g}: {}, {}{}", top, bottom,
                         clears ? "cleared" : "along the upright walls", tool_words(tool),
@@ -261,12 +308,6 @@ private:
         if (cuts_.is_all) {
             cuts_.stock = fmt::format("top = {}\nbottom = {}\n", top_, number(ground.box.low.z)) +
                           cuts_.stock;
-        }
-        for (const auto& [diameter, count] : milled_) {
-            cuts_.said.push_back(fmt::format(
-                "{} of {:.6g} {}: milled where a flat end fits; --tool drill:{:.6g} drills {}",
-                counted(count, "hole"), diameter, choice_.unit, diameter,
-                count == 1 ? "it" : "them"));
         }
         if (!cuts_.is_all && ground.wall > kLeastUncut && !flats_.empty()) {
             cuts_.said.push_back(
@@ -303,9 +344,8 @@ private:
     const std::string& file_;
     PartFiles& parts_;
     std::vector<std::size_t> flats_;  // places in the call
-    std::map<double, std::size_t> milled_;
-    std::vector<double> drilled_diameters_;  // in the unit of the job
-    double top_{};                           // of the stock, in it
+    double top_{};                    // of the stock, in the unit of the job
+    bool has_holes_{};
     bool faces_{};
     bool needs_box_{};
     SolidCuts cuts_;

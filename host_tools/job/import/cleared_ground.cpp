@@ -1,0 +1,43 @@
+// A level is cleared where a disc of the tool fits beside what stands above it.
+#include "host_tools/job/import/cleared_ground.hpp"
+
+#include "host_tools/geometry/offset/offset.hpp"
+#include "host_tools/geometry/offset/region_overlay.hpp"
+#include "host_tools/job/import/part_regions.hpp"
+
+namespace cusp::import {
+
+using offset::Region2d;
+
+ClearedGround::ClearedGround(const Triangles& facets,
+                             const std::vector<job::Hole>& holes,
+                             const SolidGround& ground,
+                             double radius)
+    : top_{ground.box.high.z}
+{
+    const Region2d around = offset::grown(box_region(ground.box), 4 * radius);
+    for (const SolidBand& band : ground.openings) {
+        const Region2d stands =
+            with_holes_filled(offset::shadow_above(facets, band.bottom), holes, band.bottom);
+        const Region2d centres = offset::RegionOffset{offset::without(around, stands)}.at(radius);
+        if (!centres.contours.empty()) {
+            levels_.push_back({band.bottom, offset::grown(centres, radius)});
+        }
+    }
+}
+
+double ClearedGround::around(const job::Hole& hole, double top) const
+{
+    constexpr double kSameHeight = 1e-3;     // mm
+    constexpr double kShareStanding = 0.02;  // of the hole's area: corners
+    const Region2d disc = hole_disc(hole);
+    for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+        if (level->z >= top - kSameHeight && offset::area(offset::without(disc, level->cleared)) <=
+                                                 kShareStanding * offset::area(disc)) {
+            return level->z;
+        }
+    }
+    return top_;
+}
+
+}  // namespace cusp::import

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Holes and chamfers of solids in jobs of one line: each is cut to size by a tool of the call, or named.
+
+usage: solid_features_test.py CUSP; CUSP_PROPERTY_CASES and CUSP_PROPERTY_FIRST set the random blocks
+
+The judge is swept_heights.py: it samples the program's tool positions and is asked beside each wall, over each floor
+and on each cone whether the point is gone that has to be, and whether the one 0.02 mm inside of the part is left.
+"""
+import math
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+for folder in ("judges", "support", "generators"):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / folder))
+from featured_block import TIP, FeaturedBlock, RoundHole  # noqa: E402
+from property_cases import property_cases, property_seed  # noqa: E402
+from stock_walk import StockWalk, rapid_in_stock  # noqa: E402
+from swept_heights import SweptHeights  # noqa: E402
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+CASES = property_cases(4)
+FIRST = property_seed(1)
+WITHIN = 0.02  # mm
+DIAMETERS = (3.0, 4.0, 5.0, 6.5)
+AROUND = [2 * math.pi * (k + 0.3) / 16 for k in range(16)]
+
+
+class Tools:
+    """Of a call, and what they can make."""
+    def __init__(self, flats, drills, others=()):
+        self.flats, self.drills, self.others = flats, drills, others
+
+    def words(self):
+        return [f"flat:{d}" for d in self.flats] + [f"drill:{d}" for d in self.drills] + list(self.others)
+
+    def drills_to(self, radius):
+        return 2 * radius in self.drills
+
+    def mills(self, radius):
+        return any(d <= 2 * radius for d in self.flats)
+
+    def makes(self, hole):
+        narrow = hole.radius
+        return self.drills_to(narrow) or self.mills(narrow)
+
+
+def faults_of_hole(cut, hole, tools):
+    """Where a hole isn't at its diameter, depth or cone: words; and how many points were asked."""
+    faults, asked = [], 0
+
+    def ask(away, z, gone, what):
+        nonlocal asked
+        for angle in AROUND:
+            x, y = hole.x + away * math.cos(angle), hole.y + away * math.sin(angle)
+            asked += 1
+            if (cut.at(x, y) <= z) != gone:
+                faults.append(f"{hole.kind} at {hole.x:.3f} {hole.y:.3f}, {what}, z {z:.3f}: "
+                              f"{'stands' if gone else 'gouged'} at radius {away:.3f}")
+                return
+
+    for k, ((a, p), (b, q)) in enumerate(zip(hole.profile, hole.profile[1:])):
+        last = k + 2 == len(hole.profile)
+        drilled = a == b == hole.radius and tools.drills_to(a)
+        tip = a * TIP if drilled and last and not hole.through else 0.0
+        if a == b:
+            for z in (p - WITHIN, (p + q + tip) / 2, q + tip + WITHIN):
+                ask(a - WITHIN, z, True, f"wall of {2 * a} mm")
+                ask(a + WITHIN, z, False, f"wall of {2 * a} mm")
+        else:
+            for share in (0.05, 0.5, 0.95):
+                away, z = a + (b - a) * share, p + (q - p) * share
+                if p == q or (b > 0 and tools.others):
+                    ask(away, z + WITHIN, True, "step" if p == q else "cone")
+                ask(away, z - WITHIN, False, "step" if p == q else "cone")
+    radius, floor = hole.profile[-1]
+    if hole.through:
+        ask(hole.radius - WITHIN, -0.3, True, "below")
+    elif radius > 0:
+        for share in (0.0, 0.5, 0.97):
+            if share == 0.0 or not tools.drills_to(radius):
+                ask(radius * share, floor + WITHIN, True, "floor")
+            ask(radius * share, floor - WITHIN, False, "floor")
+    return faults, asked
+
+
+def faults_of_ground(cut, block, tools):
+    """Where the block is cut too deep, and where level ground stands that the last flat end reaches."""
+    faults, reach = [], tools.flats[-1]
+    for i in range(57):
+        for j in range(40):
+            x, y = 0.35 + 0.7 * i, 0.35 + 0.7 * j
+            around = [block.height(x + a, y + b) for a in (-0.03, 0, 0.03) for b in (-0.03, 0, 0.03)]
+            lowest, z = min(around), cut.at(x, y)
+            if z < lowest - WITHIN:
+                faults.append(f"gouged to {z:.3f} at {x:.2f} {y:.2f}, not {lowest:.3f}")
+            on_shelf = block.edge is not None and block.edge + 0.03 < x
+            if on_shelf and max(around) == block.shelf and z > block.shelf + WITHIN:
+                faults.append(f"stands to {z:.3f} at {x:.2f} {y:.2f}, not {block.shelf:.3f}, tool {reach}")
+    return faults
+
+
+class SolidFeatures(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def run_cusp(self, *arguments):
+        done = subprocess.run([CUSP, *map(str, arguments)], cwd=self.folder, text=True, timeout=300, capture_output=True)
+        self.assertEqual(0, done.returncode, done.stdout + done.stderr)
+        return done
+
+    def plan(self, block, tools, *options):
+        """What is said of the plan of a block, and its program, which cusp verifies by the printed job."""
+        (self.folder / "part.step").write_text(block.step())
+        arguments = ("plan", "part.step", "--tool", *tools.words(), "--post", "linuxcnc", *options)
+        done = self.run_cusp(*arguments, "-o", "p.ngc")
+        (self.folder / "job.toml").write_text(self.run_cusp(*arguments, "--print-job").stdout)
+        self.assertIn("all bounds hold", self.run_cusp("verify", "job.toml", "p.ngc").stdout)
+        return done.stdout + done.stderr, (self.folder / "p.ngc").read_text()
+
+    def check(self, block, tools, said, program):
+        cut = SweptHeights(program)
+        faults, asked = faults_of_ground(cut, block, tools), 0
+        for hole in block.holes:
+            if tools.makes(hole):
+                found, count = faults_of_hole(cut, hole, tools)
+                faults, asked = faults + found, asked + count
+            else:
+                self.assertRegex(said, rf"of {2 * hole.radius:g} mm[^\n]*: stay[^\n]*x {hole.x:.6g} y {hole.y:.6g}")
+        self.assertEqual([], faults, program)
+        return asked
+
+    def test_holes_are_made_to_size_by_what_the_call_has(self):
+        asked = 0
+        for seed in range(FIRST, FIRST + CASES):
+            with self.subTest(seed=seed):
+                r = random.Random(seed)
+                block = FeaturedBlock(seed, DIAMETERS)
+                flats = r.choice(([3.0], [6.0, 3.0], [4.0], [5.0, 2.0]))
+                tools = Tools(flats, r.sample(DIAMETERS, r.choice((0, 1, 2))))
+                said, program = self.plan(block, tools)
+                asked += self.check(block, tools, said, program)
+        self.assertGreater(asked, 300 * CASES)
+
+    def test_the_judge_finds_planted_faults(self):
+        block, tools = FeaturedBlock(FIRST, DIAMETERS), Tools([2.5], [])
+        _, program = self.plan(block, tools)
+        cut = SweptHeights(program)
+        job = (self.folder / "job.toml").read_text()
+        self.assertIn('strategy = "bore"', job)
+        (self.folder / "less.toml").write_text(re.sub(r'\n\[\[operation\]\]\nstrategy = "bore"[^[]*$', "", job))
+        self.run_cusp("plan", "less.toml", "-o", "less.ngc")
+        without = SweptHeights((self.folder / "less.ngc").read_text())
+        self.assertTrue(any(faults_of_hole(without, hole, tools)[0] for hole in block.holes))
+        for hole in block.holes:
+            self.assertEqual([], faults_of_hole(cut, hole, tools)[0])
+            whole = hole.profile
+            for wider in (-0.05, 0.05):  # a diameter that is wrong by 0.1
+                hole.profile = [(radius + wider, z) for radius, z in whole]
+                words = str(faults_of_hole(cut, hole, tools)[0])
+                self.assertIn("stands" if wider > 0 else "gouged", words)
+            hole.profile = [(radius, z and z - 0.05) for radius, z in whole]
+            if whole[-1][1] > 0:
+                self.assertIn("floor" if whole[-1][0] > 0 else "wall", str(faults_of_hole(cut, hole, tools)[0]))
+
+    def test_a_hole_that_nothing_makes_is_named_with_its_place(self):
+        block = FeaturedBlock(FIRST, (3.0,))
+        block.holes = [RoundHole(8, 9.5, [(1.5, 12.0), (1.5, 0.0)], "plain"),
+                       RoundHole(20, 9.5, [(4.0, 12.0), (4.0, 9.0), (1.5, 9.0), (1.5, 2.0)], "counterbored")]
+        said, program = self.plan(block, Tools([4.0], [3.5]))
+        self.assertIn("2 holes of 3 mm: stay, at x 8 y 9.5, x 20 y 9.5: no drill has their diameter and no flat end is "
+                      "narrower; --tool drill:3 drills them", said)
+        self.assertIn("1 hole of 8 mm, none through: bore, flat 4 mm", said)
+        cut = SweptHeights(program)
+        self.assertEqual(math.inf, cut.at(8, 9.5))
+        self.assertAlmostEqual(9.0, cut.at(20, 9.5), delta=WITHIN)
+
+    def test_no_rapid_move_meets_stock(self):
+        block = FeaturedBlock(FIRST, DIAMETERS)
+        _, program = self.plan(block, Tools([5.0, 2.5], [4.0]))
+        self.assertEqual("", rapid_in_stock(StockWalk((0, block.wide), (0, block.deep), block.high, 0.0), program))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
