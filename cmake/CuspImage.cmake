@@ -12,7 +12,7 @@ function(cusp_image)
   add_executable(${ARG_NAME} ${ARG_SOURCES})
   set_target_properties(${ARG_NAME} PROPERTIES
     SUFFIX .elf RUNTIME_OUTPUT_DIRECTORY ${out}
-    LINK_DEPENDS "${script};${tree}/hal/stm32f4/sections.ld")
+    LINK_DEPENDS "${script};${tree}/hal/stm32f4/sections.ld;${tree}/hal/cortex_m/board.ld")
   target_include_directories(${ARG_NAME} PRIVATE ${tree})
   target_link_libraries(${ARG_NAME} PRIVATE cusp_freestanding ${ARG_DEPENDS})
   # As objects, since what the compiler calls on its own is known only at the end of the link.

@@ -7,7 +7,7 @@
 //   SerialPort          hal/stm32f4/serial_ports.hpp: which USART is the line
 //   kClocks             crystal and rates
 //   kBaud               of the line
-//   kUsb, kUsbSession   hal/stm32f4/usb_descriptors.hpp, usb_endpoints.hpp: of a plug on PA11 and PA12; a
+//   kUsb, kUsbSession   hal/usb_serial/usb_descriptors.hpp, usb_endpoints.hpp: of a plug on PA11 and PA12; a
 //                       board without has neither
 //   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
 //                       their sense resistors; a board without has neither
@@ -23,14 +23,17 @@
 // main loop; and stop(), the end after a fault.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
-#include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/main_loop.hpp"
+#include "boards/mill3/panel_pins.hpp"
 #include "boards/mill3/pin_rules.hpp"
 #include "boards/mill3/two_links.hpp"
 #include "firmware/machine/accessories.hpp"
 #include "firmware/machine/stored_state.hpp"
+#include "hal/cortex_m/vectors.hpp"
 #include "hal/stm32f4/chip.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/dma_link.hpp"
@@ -86,7 +89,7 @@ struct ChipTraits {
     static constexpr bool kUsb = detail::has_usb<Table>;
     using ByteLink = std::
         conditional_t<kUsb, TwoLinks<SerialLink, hal::stm32f4::UsbLink<Chip, Table>>, SerialLink>;
-    using Panel = MillPanel<Chip, ChipTraits>;
+    using Panel = MillPanel<ChipTraits>;
     using SettingsPlace = typename detail::SettingsOf<Table>::Place;
     static constexpr hal::stm32f4::SettingsPlace kSettings = SettingsPlace::kPlace;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip, SettingsPlace>;
@@ -114,6 +117,8 @@ struct ChipTraits {
     using SpindleWire = hal::stm32f4::SpindleWire<Chip, SpindlePort, Table>;
 
     // Members that MillPanel needs.
+    using Pins = hal::stm32f4::PinAccess<Chip>;
+    using SpindlePulses = hal::stm32f4::SpindlePulses<Chip, ChipTraits>;
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
     static constexpr const hal::stm32f4::PulsePin& kPulses = kPanelPins.spindle_pulses;
@@ -141,6 +146,17 @@ struct ChipTraits {
     static constexpr unsigned spindle_interrupt() noexcept
     {
         return kSpindleWire ? SpindlePort::kInterrupt : serial_interrupt();
+    }
+
+    static constexpr unsigned kInterruptCount = hal::stm32f4::kInterruptCount;
+    static constexpr std::array<hal::cortex_m::InterruptEntry, 6> interrupts() noexcept
+    {
+        return {{{player_interrupt(), cusp_player_interrupt},
+                 {serial_interrupt(), cusp_serial_interrupt},
+                 {send_interrupt(), cusp_serial_interrupt},
+                 {drive_interrupt(), cusp_serial_interrupt},
+                 {spindle_interrupt(), cusp_serial_interrupt},
+                 {hal::stm32f4::kUsbInterrupt, kUsb ? cusp_usb_interrupt : cusp_exception}}};
     }
 
     // Outputs and lines at rest, as the settings invert them; left as they are where the store holds
@@ -234,18 +250,7 @@ struct ChipTraits {
         board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
                                  reset_amid_motion());
         start_watchdog<Chip>(kSettings.longest_erase_ms);
-        // Only while servo ticks come: without them no stop acts.
-        std::uint32_t fed_at = application.machine().motion().ticks() - 1;
-        for (;;) {
-            const std::uint32_t ticks = application.machine().motion().ticks();
-            if (ticks != fed_at) {
-                fed_at = ticks;
-                feed_watchdog<Chip>();
-            }
-            if (!application.poll()) {
-                __asm volatile("wfi");
-            }
-        }
+        run_fed<feed_watchdog<Chip>>(application);
     }
 
 private:

@@ -1,11 +1,10 @@
 // MillImage: all objects of a mill controller's firmware, and the entries of its interrupts.
 #pragma once
 
-#include <array>
-
 #include "boards/mill3/mill_board.hpp"
 #include "firmware/app/app.hpp"
-#include "hal/stm32f4/vectors.hpp"
+#include "hal/cortex_m/cortex_m.hpp"
+#include "hal/cortex_m/vectors.hpp"
 
 namespace cusp::boards {
 
@@ -29,7 +28,7 @@ public:
     void player_interrupt() noexcept
     {
         if (board_.pulse_player.on_interrupt() && Traits::live()) {
-            hal::stm32f4::pend_servo_tick<typename Traits::Chip>();
+            hal::cortex_m::pend_servo_tick<typename Traits::Chip>();
         }
         finish_stores();
     }
@@ -53,18 +52,10 @@ public:
     }
     [[noreturn]] void run() noexcept { Traits::run(board_, application_); }
 
-    static constexpr hal::stm32f4::VectorTable vectors() noexcept
+    static constexpr auto vectors() noexcept
     {
-        const std::array<hal::stm32f4::InterruptEntry, 6> interrupts{{
-            {Traits::player_interrupt(), cusp_player_interrupt},
-            {Traits::serial_interrupt(), cusp_serial_interrupt},
-            {Traits::send_interrupt(), cusp_serial_interrupt},
-            {Traits::drive_interrupt(), cusp_serial_interrupt},
-            {Traits::spindle_interrupt(), cusp_serial_interrupt},
-            {hal::stm32f4::kUsbInterrupt, Traits::kUsb ? cusp_usb_interrupt : cusp_exception},
-        }};
-        return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,
-                                          cusp_servo_tick, interrupts);
+        return hal::cortex_m::make_vectors<Traits::kInterruptCount>(
+            &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, Traits::interrupts());
     }
 
 private:

@@ -3,22 +3,21 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/base/pulse_frame.hpp"
 #include "hal/contract/board.hpp"
-#include "hal/stm32f4/pins.hpp"
-#include "hal/stm32f4/spindle_pulses.hpp"
 
 namespace cusp::boards {
 
-using hal::stm32f4::clock_bit;
-using hal::stm32f4::Pin;
-
 // Pins of a panel, each set by its name: there is no order to mistake. Inputs that stop the machine close
 // to ground when at rest: a broken wire, or none, reads as tripped or pressed. Only the start button closes
-// to 3.3 V when pressed. boards/mill3/pin_rules.hpp says which a board must have.
-struct PanelPins {
-    constexpr PanelPins() noexcept {}
+// when pressed: to 3.3 V, or to ground on a chip whose pins pull up alone (Pins::kPullsDown). boards/mill3/pin_rules.hpp says which a board must have. `ChipPin` names a pin of the
+// chip's family, `PulsePin` one that a timer of it makes pulses on.
+template <class ChipPin, class PulsePin>
+struct PanelPinsOf {
+    using Pin = ChipPin;
+    constexpr PanelPinsOf() noexcept {}
 
     Pin limit_x, limit_y, limit_z, probe;
     Pin door, hold, start, reset;
@@ -30,20 +29,24 @@ struct PanelPins {
     std::array<Pin, 4> drives_off{};
     Pin flood, mist;
     Pin spindle_on, spindle_reverse;
-    hal::stm32f4::PulsePin spindle_pulses;
+    PulsePin spindle_pulses;
     Pin power;  // high from the first output on: feeds drives and outputs, where a board has that
 };
 
 // In the order of InputBit.
-using InputPins = std::array<Pin, 12>;
-constexpr InputPins input_pins(const PanelPins& pins) noexcept
+template <class PanelPins>
+using InputPins = std::array<typename PanelPins::Pin, 12>;
+template <class PanelPins>
+constexpr InputPins<PanelPins> input_pins(const PanelPins& pins) noexcept
 {
     return {pins.limit_x,        pins.limit_y,     pins.limit_z,      pins.probe,
             pins.door,           pins.hold,        pins.start,        pins.reset,
             pins.emergency_stop, pins.motor_fault, pins.second_limit, pins.at_speed};
 }
-using OutputPins = std::array<Pin, 10>;
-constexpr OutputPins output_pins(const PanelPins& pins) noexcept
+template <class PanelPins>
+using OutputPins = std::array<typename PanelPins::Pin, 10>;
+template <class PanelPins>
+constexpr OutputPins<PanelPins> output_pins(const PanelPins& pins) noexcept
 {
     return {pins.drives_off[0],     pins.drives_off[1],   pins.drives_off[2],
             pins.drives_off[3],     pins.flood,           pins.mist,
@@ -51,44 +54,29 @@ constexpr OutputPins output_pins(const PanelPins& pins) noexcept
             pins.spindle_pulses.pin};
 }
 
-constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
-{
-    std::uint32_t bits = 0;
-    for (const Pin pin : input_pins(pins)) {
-        bits |= clock_bit(pin);
-    }
-    for (const Pin pin : output_pins(pins)) {
-        bits |= clock_bit(pin);
-    }
-    return bits;
-}
-
-// `Rules` has kPanelPins; kSpindleTimer: whether a timer makes the spindle's pulses; and where one does,
-// what SpindlePulses asks of its `Place`.
-template <class Chip, class Rules>
+// `Rules` has kPanelPins; Pins: what is done with a pin of the chip (hal/stm32f4/pins.hpp, PinAccess); kSpindleTimer:
+// whether a timer makes the spindle's pulses; and where one does, SpindlePulses (hal/stm32f4/spindle_pulses.hpp).
+template <class Rules>
 class MillPanel {
 public:
     // Drives all outputs at rest before start() and set(). Uses no statics.
     static void rest(const hal::OutputLevels& off) noexcept
     {
-        using namespace hal::stm32f4;
         put_levels(off);
         make_outputs();
         if constexpr (Rules::kSpindleTimer) {
             constexpr Pin kPulses = Rules::kPanelPins.spindle_pulses.pin;
             put(kPulses, false, inverts(off, kSpindlePulsesOutput));
-            set_pin(port(kPulses), kPulses.number, PinMode::kOutput);
+            Rules::Pins::make_output(kPulses);
         }
     }
 
     // Sets the inputs' modes; leaves the outputs as they are.
     static void start() noexcept
     {
-        using namespace hal::stm32f4;
         for (unsigned i = 0; i < kInputs.size(); ++i) {
             if (is_there(kInputs[i])) {
-                set_pin(port(kInputs[i]), kInputs[i].number, PinMode::kInput,
-                        i == kStartPlace ? Pull::kDown : Pull::kUp);
+                Rules::Pins::make_input(kInputs[i], i == kStartPlace);
             }
         }
     }
@@ -111,8 +99,11 @@ public:
         std::uint32_t bits = 0;
         for (unsigned i = 0; i < kInputs.size(); ++i) {
             if (is_there(kInputs[i])) {
-                bits |= level(kInputs[i]) << i;
+                bits |= Rules::Pins::level(kInputs[i]) << i;
             }
+        }
+        if constexpr (!Rules::Pins::kPullsDown) {
+            bits ^= kStartButton;
         }
         return static_cast<std::uint16_t>(bits);
     }
@@ -127,22 +118,22 @@ public:
     void set_duty(std::uint16_t pwm) noexcept
     {
         if constexpr (Rules::kSpindleTimer) {
-            hal::stm32f4::SpindlePulses<Chip, Rules>::set_duty(pwm);
+            Rules::SpindlePulses::set_duty(pwm);
         }
     }
 
 private:
-    static constexpr InputPins kInputs = input_pins(Rules::kPanelPins);
+    using PanelPins = std::decay_t<decltype(Rules::kPanelPins)>;
+    using Pin = typename PanelPins::Pin;
+    static constexpr InputPins<PanelPins> kInputs = input_pins(Rules::kPanelPins);
     // One line for all drives.
     static constexpr bool kOneForAll = !is_there(Rules::kPanelPins.drives_off[1]);
     static constexpr unsigned kStartPlace = 6;
     static_assert(kStartButton == 1U << kStartPlace);
 
-    static auto& port(Pin pin) noexcept { return Chip::port(pin.port); }
-    static std::uint32_t level(Pin pin) noexcept { return port(pin).idr.read() >> pin.number & 1U; }
     static void put(Pin pin, bool on, bool inverted) noexcept
     {
-        hal::stm32f4::set_level(port(pin), pin.number, on != inverted);
+        Rules::Pins::put(pin, on != inverted);
     }
     static bool inverts(const hal::OutputLevels& levels, OutputBit bit) noexcept
     {
@@ -170,7 +161,7 @@ private:
     {
         put_levels(levels);
         if constexpr (Rules::kSpindleTimer) {
-            using Pulses = hal::stm32f4::SpindlePulses<Chip, Rules>;
+            using Pulses = typename Rules::SpindlePulses;
             Pulses::set_rate(levels.spindle_hz);
             Pulses::set_duty(levels.spindle_pwm, inverts(levels, kSpindlePulsesOutput));
         }
@@ -178,12 +169,11 @@ private:
     // Levels are set before the mode, so that no output is on in between.
     static void make_outputs() noexcept
     {
-        using namespace hal::stm32f4;
-        constexpr OutputPins kOutputs = output_pins(Rules::kPanelPins);
+        constexpr OutputPins<PanelPins> kOutputs = output_pins(Rules::kPanelPins);
         // The last is the timer's, or rest()'s.
         for (unsigned i = 0; i + 1 < kOutputs.size(); ++i) {
             if (is_there(kOutputs[i])) {
-                set_pin(port(kOutputs[i]), kOutputs[i].number, PinMode::kOutput);
+                Rules::Pins::make_output(kOutputs[i]);
             }
         }
     }
@@ -191,7 +181,7 @@ private:
     {
         make_outputs();
         if constexpr (Rules::kSpindleTimer) {
-            hal::stm32f4::SpindlePulses<Chip, Rules>::start();
+            Rules::SpindlePulses::start();
         }
         outputs_on_ = true;
     }

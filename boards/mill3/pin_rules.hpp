@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/panel_pins.hpp"
+#include "boards/mill3/pin_checks.hpp"
 #include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"
 #include "hal/stm32f4/pins.hpp"
@@ -52,7 +53,6 @@ inline constexpr float
     bus_sense_milliohms<Table, std::void_t<decltype(Table::kBusSenseMilliohms)>> =
         Table::kBusSenseMilliohms;
 
-constexpr bool same(Pin a, Pin b) noexcept { return a.port == b.port && a.number == b.number; }
 constexpr bool exists(Pin pin) noexcept
 {
     return pin.port >= 'A' && pin.port <= 'I' && pin.number < 16;
@@ -87,26 +87,6 @@ constexpr AllPins all_pins() noexcept
     return all;
 }
 
-constexpr bool names_one(const AllPins& all, Pin pin) noexcept
-{
-    for (const Pin used : all) {
-        if (is_there(used) && same(used, pin)) {
-            return true;
-        }
-    }
-    return false;
-}
-constexpr bool names_one_twice(const AllPins& all) noexcept
-{
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        for (std::size_t k = i + 1; k < all.size(); ++k) {
-            if (is_there(all[i]) && same(all[i], all[k])) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
 constexpr bool all_exist(const AllPins& all) noexcept
 {
     for (const Pin pin : all) {
@@ -115,22 +95,6 @@ constexpr bool all_exist(const AllPins& all) noexcept
         }
     }
     return true;
-}
-// Every board has six lines, all inputs but the second motor's switch and the spindle's, an enable line,
-// the outputs.
-constexpr bool is_complete(const hal::stm32f4::LinePins& lines, const PanelPins& panel) noexcept
-{
-    bool complete = is_there(panel.drives_off[0]) && is_there(panel.flood) &&
-                    is_there(panel.mist) && is_there(panel.spindle_on) &&
-                    is_there(panel.spindle_reverse) && is_there(panel.spindle_pulses.pin);
-    for (unsigned i = 0; i < 6; ++i) {
-        complete = complete && is_there(lines[i]);
-    }
-    const auto inputs = input_pins(panel);
-    for (unsigned i = 0; i + 2 < inputs.size(); ++i) {
-        complete = complete && is_there(inputs[i]);
-    }
-    return complete;
 }
 }  // namespace detail
 

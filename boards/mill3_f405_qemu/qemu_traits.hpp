@@ -7,10 +7,13 @@
 // the main loop instead, each millisecond. Without a program the serial line is live.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "boards/mill3_f405/mill_table.hpp"
 #include "firmware/machine/machine.hpp"
+#include "hal/cortex_m/reset_report.hpp"
+#include "hal/cortex_m/vectors.hpp"
 #include "hal/qemu/edge_player.hpp"
 #include "hal/qemu/edge_trace.hpp"
 #include "hal/qemu/memory_settings.hpp"
@@ -18,7 +21,6 @@
 #include "hal/qemu/run_arguments.hpp"
 #include "hal/qemu/semihosting.hpp"
 #include "hal/stm32f4/chip.hpp"
-#include "hal/stm32f4/reset_reason.hpp"
 
 namespace cusp::boards {
 
@@ -26,7 +28,8 @@ struct QemuTraits {
     using Chip = hal::stm32f4::Chip;
     using PulsePlayer = hal::qemu::EdgePlayer<Chip, MillTable, hal::qemu::EdgeTrace>;
     using ByteLink = hal::qemu::QemuLink<Chip>;
-    using Panel = MillPanel<Chip, QemuTraits>;
+    using Panel = MillPanel<QemuTraits>;
+    using Pins = hal::stm32f4::PinAccess<Chip>;
     using SettingsStore = hal::qemu::MemorySettings;
 
     // Its timer 3 would count nanoseconds.
@@ -94,19 +97,21 @@ struct QemuTraits {
         constexpr std::uint32_t kFaultStatus = 3;
         PulsePlayer::stop();
         hal::qemu::Console console;
-        hal::stm32f4::report_last_fault(console);
+        hal::cortex_m::report_last_fault(console);
         hal::qemu::exit_qemu(kFaultStatus);
     }
 
     static constexpr bool kUsb = false;
     // True if the player's interrupt calls for the servo tick; a program's run makes its own.
     static bool live() noexcept { return live_; }
-    static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
-    static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }
-    static constexpr unsigned drive_interrupt() noexcept { return serial_interrupt(); }
-    static constexpr unsigned spindle_interrupt() noexcept { return serial_interrupt(); }
-    // QEMU's port sends without an interrupt: an entry of the table that is never raised.
-    static constexpr unsigned send_interrupt() noexcept { return hal::stm32f4::dma2_interrupt(7); }
+    static constexpr unsigned kInterruptCount = hal::stm32f4::kInterruptCount;
+    // QEMU's port sends without an interrupt.
+    static constexpr std::array<hal::cortex_m::InterruptEntry, 3> interrupts() noexcept
+    {
+        return {{{hal::stm32f4::kTimer2Interrupt, cusp_player_interrupt},
+                 {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
+                 {hal::stm32f4::dma2_interrupt(7), cusp_serial_interrupt}}};
+    }
 
 private:
     static inline bool live_{false};

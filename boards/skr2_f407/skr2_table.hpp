@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/panel_pins.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/drive_bus.hpp"
 #include "hal/stm32f4/drive_wire.hpp"

@@ -6,18 +6,9 @@
 
 namespace cusp::hal::stm32f4 {
 
-// Only the target may call this: the address is that of the chip's block.
-template <class Block>
-Block& block_at(std::uintptr_t address) noexcept
-{
-    return *reinterpret_cast<Block*>(address);
-}
-
 // The chip as the drivers of this folder see it: a type with one function a block. Tests pass a type
 // whose functions return models.
-struct Chip {
-    using Word = DeviceWord;
-
+struct Chip : Core {
     static Rcc<Word>& rcc() noexcept { return block_at<Rcc<Word>>(0x40023800); }
     static Flash<Word>& flash() noexcept { return block_at<Flash<Word>>(0x40023C00); }
     static Power<Word>& power() noexcept { return block_at<Power<Word>>(0x40007000); }
@@ -43,58 +34,11 @@ struct Chip {
     static UsbCore<Word>& usb() noexcept { return block_at<UsbCore<Word>>(0x50000000); }
     static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
     static Debug<Word>& debug() noexcept { return block_at<Debug<Word>>(0xE0042000); }
-    static InterruptController<Word>& interrupts() noexcept
-    {
-        return block_at<InterruptController<Word>>(0xE000E100);
-    }
-    static SystemTimer<Word>& system_timer() noexcept
-    {
-        return block_at<SystemTimer<Word>>(0xE000E010);
-    }
-    static SystemControl<Word>& system() noexcept
-    {
-        return block_at<SystemControl<Word>>(0xE000ED00);
-    }
-
-    // The bus address of a word of memory: DMA and flash use the same addresses as the core.
-    static std::uint32_t bus_address(const volatile void* memory) noexcept
-    {
-        return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
-    }
-    static std::uint32_t read_memory(std::uint32_t address) noexcept
-    {
-        return block_at<Word>(address).read();
-    }
-    static void write_memory(std::uint32_t address, std::uint32_t value) noexcept
-    {
-        block_at<Word>(address).write(value);
-    }
 };
 
 inline constexpr unsigned kTimer2Interrupt = 28;
 inline constexpr unsigned kUsart1Interrupt = 37;
 inline constexpr unsigned kUsbInterrupt = 67;
 inline constexpr unsigned kInterruptCount = 82;
-
-// Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.
-inline constexpr std::uint32_t kPlayerPriority = 0x00;
-inline constexpr std::uint32_t kSerialPriority = 0x40;
-inline constexpr std::uint32_t kServoTickPriority = 0xC0;
-inline constexpr std::uint32_t kUsbPriority = 0xE0;
-
-template <class Chip>
-void enable_interrupt(unsigned number, std::uint32_t priority) noexcept
-{
-    set_field(Chip::interrupts().ipr[number / 4], number % 4 * 8, 8, priority);
-    Chip::interrupts().iser[number / 32].write(1U << number % 32);
-}
-
-// The servo tick runs in PendSV, below every interrupt that has a deadline of microseconds.
-template <class Chip>
-void pend_servo_tick() noexcept
-{
-    constexpr std::uint32_t kPendSvSet = 1U << 28U;
-    Chip::system().icsr.write(kPendSvSet);
-}
 
 }  // namespace cusp::hal::stm32f4

@@ -13,6 +13,7 @@ struct Pin {
     unsigned number{0};
 };
 constexpr bool is_there(Pin pin) noexcept { return pin.port != 0; }
+constexpr bool same(Pin a, Pin b) noexcept { return a.port == b.port && a.number == b.number; }
 // Its port's bit in RCC_AHB1ENR.
 constexpr std::uint32_t clock_bit(Pin pin) noexcept
 {
@@ -46,5 +47,30 @@ void set_level(Gpio<Word>& port, unsigned pin, bool level) noexcept
 {
     port.bsrr.write(level ? 1U << pin : 1U << (pin + 16));
 }
+
+// What a panel does with its pins (boards/mill3/mill_panel.hpp).
+template <class Chip>
+struct PinAccess {
+    static constexpr bool kPullsDown = true;  // where it is asked for
+
+    static void make_input(Pin pin, bool pulled_down) noexcept
+    {
+        set_pin(Chip::port(pin.port), pin.number, PinMode::kInput,
+                pulled_down ? Pull::kDown : Pull::kUp);
+    }
+    static void make_output(Pin pin) noexcept
+    {
+        set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
+    }
+    // 0 or 1.
+    static std::uint32_t level(Pin pin) noexcept
+    {
+        return Chip::port(pin.port).idr.read() >> pin.number & 1U;
+    }
+    static void put(Pin pin, bool high) noexcept
+    {
+        set_level(Chip::port(pin.port), pin.number, high);
+    }
+};
 
 }  // namespace cusp::hal::stm32f4

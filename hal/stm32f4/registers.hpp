@@ -8,35 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/cortex_m/cortex_m.hpp"
+
 namespace cusp::hal::stm32f4 {
 
-// One 32-bit register of the chip.
-class DeviceWord {
-public:
-    std::uint32_t read() const noexcept { return value_; }
-    void write(std::uint32_t value) noexcept { value_ = value; }
-
-private:
-    volatile std::uint32_t value_;
-};
-
-template <class Word>
-void set_bits(Word& word, std::uint32_t bits) noexcept
-{
-    word.write(word.read() | bits);
-}
-template <class Word>
-void clear_bits(Word& word, std::uint32_t bits) noexcept
-{
-    word.write(word.read() & ~bits);
-}
-// Puts `value` into the field that lies at `shift` and is `width` bits wide.
-template <class Word>
-void set_field(Word& word, unsigned shift, unsigned width, std::uint32_t value) noexcept
-{
-    const std::uint32_t mask = ((1U << width) - 1U) << shift;
-    word.write((word.read() & ~mask) | (value << shift & mask));
-}
+using namespace cortex_m;
 
 // Section 7.3: reset and clock control.
 template <class Word>
@@ -122,34 +98,5 @@ template <class Word>
 struct Debug {
     Word idcode, cr, apb1_freeze, apb2_freeze;
 };
-
-// The core's own blocks (PM0214): sections 4.3 and 4.4.
-template <class Word>
-struct InterruptController {
-    Word iser[8], reserved_20[24];
-    Word icer[8], reserved_a0[24];
-    Word ispr[8], reserved_120[24];
-    Word icpr[8], reserved_1a0[24];
-    Word iabr[8], reserved_220[56];
-    Word ipr[60];
-};
-static_assert(offsetof(InterruptController<DeviceWord>, icer) == 0x80);
-static_assert(offsetof(InterruptController<DeviceWord>, ipr) == 0x300);
-
-// Section 4.5.
-template <class Word>
-struct SystemTimer {
-    Word ctrl, load, val, calib;
-};
-
-template <class Word>
-struct SystemControl {
-    Word cpuid, icsr, vtor, aircr, scr, ccr, shpr1, shpr2, shpr3, shcsr, cfsr, hfsr, dfsr, mmfar;
-    Word bfar, afsr, reserved_40[18], cpacr;
-};
-static_assert(offsetof(SystemControl<DeviceWord>, shpr3) == 0x20);
-static_assert(offsetof(SystemControl<DeviceWord>, cfsr) == 0x28);
-static_assert(offsetof(SystemControl<DeviceWord>, bfar) == 0x38);
-static_assert(offsetof(SystemControl<DeviceWord>, cpacr) == 0x88);
 
 }  // namespace cusp::hal::stm32f4

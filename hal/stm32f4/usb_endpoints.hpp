@@ -9,10 +9,12 @@
 #include "hal/stm32f4/chip.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/pins.hpp"
-#include "hal/stm32f4/usb_descriptors.hpp"
 #include "hal/stm32f4/usb_registers.hpp"
+#include "hal/usb_serial/usb_descriptors.hpp"
 
 namespace cusp::hal::stm32f4 {
+
+using namespace usb_serial;
 
 // How the block is told that a host is there, since PA9, which could feel it, is the serial port's.
 enum class UsbSession : std::uint8_t {
@@ -23,15 +25,6 @@ enum class UsbSession : std::uint8_t {
 // Both wires of the plug; alternate function 10.
 inline constexpr Pin kUsbMinus{'A', 11};
 inline constexpr Pin kUsbPlus{'A', 12};
-
-// The number that each chip has from its maker (RM0090 section 39.1).
-template <class Chip>
-std::array<std::uint32_t, 3> chip_number() noexcept
-{
-    constexpr std::uint32_t kAddress = 0x1FFF7A10;
-    return {Chip::read_memory(kAddress), Chip::read_memory(kAddress + 4),
-            Chip::read_memory(kAddress + 8)};
-}
 
 // An entry of the FIFO of what was received.
 struct UsbReceived {
@@ -63,6 +56,17 @@ struct UsbEndpoints {
     static constexpr unsigned kNotify = 2;
 
     static auto& core() noexcept { return Chip::usb(); }
+    // The number that each chip has from its maker (RM0090 section 39.1).
+    static std::array<std::uint32_t, 3> chip_number() noexcept
+    {
+        constexpr std::uint32_t kAddress = 0x1FFF7A10;
+        return {Chip::read_memory(kAddress), Chip::read_memory(kAddress + 4),
+                Chip::read_memory(kAddress + 8)};
+    }
+    static void ask_for_service() noexcept
+    {
+        Chip::interrupts().ispr[kUsbInterrupt / 32].write(1U << kUsbInterrupt % 32);
+    }
     static bool suspended() noexcept { return (core().dsts.read() & 1U) != 0; }
 
     static UsbReceived pop() noexcept

@@ -76,7 +76,7 @@ def allows(table, group, other):
 
 def is_freestanding(module):
     return module.startswith("firmware/") or module in (
-        "hal/contract", "hal/freestanding", "hal/qemu", "hal/stm32f4")
+        "hal/contract", "hal/cortex_m", "hal/freestanding", "hal/qemu", "hal/rp2350", "hal/stm32f4", "hal/usb_serial")
 
 
 TARGET = re.compile(r"cusp_module\(\s*NAME\s+(\w+)([^)]*)\)")

@@ -6,9 +6,9 @@
 #include "firmware/nurbs/arc_length_table.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
+#include "hal/cortex_m/reset_report.hpp"
+#include "hal/cortex_m/vectors.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
-#include "hal/stm32f4/reset_reason.hpp"
-#include "hal/stm32f4/vectors.hpp"
 #include "tests/target/budget/instruction_meter.hpp"
 #include "tests/target/budget/law_budget.hpp"
 
@@ -278,7 +278,7 @@ void cusp_rest() {}
 void cusp_board_stop()
 {
     hal::qemu::Console console;
-    hal::stm32f4::report_last_fault(console);
+    hal::cortex_m::report_last_fault(console);
     hal::qemu::exit_qemu(3);
 }
 void cusp_servo_tick() {}
@@ -288,10 +288,10 @@ void cusp_serial_interrupt() {}
 
 namespace {
 
-constexpr std::array<hal::stm32f4::InterruptEntry, 0> kInterrupts{};
+constexpr std::array<hal::cortex_m::InterruptEntry, 0> kInterrupts{};
 
-__attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable kVectors =
-    hal::stm32f4::make_vectors(
+__attribute__((section(".vectors"), used)) constexpr auto kVectors =
+    hal::cortex_m::make_vectors<hal::stm32f4::kInterruptCount>(
         &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, kInterrupts);
 
 }  // namespace

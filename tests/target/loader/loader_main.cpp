@@ -2,9 +2,9 @@
 // core's timer and all interrupts on and pending, all exceptions off by PRIMASK, its own vectors in force.
 #include <array>
 
+#include "hal/cortex_m/vectors.hpp"
 #include "hal/stm32f4/chip.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
-#include "hal/stm32f4/vectors.hpp"
 
 using namespace cusp;
 using hal::stm32f4::Chip;
@@ -50,10 +50,10 @@ void cusp_main()
 
 namespace {
 
-constexpr std::array<hal::stm32f4::InterruptEntry, 0> kInterrupts{};
+constexpr std::array<hal::cortex_m::InterruptEntry, 0> kInterrupts{};
 
-__attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable kVectors =
-    hal::stm32f4::make_vectors(
+__attribute__((section(".vectors"), used)) constexpr auto kVectors =
+    hal::cortex_m::make_vectors<hal::stm32f4::kInterruptCount>(
         &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, kInterrupts);
 
 }  // namespace

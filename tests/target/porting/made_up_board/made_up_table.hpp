@@ -1,7 +1,7 @@
 // A board that nobody has: lines on two ports, another serial port, a 12 MHz crystal, no USB.
 #pragma once
 
-#include "boards/mill3/mill_panel.hpp"
+#include "boards/mill3/panel_pins.hpp"
 #include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/serial_ports.hpp"

@@ -1,10 +1,10 @@
 // The end of every fault: its reason is kept over the reset that follows, and the board stops motion.
-#include "hal/stm32f4/fault_record.hpp"
-#include "hal/stm32f4/vectors.hpp"
+#include "hal/cortex_m/fault_record.hpp"
+#include "hal/cortex_m/vectors.hpp"
 
 namespace cusp {
 
-namespace hal::stm32f4 {
+namespace hal::cortex_m {
 
 // The start-up code does not touch this section.
 __attribute__((section(".retained"))) FaultRecord last_fault;
@@ -20,12 +20,12 @@ void core_fault(std::uint32_t exception,
     cusp_board_stop();
 }
 
-}  // namespace hal::stm32f4
+}  // namespace hal::cortex_m
 
 void fault(const char* expression, const char* file, int line) noexcept
 {
-    hal::stm32f4::last_fault = {
-        hal::stm32f4::FaultRecord::kWritten, expression, file, line, 0, 0, 0, 0};
+    hal::cortex_m::last_fault = {
+        hal::cortex_m::FaultRecord::kWritten, expression, file, line, 0, 0, 0, 0};
     cusp_board_stop();
 }
 

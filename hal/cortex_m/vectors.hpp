@@ -4,9 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "hal/stm32f4/chip.hpp"
-
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::cortex_m {
 
 using InterruptFunction = void (*)();
 
@@ -14,9 +12,10 @@ using InterruptFunction = void (*)();
 inline constexpr unsigned kCoreExceptions = 15;
 inline constexpr unsigned kPendSvException = 14;
 
+template <unsigned kInterrupts>
 struct VectorTable {
     const void* stack_top;
-    std::array<InterruptFunction, kCoreExceptions + kInterruptCount> functions;
+    std::array<InterruptFunction, kCoreExceptions + kInterrupts> functions;
 };
 
 struct InterruptEntry {
@@ -26,14 +25,15 @@ struct InterruptEntry {
 
 // A table with `reset`, `servo_tick` at PendSV, the entries, and `fault` everywhere else: an
 // unexpected interrupt is a fault.
-template <std::size_t N>
-constexpr VectorTable make_vectors(const void* stack_top,
-                                   InterruptFunction reset,
-                                   InterruptFunction fault,
-                                   InterruptFunction servo_tick,
-                                   const std::array<InterruptEntry, N>& entries) noexcept
+template <unsigned kInterrupts, std::size_t N>
+constexpr VectorTable<kInterrupts> make_vectors(
+    const void* stack_top,
+    InterruptFunction reset,
+    InterruptFunction fault,
+    InterruptFunction servo_tick,
+    const std::array<InterruptEntry, N>& entries) noexcept
 {
-    VectorTable table{stack_top, {}};
+    VectorTable<kInterrupts> table{stack_top, {}};
     for (InterruptFunction& function : table.functions) {
         function = fault;
     }
@@ -45,12 +45,12 @@ constexpr VectorTable make_vectors(const void* stack_top,
     return table;
 }
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::cortex_m
 
 extern "C" {
 // By the linker script.
 extern std::uint32_t cusp_stack_top;
-// By hal/stm32f4/start_up.cpp.
+// By hal/cortex_m/start_up.cpp.
 void cusp_reset();
 void cusp_exception();
 // By the board: what runs after the start. Not main(), which has no C linkage without a C library.

@@ -2,13 +2,13 @@
 // fault of the core to fault_entry(), with the registers that the core has saved.
 #include <cstdint>
 
-#include "hal/stm32f4/chip.hpp"
-#include "hal/stm32f4/fault_record.hpp"
-#include "hal/stm32f4/vectors.hpp"
+#include "hal/cortex_m/cortex_m.hpp"
+#include "hal/cortex_m/fault_record.hpp"
+#include "hal/cortex_m/vectors.hpp"
 
 namespace {
 
-using Chip = cusp::hal::stm32f4::Chip;
+using Core = cusp::hal::cortex_m::Core;
 using Constructor = void (*)();
 
 // As after a reset: a boot loader that has started the firmware may have left the core's timer, interrupts
@@ -16,15 +16,15 @@ using Constructor = void (*)();
 void quieten_core(std::uint32_t vectors) noexcept
 {
     constexpr std::uint32_t kPendingOff = 1U << 27U | 1U << 25U;  // PendSV, SysTick
-    constexpr unsigned kWords = (cusp::hal::stm32f4::kInterruptCount + 31) / 32;
+    constexpr unsigned kWords = 3;  // no chip here has more than 96 interrupts
     __asm volatile("cpsid i" ::: "memory");
-    Chip::system_timer().ctrl.write(0);
+    Core::system_timer().ctrl.write(0);
     for (unsigned i = 0; i < kWords; ++i) {
-        Chip::interrupts().icer[i].write(0xFFFFFFFFU);
-        Chip::interrupts().icpr[i].write(0xFFFFFFFFU);
+        Core::interrupts().icer[i].write(0xFFFFFFFFU);
+        Core::interrupts().icpr[i].write(0xFFFFFFFFU);
     }
-    Chip::system().icsr.write(kPendingOff);
-    Chip::system().vtor.write(vectors);
+    Core::system().icsr.write(kPendingOff);
+    Core::system().vtor.write(vectors);
     __asm volatile("dsb\n isb\n cpsie i" ::: "memory");
 }
 
@@ -41,8 +41,8 @@ void cusp_reset()
 {
     // The compiler may use float registers anywhere, so the unit is enabled first.
     constexpr std::uint32_t kFullAccess = 0xFU << 20U;
-    cusp::hal::stm32f4::set_bits(Chip::system().cpacr, kFullAccess);
-    quieten_core(Chip::bus_address(&cusp_vectors));
+    cusp::hal::cortex_m::set_bits(Core::system().cpacr, kFullAccess);
+    quieten_core(Core::bus_address(&cusp_vectors));
 
     // The memory takes 10 ms at the clock of the reset; outputs do not wait for it.
     cusp_rest();
@@ -69,8 +69,8 @@ void cusp_reset()
     // The core saves r0 to r3, r12, lr, pc, psr; nowhere where the stack has overflowed.
     const std::uint32_t pc = frame != nullptr ? frame[6] : 0;
     const std::uint32_t lr = frame != nullptr ? frame[5] : 0;
-    cusp::hal::stm32f4::core_fault(Chip::system().icsr.read() & 0x1FFU, pc, lr,
-                                   Chip::system().cfsr.read());
+    cusp::hal::cortex_m::core_fault(Core::system().icsr.read() & 0x1FFU, pc, lr,
+                                    Core::system().cfsr.read());
 }
 
 // The saved registers lie on the stack that was in use; only the main one is used here. If less

@@ -5,7 +5,7 @@
 
 #include "firmware/base/assert.hpp"
 
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::cortex_m {
 
 struct FaultRecord {
     // Marks a record written by fault(), as opposed to the memory's content at power-up.
@@ -26,7 +26,7 @@ struct ResetRecord {
     static constexpr std::uint32_t kMoving = 0x4D4F5645;
 
     std::uint32_t motion;  // kMoving while frames with edges are on their way
-    std::uint32_t cause;   // RCC_CSR of this start
+    std::uint32_t cause;   // what the chip says of this start
 };
 extern ResetRecord last_reset;
 
@@ -39,4 +39,4 @@ extern FaultRecord last_fault;
                              std::uint32_t link_register,
                              std::uint32_t fault_status) noexcept;
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::cortex_m

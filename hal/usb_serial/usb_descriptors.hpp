@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::usb_serial {
 
 // How the board is called on the bus. `name` and `maker`: ASCII, at most kUsbLongestText characters.
 struct UsbIdentity {
@@ -93,4 +93,4 @@ private:
     std::array<std::uint8_t, 2 + 2 * kUsbLongestText> bytes_{2, kTextDescriptor};
 };
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::usb_serial

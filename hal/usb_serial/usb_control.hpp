@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "firmware/base/span.hpp"
-#include "hal/stm32f4/usb_descriptors.hpp"
+#include "hal/usb_serial/usb_descriptors.hpp"
 
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::usb_serial {
 
 // The eight bytes of a SETUP packet (USB 2.0 section 9.3).
 struct UsbSetup {
@@ -89,4 +89,4 @@ private:
     std::array<std::uint8_t, 7> coding_{0x00, 0xC2, 0x01, 0x00, 0, 0, 8};  // 115200, 8N1
 };
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::usb_serial

@@ -1,5 +1,5 @@
 // The requests of endpoint 0: those that a host makes, and those that none should.
-#include "hal/stm32f4/usb_control.hpp"
+#include "hal/usb_serial/usb_control.hpp"
 
 #include <cstdio>
 #include <random>
@@ -10,7 +10,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-using namespace cusp::hal::stm32f4;
+using namespace cusp::hal::usb_serial;
 
 namespace {
 

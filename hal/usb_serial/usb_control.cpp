@@ -1,7 +1,7 @@
 // Requests of endpoint 0: those of USB 2.0 section 9.4 and of PSTN 1.2 section 6.3.
-#include "hal/stm32f4/usb_control.hpp"
+#include "hal/usb_serial/usb_control.hpp"
 
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::usb_serial {
 namespace {
 
 // bmRequestType: direction, kind, recipient.
@@ -259,4 +259,4 @@ UsbStage UsbControl::text(const UsbSetup& setup) noexcept
     return answer(text_.data(), text_.size(), setup);
 }
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::usb_serial
