@@ -14,19 +14,26 @@ install(DIRECTORY docs DESTINATION ${data}/doc/cusp COMPONENT program)
 install(FILES ${packaging}/cusp-studio.desktop DESTINATION ${data}/applications COMPONENT program)
 install(FILES ${packaging}/cusp.bash DESTINATION ${data}/bash-completion/completions RENAME cusp COMPONENT program)
 
-# The images, each with its board's README: of the preset cortex-m4f, as the tests run them.
+# The images, each with its board's README: of the presets of their cores, as the tests run them.
 if(CUSP_IMAGES)
-  set(images ${PROJECT_SOURCE_DIR}/build/cortex-m4f)
-  add_custom_target(cusp_images ALL
-    COMMAND ${CMAKE_COMMAND} --preset cortex-m4f > ${PROJECT_BINARY_DIR}/images.log
-    COMMAND ${CMAKE_COMMAND} --build --preset cortex-m4f >> ${PROJECT_BINARY_DIR}/images.log
+  set(commands "")
+  foreach(preset cortex-m4f cortex-m33)
+    list(APPEND commands COMMAND ${CMAKE_COMMAND} --preset ${preset} >> ${PROJECT_BINARY_DIR}/images.log
+      COMMAND ${CMAKE_COMMAND} --build --preset ${preset} >> ${PROJECT_BINARY_DIR}/images.log)
+  endforeach()
+  add_custom_target(cusp_images ALL ${commands}
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Cross-building the images of the boards" VERBATIM)
   file(GLOB readmes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/boards/*/README.md)
   foreach(readme IN LISTS readmes)
     get_filename_component(folder ${readme} DIRECTORY)
     get_filename_component(board ${folder} NAME)
-    install(FILES ${readme} ${images}/bin/${board}.bin ${images}/bin/${board}.hex
-      DESTINATION ${data}/cusp/boards/${board} COMPONENT program)
+    set(image ${PROJECT_SOURCE_DIR}/build/cortex-m4f/bin/${board})
+    set(files ${image}.bin ${image}.hex)
+    if(board MATCHES "^pico2_")
+      set(image ${PROJECT_SOURCE_DIR}/build/cortex-m33/bin/${board})
+      set(files ${image}.bin ${image}.uf2)
+    endif()
+    install(FILES ${readme} ${files} DESTINATION ${data}/cusp/boards/${board} COMPONENT program)
   endforeach()
 endif()
 

@@ -9,7 +9,7 @@ import re
 import subprocess
 
 FUNCTION = re.compile(r"^([0-9a-f]{8}) <(.+)>:$")
-INSTRUCTION = re.compile(r"^\s+([0-9a-f]+):\t(\S+)(?:\t(.*))?$")
+INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\t(\S+)(?:\t(.*))?$")
 TARGET = re.compile(r"\b([0-9a-f]{4,8}) <([^>+]+)(\+0x[0-9a-f]+)?>")
 BRANCH = re.compile(r"^(?:bl|blx|b(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?|cbn?z)(?:\.[nw])?$")
 CALL_BY_REGISTER = re.compile(r"^(?:blx|bx)(?:\.[nw])?$")
@@ -187,7 +187,7 @@ def add_calls_by_pointer(image, functions):
     The one call by pointer of cusp_reset is that of the constructors; no other function reads their table.
     """
     constructors, others = kept_functions(image, functions)
-    others -= {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt", "cusp_exception"}
+    others -= {"cusp_boot", "cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt", "cusp_exception"}
     for function in functions.values():
         if function.name == "cusp_reset" and len(function.indirect) == 1:
             function.calls |= constructors

@@ -9,6 +9,8 @@
             pointer counts as the deepest function whose address is kept anywhere
   memory    flash and RAM within the chip's and the project's
   settings  nothing of the image lies in their two sectors, and neither lies before its vectors
+  copied    of an image that is copied to RAM: it begins with what the boot ROM of an RP2350 looks for, and only what copies
+            it runs in the flash
   loader    with FIRMWARE.bin: the vectors are at 0x08008000, behind the maker's boot loader, and begin that file
 
 Exit status: 0 all hold, 1 some do not, 2 the image can't be read.
@@ -33,6 +35,10 @@ DOUBLE = re.compile(
     r"|float\w+df|extendsfdf2|truncdfsf2)$|^(sqrt|floor|fabs|sin|cos|atan2)$")
 STACK_LEFT = 1024
 RAM_LIMIT = 96 * 1024  # unless the call says otherwise
+BOOT_ROM_STARTS = 0x10000000  # the head of an image for an RP2350
+# A program for the secure state of its Arm cores, the only block (data sheet, 5.9.5.1).
+PROGRAM_BLOCK = [0xFFFFDED3, 0x10210142, 0x000001FF, 0, 0xAB123579]
+IN_FLASH = {"cusp_boot", "cusp_boot_clocks"}
 LOADED_AT = 0x08008000  # where the makers' boot loaders start what they have loaded
 
 
@@ -142,15 +148,23 @@ def check_stack(functions, table):
         yield f"stack: {total} bytes are needed and {STACK_LEFT} to spare, {room} are there"
 
 
+def sections(image):
+    """(name, size, place, where it is loaded from, whether it is) of each section."""
+    pattern = r"^\s*\d+ (\S+)\s+([0-9a-f]{8})\s+([0-9a-f]{8})\s+([0-9a-f]{8}).*\n\s+(.*)$"
+    for name, size, place, load, flags in re.findall(pattern, run("arm-none-eabi-objdump", "-h", image), re.M):
+        yield name, int(size, 16), int(place, 16), int(load, 16), "LOAD" in flags.split(", ")
+
+
+def loaded_sections(image):
+    """(name, first, end) of what is written into the flash."""
+    for name, size, _, load, loaded in sections(image):
+        if loaded and size:
+            yield name, load, load + size
+
+
 def check_memory(image, limit):
-    flash = ram = 0
-    for line in run("arm-none-eabi-objdump", "-h", image).splitlines():
-        section = re.match(r"\s*\d+ (\S+)\s+([0-9a-f]{8})\s+([0-9a-f]{8})\s+([0-9a-f]{8})", line)
-        if section:
-            name = section.group(1)
-            size, place, load = (int(section.group(k), 16) for k in (2, 3, 4))
-            ram += size if place >> 28 == 2 else 0
-            flash += size if load >> 24 == 8 and (place == load or name == ".data") else 0
+    flash = sum(end - begin for _, begin, end in loaded_sections(image))
+    ram = sum(size for _, size, place, _, _ in sections(image) if place >> 28 == 2)
     print(f"memory: {flash} bytes of flash, {ram} of RAM")
     if not flash or not ram:
         yield "memory: no sections"
@@ -160,14 +174,21 @@ def check_memory(image, limit):
         yield f"memory: {flash} bytes of flash"
 
 
-def loaded_sections(image):
-    """(name, first, end) of what is written into the flash."""
-    for line in run("arm-none-eabi-objdump", "-h", image).splitlines():
-        section = re.match(r"\s*\d+ (\S+)\s+([0-9a-f]{8})\s+([0-9a-f]{8})\s+([0-9a-f]{8})", line)
-        if section:
-            size, place, load = (int(section.group(k), 16) for k in (2, 3, 4))
-            if load >> 24 == 8 and size and (place == load or section.group(1) == ".data"):
-                yield section.group(1), load, load + size
+def check_copied(image, functions, table):
+    if "cusp_boot" not in table:
+        return
+    for name, function in sorted(functions.items()):
+        if function.address >> 28 != 2 and function.address != BOOT_ROM_STARTS and name not in IN_FLASH:
+            yield f"copied: {plain([name])[0]} runs at {function.address:#x}, in the flash"
+    for name in sorted(IN_FLASH):
+        for callee in sorted(functions[name].calls - IN_FLASH):
+            yield f"copied: {name} calls {plain([callee])[0]} before it is there"
+    dump = run("arm-none-eabi-objdump", "-s", "-j", ".boot", image)
+    text = "".join(re.findall(r"^ [0-9a-f]{8} ((?:[0-9a-f]+ ){1,4})", dump, re.M)).replace(" ", "")
+    words = [int.from_bytes(bytes.fromhex(text[at:at + 8]), "little") for at in range(0, 56, 8)]
+    begin = next((begin for name, begin, _ in loaded_sections(image) if name == ".boot"), None)
+    if begin != BOOT_ROM_STARTS or words != [table["cusp_stack_top"], table["cusp_boot"] | 1, *PROGRAM_BLOCK]:
+        yield f"copied: the image begins at {begin and hex(begin)} with " + " ".join(map(hex, words))
 
 
 def check_settings(image, table):
@@ -177,7 +198,7 @@ def check_settings(image, table):
         yield "settings: the image does not say where they are"
         return
     first, end = table["cusp_settings"], table["cusp_settings"] + 2 * table["cusp_settings_sector"]
-    vectors = table["cusp_vectors"]
+    vectors = BOOT_ROM_STARTS if "cusp_boot" in table else table["cusp_vectors"]
     print(f"settings: {first:#x} to {end:#x}, vectors at {vectors:#x}")
     if first < vectors:
         yield f"settings: they lie before the vectors, at {first:#x}"
@@ -218,6 +239,7 @@ def main(arguments):
             raise Unreadable(f"{image}: no {', '.join(missing) or 'cusp_stack_size'}")
         found = [*check_symbols(table), *check_real_time(functions), *check_calls(functions),
                  *check_memory(image, limit), *check_settings(image, table),
+                 *check_copied(image, functions, table),
                  *check_firmware(firmware, image, table)]
         add_calls_by_pointer(image, functions)
         found += check_stack(functions, table)

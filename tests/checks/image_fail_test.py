@@ -16,6 +16,11 @@ FLASH (rx) : ORIGIN = 0x0800C000, LENGTH = 512K  RAM (rw) : ORIGIN = 0x20000000,
 REGION_ALIAS("STACK", RAM)
 INCLUDE hal/stm32f4/sections.ld
 """
+# Of an RP2350, whose images are copied to RAM.
+COPIED_FLAGS = [{"-mcpu=cortex-m4": "-mcpu=cortex-m33", "-mfpu=fpv4-sp-d16": "-mfpu=fpv5-sp-d16"}.get(flag, flag) for flag in FLAGS]
+COPIED_LAYOUT = """MEMORY { FLASH (rx) : ORIGIN = 0x10000000, LENGTH = 4M - 8K  RAM (rwx) : ORIGIN = 0x20000000, LENGTH = 512K }
+INCLUDE hal/rp2350/sections.ld
+"""
 # An image in which all proofs hold; tests replace what one of its functions does.
 SOURCE = """
 {extra}
@@ -197,6 +202,51 @@ class ProofsOfTheImage(unittest.TestCase):
         run = subprocess.run([sys.executable, str(HERE / "image.py"), str(self.place / "bad.elf"),
                               str(HERE)], capture_output=True, text=True)
         self.assertEqual(run.returncode, 2)
+
+
+class ProofsOfACopiedImage(unittest.TestCase):
+    def prove(self, layout=COPIED_LAYOUT, block="0x10210142", clocks="", **parts):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            boot = (TOP / "hal/rp2350/boot.cpp").read_text()
+            boot = boot.replace("0x10210142", block).replace("cusp_boot_clocks()\n{", f"cusp_boot_clocks()\n{{{clocks}")
+            (place / "boot.cpp").write_text(boot)
+            given = {"extra": "", "reset": "", "tick": "", "serial": "", "player": "", "settings": "0x103FE000", **parts}
+            (place / "bad.cpp").write_text(SOURCE.format(**given))
+            (place / "bad.ld").write_text(layout)
+            for name in ("boot", "bad"):
+                subprocess.run(["arm-none-eabi-g++", *COPIED_FLAGS, f"-I{TOP}", "-c", f"{name}.cpp", "-o", f"{name}.o"], cwd=place, check=True)
+            subprocess.run(["arm-none-eabi-g++", *COPIED_FLAGS, "boot.o", "bad.o", "-T", "bad.ld", f"-L{TOP}", "-e", "cusp_boot",
+                            "-Wl,--no-warn-rwx-segments", "-lgcc", "-o", "bad.elf"], cwd=place, check=True)
+            run = subprocess.run([sys.executable, str(HERE / "image.py"), "bad.elf", "."], cwd=place, capture_output=True,
+                                 text=True)
+            return run.returncode, run.stdout + run.stderr
+
+    def refuse(self, message, **parts):
+        status, text = self.prove(**parts)
+        self.assertEqual(status, 1, text)
+        self.assertIn(message, text)
+
+    def test_a_good_image_passes(self):
+        status, text = self.prove()
+        self.assertEqual(status, 0, text)
+
+    def test_doubles_in_the_servo_tick_are_refused(self):
+        self.refuse("double: cusp_servo_tick", tick="wide = wide * 3.0;")
+
+    def test_a_function_that_stays_in_the_flash_is_refused(self):
+        self.refuse("stays runs at 0x10000", tick="stays();",
+                    extra='__attribute__((noinline, long_call, section(".boot"))) void stays() { __asm volatile("nop"); }')
+
+    def test_a_call_of_what_is_not_copied_yet_is_refused(self):
+        self.refuse("cusp_boot_clocks calls __early_veneer", clocks="void early(); early();",
+                    extra='extern "C" __attribute__((noinline)) void early() { __asm volatile("nop"); }')
+
+    def test_a_block_that_the_boot_rom_does_not_take_is_refused(self):
+        self.refuse("copied: the image begins at 0x10000000 with", block="0x10210143")
+
+    def test_settings_amid_the_code_are_refused(self):
+        self.refuse("settings: .text lies in their sectors", settings="0x10000000")
 
 
 if __name__ == "__main__":

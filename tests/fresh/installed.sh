@@ -12,7 +12,7 @@ grep -q 'Content-Security-Policy' demo/RUN.html
 # The examples, the images and the pages came along.
 cusp plan /usr/share/cusp/examples/hull_rough/tap.toml -o tap.ngc
 grep -q M30 tap.ngc
-for board in mill3_f405 mill3_f405_qemu skr2_f407 octopus_f446 nucleo_f446_cnc_shield; do
+for board in mill3_f405 mill3_f405_qemu skr2_f407 octopus_f446 nucleo_f446_cnc_shield pico2_terminals; do
     [ -s /usr/share/cusp/boards/$board/$board.bin ]
     [ -s /usr/share/cusp/boards/$board/README.md ]
 done

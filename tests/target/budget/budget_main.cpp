@@ -11,6 +11,7 @@
 #include "hal/stm32f4/dma_pulse_player.hpp"
 #include "tests/target/budget/instruction_meter.hpp"
 #include "tests/target/budget/law_budget.hpp"
+#include "tests/target/budget/pio_budget.hpp"
 
 namespace {
 
@@ -178,6 +179,7 @@ struct ThreePorts {
 };
 hal::stm32f4::DmaPulsePlayer<StillChip, ThreePorts, hal::stm32f4::Timer8Pace<StillChip>>
     player_of_three_ports;
+hal::rp2350::PioPulsePlayer<test::StillPico, test::StillLines> player_of_pio;
 
 // Lines on three ports: a frame with an edge in each microsecond, the most that there can be.
 void count_three_ports()
@@ -268,6 +270,8 @@ void cusp_main()
     count_pulses("frame_to_250k", "player_to_250k", 312500, 10000);
     count_planning();
     count_three_ports();
+    // The same frame.
+    test::count_pio(player_of_pio, frame, out);
     count_parsing();
     test::count_law(law_budget, out);
     hal::qemu::exit_qemu(0);
