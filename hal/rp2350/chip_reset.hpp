@@ -5,6 +5,7 @@
 
 #include "hal/cortex_m/reset_report.hpp"
 #include "hal/rp2350/chip_registers.hpp"
+#include "hal/rp2350/chip_watchdog.hpp"
 
 namespace cusp::hal::rp2350 {
 namespace detail {
@@ -15,16 +16,22 @@ inline constexpr std::uint32_t kBrownOut = 1U << 17U;
 
 }  // namespace detail
 
-// Keeps why the chip was reset. The power manager's flags are those of the last reset of the whole chip, to which a
-// watchdog's does not count. Call before anything moves.
+// Keeps why the chip was reset, and forgets it for the next time. The power manager's flags are those of the last reset of
+// the whole chip, to which a watchdog's does not count. Call before anything moves.
 template <class Chip>
 void note_reset_cause() noexcept
 {
     using namespace detail;
-    const std::uint32_t by_watchdog = Chip::watchdog().reason.read() & 3U;
-    last_reset.cause =
-        by_watchdog != 0 ? by_watchdog : Chip::power().chip_reset.read() & (kPowerUp | kBrownOut);
-    // After a loss of power the content of the memory is random.
+    auto& watchdog = Chip::watchdog();
+    const std::uint32_t by_watchdog = watchdog.reason.read() & 3U;
+    const bool ours = watchdog.scratch[0].read() == kOurWatchdog;
+    watchdog.scratch[0].write(0);
+    if (by_watchdog == 0) {
+        last_reset.cause = Chip::power().chip_reset.read() & (kPowerUp | kBrownOut);
+    } else {
+        last_reset.cause = ours ? by_watchdog : kPowerUp;
+    }
+    // The content of the memory is random, or the boot ROM's.
     if ((last_reset.cause & (kPowerUp | kBrownOut)) != 0) {
         last_reset.motion = 0;
         last_fault.mark = 0;

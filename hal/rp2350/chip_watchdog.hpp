@@ -10,10 +10,15 @@ namespace detail {
 
 inline constexpr std::uint32_t kWatchdogMicroseconds = 3000000;
 
+// In the first scratch word, which only a reset of the whole chip clears: the boot ROM restarts the chip by its watchdog,
+// too, after it has written the flash.
+inline constexpr std::uint32_t kOurWatchdog = 0x43555350;
+
 // Everything but both oscillators: what a watchdog does not reset stays as it was (7.4).
 template <class Chip>
-void choose_what_is_reset() noexcept
+void prepare_reset() noexcept
 {
+    Chip::watchdog().scratch[0].write(kOurWatchdog);
     constexpr std::uint32_t kAll = 0x01FFFFFF;
     constexpr std::uint32_t kOscillators = 1U << 2U | 1U << 3U;
     Chip::power_sequence().wdsel.write(kAll & ~kOscillators);
@@ -34,7 +39,7 @@ void start_watchdog() noexcept
 {
     constexpr std::uint32_t kEnable = 1U << 30U;
     constexpr std::uint32_t kPausedByDebugger = 7U << 24U;
-    detail::choose_what_is_reset<Chip>();
+    detail::prepare_reset<Chip>();
     feed_watchdog<Chip>();
     Chip::watchdog().ctrl.write(kEnable | kPausedByDebugger);
 }
@@ -44,7 +49,7 @@ template <class Chip>
 [[noreturn]] void reset_chip() noexcept
 {
     constexpr std::uint32_t kTrigger = 1U << 31U;
-    detail::choose_what_is_reset<Chip>();
+    detail::prepare_reset<Chip>();
     __asm volatile("" ::: "memory");
     Chip::watchdog().ctrl.write(kTrigger);
     for (;;) {

@@ -65,6 +65,7 @@ private:
     static constexpr std::uint32_t kFixedWord = 1U << 0U | 1U << 1U | 2U << 2U | kChannel << 13U;
     static constexpr std::uint32_t kWords = kFixedWord | 1U << 4U;
     static constexpr std::uint32_t kBusError = 1U << 31U;
+    static constexpr std::uint32_t kErrorsSeen = 3U << 29U;  // written, they end the error
     static constexpr unsigned kAbortRounds = 1000;
     // Words that are left where the interrupt comes in time; one may be played before the channel brings the next.
     static constexpr std::uint32_t kLeastQueued = 2;
@@ -196,7 +197,7 @@ void PioPulsePlayer<Chip, Table>::stop() noexcept
     pins.out_set.write(high);
     give_pins_to(PinFunction::kCore);
     Chip::pio0().ctrl.write(0);
-    channel().ctrl.write(kFixedWord & ~1U);
+    channel().ctrl.write((kFixedWord & ~1U) | kErrorsSeen);
     Chip::dma().abort.write(kChannelBit);
     for (unsigned round = 0; round < kAbortRounds && (Chip::dma().abort.read() & kChannelBit) != 0;
          ++round) {

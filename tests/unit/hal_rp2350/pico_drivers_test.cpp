@@ -5,6 +5,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "hal/rp2350/chip_clocks.hpp"
+#include "hal/rp2350/chip_reset.hpp"
+#include "hal/rp2350/chip_watchdog.hpp"
 #include "hal/rp2350/pwm_pulses.hpp"
 #include "hal/rp2350/rom_settings.hpp"
 #include "hal/rp2350/uart_link.hpp"
@@ -42,6 +44,64 @@ TEST(PicoClocks, StartAgainWhereABootLoaderHasStartedThem)
     CHECK_TRUE(start_clocks<PicoChip>());
     CHECK_TRUE(start_clocks<PicoChip>());
     LONGS_EQUAL(0, chip.violations);
+}
+
+// Of the target's fault.cpp.
+namespace cusp::hal::cortex_m {
+FaultRecord last_fault;
+ResetRecord last_reset;
+}  // namespace cusp::hal::cortex_m
+
+TEST_GROUP(PicoReset)
+{
+    PicoModel chip;
+
+    // What a start makes of the records that are in memory.
+    void restart(std::uint32_t by_watchdog)
+    {
+        chip.watchdog.reason.value = by_watchdog;
+        last_reset.motion = ResetRecord::kMoving;
+        last_fault.mark = FaultRecord::kWritten;
+        note_reset_cause<PicoChip>();
+    }
+};
+
+TEST(PicoReset, KeepsTheRecordsOverOurWatchdog)
+{
+    chip.power.chip_reset.value = 1U << 16U;
+    start_watchdog<PicoChip>();
+    LONGS_EQUAL(3000000, chip.watchdog.load.value);
+    LONGS_EQUAL(0x01FFFFF3, chip.power_sequence.wdsel.value);
+    restart(1);
+    CHECK_TRUE(reset_amid_motion());
+    LONGS_EQUAL(1, last_reset.cause);
+    CHECK_TRUE(last_fault.mark == FaultRecord::kWritten);
+}
+
+TEST(PicoReset, TakesTheBootRomsWatchdogForAPowerUp)
+{
+    restart(1);
+    CHECK_FALSE(reset_amid_motion());
+    CHECK_FALSE(last_fault.mark == FaultRecord::kWritten);
+    start_watchdog<PicoChip>();
+    restart(1);
+    restart(1);
+    CHECK_FALSE(reset_amid_motion());
+}
+
+TEST(PicoReset, ForgetsTheRecordsWhereTheSupplyFailed)
+{
+    for (const std::uint32_t cause : {1U << 16U, 1U << 17U}) {
+        chip.power.chip_reset.value = cause;
+        start_watchdog<PicoChip>();
+        restart(0);
+        CHECK_FALSE(reset_amid_motion());
+        LONGS_EQUAL(cause, last_reset.cause);
+    }
+    // The reset pin.
+    chip.power.chip_reset.value = 1U << 18U;
+    restart(0);
+    CHECK_TRUE(reset_amid_motion());
 }
 
 TEST_GROUP(UartLink)
@@ -90,6 +150,11 @@ TEST(UartLink, TellsLostBytesOnce)
     std::uint8_t byte = 0;
     CHECK_TRUE(link.try_read(byte));
     LONGS_EQUAL(0, byte);
+    unsigned kept = 1;
+    while (link.try_read(byte)) {
+        ++kept;
+    }
+    LONGS_EQUAL(2048, kept);
     come(1, 1U << 11U);
     CHECK_TRUE(link.overrun());
 }

@@ -233,6 +233,12 @@ bool PicoModel::write_dma(PicoWord& word, std::uint32_t value)
         }
         return true;
     }
+    if (&word == &channel.ctrl) {
+        // 12.6.10: the error stays until both of its kinds are written.
+        const std::uint32_t error = (value & 3U << 29U) != 0 ? 0 : word.value & 1U << 31U;
+        word.value = (value & ~(7U << 29U)) | error;
+        return true;
+    }
     if (&word == &dma.abort) {
         // Erratum E5: the channel must be off.
         violations += (channel.ctrl.value & 1U) != 0 ? 1U : 0U;

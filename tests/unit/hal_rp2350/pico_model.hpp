@@ -104,6 +104,7 @@ public:
     hal::rp2350::Uart<PicoWord> uart0{};
     hal::rp2350::Pwm<PicoWord> pwm{};
     hal::rp2350::Watchdog<PicoWord> watchdog{};
+    hal::rp2350::PowerManager<PicoWord> power{};
     hal::rp2350::Ticks<PicoWord> ticks{};
     hal::rp2350::Dma<PicoWord> dma{};
     hal::rp2350::UsbMemory<PicoWord> usb_memory{};
@@ -145,6 +146,7 @@ struct PicoChip {
     static auto& uart0() { return PicoModel::current->uart0; }
     static auto& pwm() { return PicoModel::current->pwm; }
     static auto& watchdog() { return PicoModel::current->watchdog; }
+    static auto& power() { return PicoModel::current->power; }
     static auto& ticks() { return PicoModel::current->ticks; }
     static auto& dma() { return PicoModel::current->dma; }
     static auto& usb_memory() { return PicoModel::current->usb_memory; }

@@ -226,6 +226,9 @@ TEST(PioPulsePlayer, StopsOnAnErrorOfTheBus)
     run(600);
     CHECK_TRUE(player.underrun());
     LONGS_EQUAL(0, chip.changes.back().levels);
+    player.clear_underrun();
+    LONGS_EQUAL(5, run(5000));
+    CHECK_FALSE(player.underrun());
 }
 
 TEST(PioPulsePlayer, LowersTheStepsByItselfWhereTheCoreStaysAway)
@@ -269,7 +272,8 @@ TEST(PioPulsePlayer, TurnsInvertedLinesRoundInASilence)
     CHECK_TRUE(player.try_play(pulses_at({10})));
     run(1000);
     CHECK_TRUE(player.try_play({}));
-    run(1000);
+    run(1100);
+    LONGS_EQUAL(2, chip.changes.size());
     CHECK_TRUE(player.try_play({}));
     run(1000);
     LONGS_EQUAL(3, chip.changes.size());

@@ -261,6 +261,24 @@ TEST(UsbDevice, GoesOnAfterAHaltWithDataZero)
     LONGS_EQUAL(0, chip.violations);
 }
 
+TEST(UsbDevice, DropsWhatNobodyFetchedAndGoesOnWithTheSameData)
+{
+    enumerate();
+    const Bytes old{1, 2, 3};
+    const Bytes fresh{4, 5};
+    link.write({old.data(), old.size()});
+    link.on_interrupt();
+    // The port is closed and opened again.
+    CHECK_TRUE(order({0x21, 0x22, 0, 0, 0, 0, 0, 0}));
+    CHECK_TRUE(order({0x21, 0x22, 1, 0, 0, 0, 0, 0}));
+    link.write({fresh.data(), fresh.size()});
+    link.on_interrupt();
+    Bytes in;
+    CHECK_TRUE(fetch(1, in, false));
+    CHECK_TRUE(in == fresh);
+    LONGS_EQUAL(0, chip.violations);
+}
+
 TEST(UsbDevice, TellsThatTheSenderHasLeftWhereTheBusFallsSilent)
 {
     enumerate();
