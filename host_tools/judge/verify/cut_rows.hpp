@@ -35,6 +35,20 @@ struct Cutter {
     Profile probe;
 };
 
+// Rows that are compared together: most are below the tool.
+inline constexpr std::size_t kRun = 16;
+
+// The highest of the rows [first, last).
+inline double highest_of(const double* heights, std::size_t first, std::size_t last)
+{
+    double highest = -kUnbounded;
+#pragma omp simd reduction(max : highest)
+    for (std::size_t j = first; j < last; ++j) {
+        highest = std::max(highest, heights[j]);
+    }
+    return highest;
+}
+
 // These return how deep the measuring tool is in the stock, or `deepest` where that is more.
 inline double cut_rows_flat(const Cutter& cutter,
                             DiscColumn column,
@@ -43,13 +57,19 @@ inline double cut_rows_flat(const Cutter& cutter,
 {
     const double z = cutter.z;
     const double reach = cutter.profile.reach;
-    for (std::size_t j = column.first; j < column.last; ++j) {
-        const double squared = heights[j] > z ? column.squared(j) : kUnbounded;
-        if (squared <= reach) {
-            deepest = squared <= cutter.probe.reach
-                          ? std::max(deepest, heights[j] - z - cutter.shrink)
-                          : deepest;
-            heights[j] = z;
+    for (std::size_t j0 = column.first; j0 < column.last; j0 += kRun) {
+        const std::size_t j1 = std::min(column.last, j0 + kRun);
+        if (highest_of(heights, j0, j1) <= z) {
+            continue;
+        }
+        for (std::size_t j = j0; j < j1; ++j) {
+            const double squared = heights[j] > z ? column.squared(j) : kUnbounded;
+            if (squared <= reach) {
+                deepest = squared <= cutter.probe.reach
+                              ? std::max(deepest, heights[j] - z - cutter.shrink)
+                              : deepest;
+                heights[j] = z;
+            }
         }
     }
     return deepest;
@@ -57,8 +77,7 @@ inline double cut_rows_flat(const Cutter& cutter,
 
 inline double cut_rows(const Cutter& cutter, DiscColumn column, double* heights, double deepest)
 {
-    constexpr std::size_t kRun = 16;  // rows that are compared together: most are below the tool
-    const Cutter own = cutter;        // which the heights do not alias
+    const Cutter own = cutter;  // which the heights do not alias
     const double steepness = own.profile.steepness();
     for (std::size_t j0 = column.first; j0 < column.last; j0 += kRun) {
         const std::size_t j1 = std::min(column.last, j0 + kRun);

@@ -171,12 +171,16 @@ double MachinedStock::depth_at(const Tool& tool,
     double deepest = 0;
     visit_disc(tool, tip, probe.reach, before, begin, end, [&](const DiscColumn& column) {
         const double* height = heights_.data() + column.index * grid_.ny;
-        for (std::size_t j = column.first; j < column.last; ++j) {
-            if (height[j] - bottom > deepest) {
-                const double squared = column.squared(j);
-                deepest = squared <= probe.reach
-                              ? std::max(deepest, height[j] - bottom - probe.at(squared))
-                              : deepest;
+        for (std::size_t j0 = column.first; j0 < column.last; j0 += kRun) {
+            const std::size_t j1 = std::min(column.last, j0 + kRun);
+            const bool is_over = highest_of(height, j0, j1) - bottom > deepest;
+            for (std::size_t j = is_over ? j0 : j1; j < j1; ++j) {
+                if (height[j] - bottom > deepest) {
+                    const double squared = column.squared(j);
+                    deepest = squared <= probe.reach
+                                  ? std::max(deepest, height[j] - bottom - probe.at(squared))
+                                  : deepest;
+                }
             }
         }
     });

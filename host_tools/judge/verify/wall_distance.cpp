@@ -1,9 +1,10 @@
-// Buckets of segments: squares for the distance, strips for the side.
+// Boxes round segments for the distance, strips of them for the side.
 #include "host_tools/judge/verify/wall_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "host_tools/job/job/loop_shape.hpp"
 
@@ -15,13 +16,23 @@ using job::loop_polyline;
 namespace {
 
 constexpr std::size_t kLevels = 2000;
+constexpr std::size_t kInBox = 8;   // segments or boxes
+constexpr double kRounding = 1e-9;  // mm: by which boxes are wider than their segments
 
-double distance_to(Vec2d p, Vec2d a, Vec2d b)
+double squared_from_box(Vec2d p, Vec2d low, Vec2d high)
+{
+    const double dx = std::max({low.x - p.x, p.x - high.x, 0.0});
+    const double dy = std::max({low.y - p.y, p.y - high.y, 0.0});
+    return dx * dx + dy * dy;
+}
+
+double squared_from_segment(Vec2d p, Vec2d a, Vec2d b)
 {
     const Vec2d along = b - a;
     const double squared = dot(along, along);
     const double foot = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-    return norm(p - (a + foot * along));
+    const Vec2d away = p - (a + foot * along);
+    return dot(away, away);
 }
 
 }  // namespace
@@ -29,49 +40,52 @@ double distance_to(Vec2d p, Vec2d a, Vec2d b)
 WallDistance::WallDistance(const Loop& loop, bool outer, double cap) : outer_{outer}, cap_{cap}
 {
     const std::vector<Vec2d> line = loop_polyline(loop, kWallChord);
-    Vec2d low{kInfinite, kInfinite};
-    Vec2d high{-kInfinite, -kInfinite};
-    for (const Vec2d p : line) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    x0_ = low.x - cap_;
-    y0_ = low.y - cap_;
-    nx_ = static_cast<std::size_t>((high.x - low.x) / cap_) + 3;
-    ny_ = static_cast<std::size_t>((high.y - low.y) / cap_) + 3;
-    buckets_.resize(nx_ * ny_);
-    levels_.resize(kLevels);
-    level_height_ = (high.y - low.y) / static_cast<double>(kLevels) + 1e-12;
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
         segments_.push_back({line[k], line[k + 1]});
-        const auto column = [&](double x) {
-            return static_cast<std::size_t>((x - x0_) / cap_);
-        };
-        const auto row = [&](double y) {
-            return static_cast<std::size_t>((y - y0_) / cap_);
-        };
-        const Segment& s = segments_.back();
-        for (std::size_t i = column(std::min(s.a.x, s.b.x)); i <= column(std::max(s.a.x, s.b.x));
-             ++i) {
-            for (std::size_t j = row(std::min(s.a.y, s.b.y)); j <= row(std::max(s.a.y, s.b.y));
-                 ++j) {
-                buckets_[i * ny_ + j].push_back(k);
-            }
-        }
-        const auto level = [&](double y) {
-            return std::min(kLevels - 1,
-                            static_cast<std::size_t>((y - (y0_ + cap_)) / level_height_));
-        };
-        for (std::size_t n = level(std::min(s.a.y, s.b.y)); n <= level(std::max(s.a.y, s.b.y));
-             ++n) {
+    }
+    add_boxes();
+    y0_ = boxes_.back().front().low.y;
+    level_height_ = (boxes_.back().front().high.y - y0_) / static_cast<double>(kLevels) + 1e-12;
+    levels_.resize(kLevels);
+    const auto level = [&](double y) {
+        return std::min(kLevels - 1, static_cast<std::size_t>((y - y0_) / level_height_));
+    };
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+        const auto [low, high] = std::minmax(segments_[k].a.y, segments_[k].b.y);
+        for (std::size_t n = level(low); n <= level(high); ++n) {
             levels_[n].push_back(k);
         }
     }
 }
 
+void WallDistance::add_boxes()
+{
+    std::vector<Box> inner;
+    for (const Segment& s : segments_) {
+        const auto [x_low, x_high] = std::minmax(s.a.x, s.b.x);
+        const auto [y_low, y_high] = std::minmax(s.a.y, s.b.y);
+        inner.push_back(
+            {{x_low - kRounding, y_low - kRounding}, {x_high + kRounding, y_high + kRounding}});
+    }
+    do {
+        std::vector<Box> outer;
+        for (std::size_t k = 0; k < inner.size(); ++k) {
+            if (k % kInBox == 0) {
+                outer.push_back(inner[k]);
+            }
+            Box& own = outer.back();
+            own.low = {std::min(own.low.x, inner[k].low.x), std::min(own.low.y, inner[k].low.y)};
+            own.high = {std::max(own.high.x, inner[k].high.x),
+                        std::max(own.high.y, inner[k].high.y)};
+        }
+        inner = outer;
+        boxes_.push_back(std::move(outer));
+    } while (inner.size() > 1);
+}
+
 bool WallDistance::encloses(double x, double y) const
 {
-    const double height = (y - (y0_ + cap_)) / level_height_;
+    const double height = (y - y0_) / level_height_;
     if (!(height >= 0) || height >= static_cast<double>(kLevels)) {
         return false;
     }
@@ -86,30 +100,41 @@ bool WallDistance::encloses(double x, double y) const
     return inside;
 }
 
-double WallDistance::at(double x, double y) const
+// Reduces `square` to the squared distance of the nearest segment in a box.
+void WallDistance::approach(Vec2d p, std::size_t level, std::size_t box, double& square) const
 {
-    double nearest = cap_;
-    const double column = (x - x0_) / cap_;
-    const double row = (y - y0_) / cap_;
-    if (column > -1 && row > -1 && column < static_cast<double>(nx_) + 1 &&
-        row < static_cast<double>(ny_) + 1) {
-        const auto around = [](double at, std::size_t limit) {
-            const double low = std::max(0.0, std::floor(at) - 1);
-            const double high = std::min(static_cast<double>(limit), std::floor(at) + 2);
-            return std::pair{static_cast<std::size_t>(low),
-                             static_cast<std::size_t>(std::max(0.0, high))};
-        };
-        const auto [i0, i1] = around(column, nx_);
-        const auto [j0, j1] = around(row, ny_);
-        for (std::size_t i = i0; i < i1; ++i) {
-            for (std::size_t j = j0; j < j1; ++j) {
-                for (const std::size_t k : bucket(i, j)) {
-                    nearest =
-                        std::min(nearest, distance_to({x, y}, segments_[k].a, segments_[k].b));
-                }
-            }
+    const std::size_t first = box * kInBox;
+    if (level == 0) {
+        const std::size_t end = std::min(segments_.size(), first + kInBox);
+        for (std::size_t k = first; k < end; ++k) {
+            square = std::min(square, squared_from_segment(p, segments_[k].a, segments_[k].b));
+        }
+        return;
+    }
+    const std::vector<Box>& inner = boxes_[level - 1];
+    const std::size_t count = std::min(inner.size() - first, kInBox);
+    std::array<double, kInBox> away{};
+    for (std::size_t k = 0; k < count; ++k) {
+        away[k] = squared_from_box(p, inner[first + k].low, inner[first + k].high);
+    }
+    const auto nearest = static_cast<std::size_t>(
+        std::min_element(away.begin(), away.begin() + count) - away.begin());
+    for (std::size_t turn = 0; turn < count; ++turn) {
+        const std::size_t k = (nearest + turn) % count;
+        if (away[k] < square) {
+            approach(p, level - 1, first + k, square);
         }
     }
+}
+
+double WallDistance::at(double x, double y) const
+{
+    double square = (cap_ + kRounding) * (cap_ + kRounding);
+    const Box& all = boxes_.back().front();
+    if (squared_from_box({x, y}, all.low, all.high) < square) {
+        approach({x, y}, boxes_.size() - 1, 0, square);
+    }
+    const double nearest = std::min(cap_, std::sqrt(square));
     return encloses(x, y) == outer_ ? nearest : -nearest;
 }
 

@@ -24,20 +24,20 @@ private:
     struct Segment {
         Vec2d a, b;
     };
-    const std::vector<std::size_t>& bucket(std::size_t i, std::size_t j) const
-    {
-        return buckets_[i * ny_ + j];
-    }
+    struct Box {
+        Vec2d low, high;
+    };
+    void add_boxes();
+    void approach(Vec2d p, std::size_t level, std::size_t box, double& square) const;
     bool encloses(double x, double y) const;
 
     std::vector<Segment> segments_;
+    // round some segments behind each other, then round as many of these boxes, up to one round all
+    std::vector<std::vector<Box>> boxes_;
     bool outer_;
     double cap_;
-    double x0_, y0_;
-    std::size_t nx_, ny_;
-    // squares of side cap_: segments that touch them
-    std::vector<std::vector<std::size_t>> buckets_;
     std::vector<std::vector<std::size_t>> levels_;  // strips of y: segments that cross them
+    double y0_;                                     // of the first
     double level_height_;
 };
 
