@@ -94,7 +94,8 @@ struct PicoTraits {
     {
         using namespace hal::rp2350;
         note_reset_cause<Chip>();
-        if (!start_clocks<Chip>()) {
+        // Started by cusp_boot().
+        if (!clocks_run<Chip>()) {
             fault("the clock did not start", __FILE__, __LINE__);
         }
         constexpr std::uint32_t kBlocks =

@@ -87,6 +87,17 @@ bool restart_blocks(std::uint32_t blocks) noexcept
     return release_blocks<Chip>(blocks);
 }
 
+// True where start_clocks() has succeeded.
+template <class Chip>
+bool clocks_run() noexcept
+{
+    constexpr std::uint32_t kLocked = 1U << 31U;
+    auto& clocks = Chip::clocks();
+    return (clocks.sys.selected.read() & 0xFU) == 1U << 1U &&
+           (clocks.ref.selected.read() & 0xFU) == 1U << 2U &&
+           (Chip::core_multiplier().cs.read() & Chip::usb_multiplier().cs.read() & kLocked) != 0;
+}
+
 // Sets the clocks up, whatever they were; false where the crystal or a multiplier does not start. The serial port
 // counts the core's clock, the watchdog microseconds.
 template <class Chip>
@@ -99,7 +110,9 @@ bool start_clocks() noexcept
     constexpr std::uint32_t kAll = 0xF;
     constexpr std::uint32_t kEnabled = 1U << 11U;
     auto& clocks = Chip::clocks();
-    // From the chip's own ring oscillator, while the rest is changed.
+    // No clock but the core's runs while the rest is changed, and that from the chip's own ring oscillator.
+    clocks.peri.ctrl.write(0);
+    clocks.usb.ctrl.write(0);
     clear_bits(clocks.sys.ctrl, 1U);
     bool good = detail::wait_for(clocks.sys.selected, kAll, kFromReference);
     clear_bits(clocks.ref.ctrl, 3U);
@@ -116,9 +129,7 @@ bool start_clocks() noexcept
     clocks.sys.ctrl.write(0);
     clocks.sys.ctrl.write(1);
     good = detail::wait_for(clocks.sys.selected, kAll, kFromMultiplier) && good;
-    clocks.peri.ctrl.write(0);
     clocks.peri.ctrl.write(kEnabled);
-    clocks.usb.ctrl.write(0);
     clocks.usb.ctrl.write(kEnabled);
     auto& tick = Chip::ticks().watchdog;
     tick.cycles.write(kCrystalHz / 1000000);

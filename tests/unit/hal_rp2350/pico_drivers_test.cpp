@@ -20,7 +20,9 @@ TEST_GROUP(PicoClocks) { PicoModel chip; };
 
 TEST(PicoClocks, RunFromTheCrystal)
 {
+    CHECK_FALSE(clocks_run<PicoChip>());
     CHECK_TRUE(start_clocks<PicoChip>());
+    CHECK_TRUE(clocks_run<PicoChip>());
     LONGS_EQUAL(4, chip.clocks.ref.selected.value);
     LONGS_EQUAL(2, chip.clocks.sys.selected.value);
     LONGS_EQUAL(125, chip.core_multiplier.fbdiv.value);
@@ -34,8 +36,10 @@ TEST(PicoClocks, SayThatTheCrystalOrAMultiplierDoesNotStart)
     chip.crystal_works = false;
     CHECK_FALSE(start_clocks<PicoChip>());
     chip.crystal_works = true;
+    CHECK_FALSE(clocks_run<PicoChip>());
     chip.multipliers_work = false;
     CHECK_FALSE(start_clocks<PicoChip>());
+    CHECK_FALSE(clocks_run<PicoChip>());
     LONGS_EQUAL(0, chip.violations);
 }
 

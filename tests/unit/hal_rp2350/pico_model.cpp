@@ -317,6 +317,12 @@ bool PicoModel::write_usb(PicoWord& word, std::uint32_t value)
 // Chapter 8: what is chosen is selected, and ready, where it works.
 void PicoModel::write_clock(PicoWord& word)
 {
+    // 8.6: a clock that comes from a multiplier is off while that is in reset.
+    const bool runs = ((clocks.peri.ctrl.value | clocks.usb.ctrl.value) & 1U << 11U) != 0;
+    const bool multiplied = clocks.sys.selected.value != 1;
+    if (&word == &resets.reset && (word.value >> 14U & 3U) != 0 && (runs || multiplied)) {
+        ++violations;
+    }
     if (&word == &crystal.ctrl) {
         crystal.status.value = crystal_works && word.value >> 12U == 0xFAB ? 1U << 31U : 0U;
     }
