@@ -200,7 +200,8 @@ float TimeWarp::advance(Span<const WarpBounds> ahead) noexcept
     }
     float most_up = kMostBend;
     float most_down = kMostBend;
-    for (std::size_t i = 0; i < std::min(ahead.size(), kPiecesOfTick); ++i) {
+    const std::size_t near = ahead[1].time < kServoTick ? kPiecesOfTick + 1 : kPiecesOfTick;
+    for (std::size_t i = 0; i < std::min(ahead.size(), near); ++i) {
         most_up = std::min(most_up, bend_left(ahead[i], rate_, slope_, true, kPartNear));
         most_down = std::min(most_down, bend_left(ahead[i], rate_, slope_, false, kPartNear));
     }

@@ -40,7 +40,7 @@ public:
     // The own time that passes in a tick, s.
     //
     //   ahead  the plan from the place of the tick before on, reach() s of its own time, in pieces
-    //          of a tick or more; the first is the one before that. Two at least.
+    //          of a tick or more but for the second; the first is the one before that. Two at least.
     float advance(Span<const WarpBounds> ahead) noexcept;
 
     float reach() const noexcept { return reach_; }

@@ -326,6 +326,16 @@ EndGeometry end_geometry(const Block& block) noexcept
     return start_geometry(block);
 }
 
+Vec3f felt_end(const Block& block, Vec3f start, Vec3f end, float speed) noexcept
+{
+    constexpr float kHalfTick = 0.5F * kServoTick;
+    const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+    // It bends by its turn over its length: the speed of that is the root of centripetal length / turn.
+    const bool at_once = length < kHalfTick * speed &&
+                         length * norm(end - start) < kHalfTick * kHalfTick * block.centripetal;
+    return at_once ? start : end;
+}
+
 LaneDerivatives derivatives_at(const Block& block, float s) noexcept
 {
     switch (block.shape) {

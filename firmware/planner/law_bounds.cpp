@@ -142,22 +142,26 @@ WarpBounds bounds_of_cell(const Station& station,
 WarpBounds bounds_of_element(const Station& station,
                              unsigned place,
                              float squared,
-                             float length,
+                             const StopElement& element,
                              bool starts,
                              const LaneVec& ratio) noexcept
 {
     // s = w t^3/6 up to v = w t^2/2.
     const float speed = std::sqrt(std::max(squared, kLeastRoot));
-    const float time = 3.0F * length / speed;
+    const float time = 3.0F * element.length / speed;
     const float acceleration = (starts ? 2.0F : -2.0F) * speed / time;
     const float jerk = 2.0F * speed / (time * time);
     WarpBounds bounds = none();
     const LaneDerivatives& q = station.places[place];
     add_place(bounds, q, station.kept, ratio, {squared, 2.0F * acceleration, 2.0F * jerk / speed});
-    bounds.braking = smaller(bounds.braking, zero());
-    bounds.speeding = larger(bounds.speeding, zero());
+    // Direction and so the axes' parts may change within it.
+    const LaneVec along = larger(magnitude(q.first), element.along) * kPlanShare;
+    const LaneVec most = product(along, ratio);
+    bounds.speed = larger(bounds.speed, most * speed);
+    bounds.braking = smaller(bounds.braking, starts ? zero() : most * acceleration);
+    bounds.speeding = larger(bounds.speeding, starts ? most * acceleration : zero());
     bounds.falling = smaller(bounds.falling, zero());
-    bounds.rising = larger(bounds.rising, magnitude(q.first) * (jerk * kPlanShare));
+    bounds.rising = larger(bounds.rising, along * jerk);
     bounds.time = time;
     return bounds;
 }

@@ -35,11 +35,10 @@ WarpBounds bounds_of_cell(const Station& station,
 //
 //   place    of the station at the inner end: its number there.
 //   squared  speed at the inner end.
-//   length   mm.
 WarpBounds bounds_of_element(const Station& station,
                              unsigned place,
                              float squared,
-                             float length,
+                             const StopElement& element,
                              bool starts,
                              const LaneVec& ratio) noexcept;
 

@@ -47,8 +47,9 @@ struct Station {
 // What starts or ends a stretch of path: from rest with constant jerk. x = (9/2 w)^(2/3) s^(4/3),
 // so that x' = 4/3 x/s at its inner end.
 struct StopElement {
-    float length;  // mm
-    float cap;     // greatest v^2 at its inner end, mm^2/s^2
+    float length;     // mm
+    float cap;        // greatest v^2 at its inner end, mm^2/s^2
+    LaneVec along{};  // greatest |q'| of each axis in it, over its jerk
 };
 
 }  // namespace cusp::planner

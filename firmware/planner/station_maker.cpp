@@ -71,9 +71,12 @@ ReadJoint StationMaker::joint(const LawPath& path, const PathCursor& before) con
 {
     const Block& last = *path[before.block].block;
     const Block& next = *path[before.block + 1].block;
-    const LaneDerivatives a =
+    LaneDerivatives a =
         derivatives_at(last, static_cast<float>(last.length) / kPathUnitsPerMillimetre);
     const LaneDerivatives b = derivatives_at(next, 0.0F);
+    const float speed = std::min(std::sqrt(path[before.block].feed), norm(limits_.velocity));
+    a.first =
+        to_lanes(felt_end(last, to_vec(derivatives_at(last, 0.0F).first), to_vec(a.first), speed));
     const float first = static_cast<float>(last.filter.first) * kServoTick;
     const float second = static_cast<float>(last.filter.second) * kServoTick;
     const LaneVec bend = (b.second - a.second) / first;
@@ -345,8 +348,10 @@ StopElement StationMaker::element(const LawPath& path,
         std::max(std::floor(d * kPathUnitsPerMillimetre), 1.0F) / kPathUnitsPerMillimetre, 0.0F};
     // s from rest: v^3 = 9/2 w s^2, v u = 3 w s, u^3 = 6 w^2 s.
     float s = element.length;
+    element.along = magnitude(at(0.0F).first);
     for (unsigned i = 0; i < kElementPlaces; ++i, s *= kNearerRest) {
         LaneDerivatives q = at(s);
+        element.along = larger(element.along, magnitude(q.first));
         q.second = q.second * (at_end ? -1.0F : 1.0F);
         const LaneVec by_jerk =
             larger(magnitude(q.first + q.second * (9.0F * s) + q.third * (4.5F * s * s)),
@@ -363,6 +368,7 @@ StopElement StationMaker::element(const LawPath& path,
     }
     const float root = cube_root(4.5F * jerk * element.length * element.length);
     element.cap = root * root;
+    element.along = product(element.along, inverse_jerk_);
     return element;
 }
 

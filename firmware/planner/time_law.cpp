@@ -328,8 +328,8 @@ void TimeLaw::accept(LawPlans& plans) noexcept
         LawCell start = cell(0);
         start.travel = units_of(start_.length);
         start.piece = LawPiece::kStart;
-        plans.add(start, bounds_of_element(station(0), 0, start.start.value, start_.length, true,
-                                           spline_.ratio));
+        plans.add(start,
+                  bounds_of_element(station(0), 0, start.start.value, start_, true, spline_.ratio));
     }
     for (std::uint32_t k = final_; k < open_end(); ++k) {
         const LawCell next = cell(k);
@@ -376,8 +376,8 @@ void TimeLaw::add_stop(LawPlans& plans) const noexcept
     stop.ends = true;
     stop.disjoint = disjoint_;
     stop.overlap = overlap_;
-    plans.add(stop, bounds_of_element(last, kPlacesOfCell - 1, stop.start.value, stop_.length,
-                                      false, spline_.ratio));
+    plans.add(stop, bounds_of_element(last, kPlacesOfCell - 1, stop.start.value, stop_, false,
+                                      spline_.ratio));
 }
 
 // The way to rest from the crawl.

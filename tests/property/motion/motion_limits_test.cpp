@@ -104,6 +104,19 @@ TEST(MotionLimits, HoldWhereTinyArcsReachIntoALine)
     test::check_motion(rig.run(moves), moves.back().end, {}, kTinyArcs);
 }
 
+// Disturbed programs that once were over the jerk: by a turn within a piece of 0.2 um, by a start element that
+// bends, by a rest of a cell that was counted with the next.
+TEST(MotionLimits, HoldWhereTheRateChangesOverShortPieces)
+{
+    for (const std::uint64_t seed : {71000366U, 71016607U, 71032330U}) {
+        const auto moves = RandomMoves{seed}.program();
+        const MachineLimits limits = test::random_limits(seed);
+        MotionRig rig{limits};
+        rig.start_at({});
+        test::check_motion(rig.run_disturbed(moves, seed), moves.back().end, limits, seed);
+    }
+}
+
 // Programs of a second each: 55 moves of all kinds within 0.01 mm, and 25 on the exact path.
 TEST(MotionLimits, HoldWhateverHappensAtAnyTickOfAProgram)
 {
