@@ -63,6 +63,27 @@ install_packages() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
+# fetch_sources FOLDER PACKAGE...: sources of Debian's packages, from the archives that this machine uses, in FOLDER/PACKAGE
+fetch_sources() {
+    folder=$1
+    shift
+    for package in "$@"; do
+        [ ! -d "$folder/$package" ] || continue
+        fetched=$(mktemp -d)
+        mkdir -p "$fetched/lists/partial" "$folder"
+        apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 'Origin: Debian' |
+            sort -u >"$fetched/sources.list"
+        (
+            cd "$fetched"
+            set -- -qq -o APT::Sandbox::User=root -o "Dir::Etc::sourcelist=$fetched/sources.list" -o Dir::Etc::sourceparts=/dev/null -o "Dir::State::lists=$fetched/lists"
+            apt-get "$@" update && apt-get "$@" source --download-only "$package"
+            mkdir sources && tar -xf "$package"_*.orig.tar.* --strip-components=1 -C sources
+        ) || return 1
+        mv "$fetched/sources" "$folder/$package"
+        rm -r "$fetched"
+    done
+}
+
 if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi

@@ -61,6 +61,15 @@ function(cusp_link_headers)
     target_include_directories(${target} SYSTEM INTERFACE ${headers})
   endforeach()
   target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+  # Debian's headers of it come without its one source.
+  find_path(CUSP_PUGIXML_SOURCES pugixml.cpp PATHS ${PROJECT_SOURCE_DIR}/build/sources/pugixml/src
+    NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+  if(NOT CUSP_PUGIXML_SOURCES)
+    message(FATAL_ERROR "cusp: the sources of pugixml are missing: .ci/studio fetches them; or -DCUSP_PUGIXML_SOURCES=FOLDER")
+  endif()
+  add_library(pugixml::pugixml INTERFACE IMPORTED GLOBAL)
+  target_include_directories(pugixml::pugixml SYSTEM INTERFACE ${CUSP_PUGIXML_SOURCES})
+  target_compile_definitions(pugixml::pugixml INTERFACE PUGIXML_HEADER_ONLY PUGIXML_NO_XPATH)
   set(TOMLPLUSPLUS_INCLUDE ${headers} PARENT_SCOPE)
 endfunction()
 

@@ -91,6 +91,24 @@ test("a picture becomes a relief of the size that Suggest asks for", async () =>
   await close();
 });
 
+test("an SVG drawing is cut out, its islands left", async () => {
+  const { page, faults, close } = await open();
+  await page.locator("input[type=file]").setInputFiles([write("alone/plate.svg", `<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm"
+    viewBox="0 0 60 40"><rect x="5" y="5" width="50" height="30" rx="4"/><path id="hole" d="M20 20a6 6 0 1 0 12 0a6 6 0 1 0 -12 0z"/></svg>`)]);
+  await step(page, "Operations");
+  await page.getByLabel("Tools", { exact: true }).fill("flat:3");
+  await page.locator("details").evaluateAll((all) => all.forEach((one) => { one.open = true; }));
+  await page.locator("#suggest-depth").fill("4");
+  await page.getByRole("button", { name: "Suggest" }).click();
+  await page.waitForFunction(() => window.cusp.state().job.includes("plate.svg"));
+  await step(page, "Check");
+  await page.getByRole("button", { name: "Plan", exact: true }).click();
+  await page.waitForFunction(() => window.cusp.state().checked);
+  assert.match(await page.locator(".headline").innerText(), /All bounds hold/);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("a plan is cancelled at once, and the next one works", async () => {
   const { page, faults, close } = await open();
   await suggested(page, path.join(parts, "sine-hills.json"), "ball:2", "0.005");

@@ -14,7 +14,7 @@ function DropZone(): JSX.Element {
   return <div class="drop">
     <p><strong>Drop a part here</strong>, or</p>
     <button type="button" class="primary" onClick={() => picker.current?.click()}>Choose files …</button>
-    <p class="note">STEP, STL, OBJ, 3MF, DXF, JSON, a picture; a job.toml with its parts, or a project.zip</p>
+    <p class="note">STEP, STL, OBJ, 3MF, DXF, SVG, Gerber, JSON, a picture; a job.toml with its parts, or a project.zip</p>
     <input ref={picker} type="file" multiple hidden aria-label="Files of the project" onChange={(event) => {
       const list = [...event.currentTarget.files ?? []];
       event.currentTarget.value = "";
