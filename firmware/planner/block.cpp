@@ -15,6 +15,7 @@ namespace {
 constexpr unsigned kStretchesPerQuadrant = 24;
 constexpr unsigned kStretchesPerTableInterval = 4;
 constexpr unsigned kStretchesPerQuintic = 8;
+constexpr float kHalfTick = 0.5F * kServoTick;
 
 float length_mm(const Block& block) noexcept
 {
@@ -326,13 +327,16 @@ EndGeometry end_geometry(const Block& block) noexcept
     return start_geometry(block);
 }
 
-Vec3f felt_end(const Block& block, Vec3f start, Vec3f end, float speed) noexcept
+bool is_within_half_tick(const Block& block, float speed) noexcept
 {
-    constexpr float kHalfTick = 0.5F * kServoTick;
+    return static_cast<float>(block.length) < kHalfTick * kPathUnitsPerMillimetre * speed;
+}
+
+Vec3f felt_end(const Block& block, Vec3f start, Vec3f end) noexcept
+{
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
     // It bends by its turn over its length: the speed of that is the root of centripetal length / turn.
-    const bool at_once = length < kHalfTick * speed &&
-                         length * norm(end - start) < kHalfTick * kHalfTick * block.centripetal;
+    const bool at_once = length * norm(end - start) < kHalfTick * kHalfTick * block.centripetal;
     return at_once ? start : end;
 }
 

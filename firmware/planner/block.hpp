@@ -124,11 +124,12 @@ struct EndGeometry {
 EndGeometry start_geometry(const Block& block) noexcept;
 EndGeometry end_geometry(const Block& block) noexcept;
 
-// The direction in which a block is left, as the axis filters feel it: that of its start where it is passed within
-// half a tick, its turn included, by its length and by the greatest speed. Then it is a turn at its end.
-//
-//   speed  mm/s, at most.
-Vec3f felt_end(const Block& block, Vec3f start, Vec3f end, float speed) noexcept;
+// True if a block is passed within half a tick at a speed, mm/s.
+bool is_within_half_tick(const Block& block, float speed) noexcept;
+
+// The direction in which a block is left, as the axis filters feel it: that of its start if it is passed within half a
+// tick at the speed of its bend, too. Then it is a turn at its end. Precondition: is_within_half_tick().
+Vec3f felt_end(const Block& block, Vec3f start, Vec3f end) noexcept;
 
 // The first three derivatives of the place by arc length, with signs, at `s` mm from the start.
 // Precondition: 0 <= s <= the length. Context: main loop.

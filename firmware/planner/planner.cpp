@@ -223,8 +223,9 @@ void Planner::add_block(Block& block) noexcept
     within_move_ = true;
     queue_.append_block();
     end_ = end_geometry(block);
-    end_->tangent = felt_end(block, start_geometry(block).tangent, end_->tangent,
-                             std::min(feed, norm(limits_.velocity)));
+    if (is_within_half_tick(block, std::min(feed, norm(limits_.velocity)))) {
+        end_->tangent = felt_end(block, start_geometry(block).tangent, end_->tangent);
+    }
     end_length_ += static_cast<float>(block.length) / kPathUnitsPerMillimetre;
     end_deviation_ = kUseOfTolerance * move_.tolerance;
     end_departure_ = move_.departure;

@@ -75,8 +75,10 @@ ReadJoint StationMaker::joint(const LawPath& path, const PathCursor& before) con
         derivatives_at(last, static_cast<float>(last.length) / kPathUnitsPerMillimetre);
     const LaneDerivatives b = derivatives_at(next, 0.0F);
     const float speed = std::min(std::sqrt(path[before.block].feed), norm(limits_.velocity));
-    a.first =
-        to_lanes(felt_end(last, to_vec(derivatives_at(last, 0.0F).first), to_vec(a.first), speed));
+    if (is_within_half_tick(last, speed)) {
+        const Vec3f start = to_vec(derivatives_at(last, 0.0F).first);
+        a.first = to_lanes(felt_end(last, start, to_vec(a.first)));
+    }
     const float first = static_cast<float>(last.filter.first) * kServoTick;
     const float second = static_cast<float>(last.filter.second) * kServoTick;
     const LaneVec bend = (b.second - a.second) / first;
