@@ -9,7 +9,7 @@ import re
 import sys
 import unittest
 
-from cusp_case import CuspCase
+from cusp_case import CuspCase, share_of
 
 HEAD = """units = "mm"
 [[tool]]
@@ -81,6 +81,7 @@ class LineCuts(CuspCase):
     def test_random_slots_are_as_wide_as_asked_for(self):
         seed = 55
         draw = random.Random(seed)
+        taken = share_of(range(10))
         for case in range(10):
             mill = draw.choice((3.0, 6.0))
             count = draw.randint(2, 5)
@@ -92,6 +93,8 @@ class LineCuts(CuspCase):
                 keys["width"] = round(mill + draw.uniform(0, 3 * mill), 2)
             if draw.random() < 0.5:
                 keys["max_depth"] = 1
+            if case not in taken:
+                continue
             with self.subTest(seed=seed, case=case, keys=keys, points=points, bulges=bulges, mill=mill):
                 self.plan([polyline(points, 0, bulges)], keys, mill)
                 self.assertEqual(1, json.loads((self.folder / "p.json").read_text())["retracts"])
