@@ -79,6 +79,30 @@ step() {
     fi
 }
 
+# Packs what the tests ran, and tries it and the demo in bare roots.
+packages_and_roots() {
+    echo "making the packages"
+    quietly build/package.log .ci/package ci
+    step packages tests/fresh/lint.sh out/packages
+    step "bare roots" tests/fresh/fresh_test.sh out/packages
+}
+
+# beside COMMAND: runs it while what follows goes on, up to join_beside, which shows its output and adds its steps
+beside() {
+    rm -f build/beside.count
+    (passed=0 failed=0; "$@"; echo "$passed $failed" >build/beside.count) >build/beside.log 2>&1 &
+    trap wait EXIT
+}
+
+join_beside() {
+    wait
+    cat build/beside.log
+    [ -s build/beside.count ] || { echo "failed: what ran beside" >&2; exit 1; }
+    read -r more_passed more_failed <build/beside.count
+    passed=$((passed + more_passed))
+    failed=$((failed + more_failed))
+}
+
 # Says how many tests the quick tier leaves out, and which.
 leave_out() {
     echo "left to ./test.sh --all: $(ctest --preset dev -N -L long | sed -n 's/^Total Tests: //p') long tests" \
@@ -104,6 +128,9 @@ if [ "$all" = no ]; then
     leave_out
 else
     if [ "$release" = yes ]; then run_tests ci-release; else run_tests ci; fi
+    install_packages $fresh_packages
+    # Downloading, unpacking and packing leave cores idle. Before a release the demo, whose time counts, has the machine for itself.
+    [ "$release" = yes ] || beside packages_and_roots
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF \
         -DCUSP_SLOW_UNIT_TESTS=$([ "$release" = yes ] && echo ON || echo OFF)
@@ -121,11 +148,7 @@ else
         quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
         step "the studio in one file" .ci/studio --compare
     fi
-    echo "making the packages"
-    install_packages $fresh_packages
-    quietly build/package.log .ci/package ci
-    step packages tests/fresh/lint.sh out/packages
-    step "bare roots" tests/fresh/fresh_test.sh out/packages
+    if [ "$release" = yes ]; then packages_and_roots; else join_beside; fi
 fi
 
 echo "$passed passed, $failed failed"

@@ -51,7 +51,7 @@ installed() {
         --copy "$packages/python3-cusp_${version}_amd64.deb" --copy "$(echo "$packages"/cusp-"$version"-*.whl)" --copy "$here/installed.sh" 'cd && sh installed.sh'
 }
 
-# Both mostly unpack packages: together. The demo, whose time counts, has the machine for itself.
+# Both mostly unpack packages: together. The demo, whose time counts, comes alone.
 check installed "packages as root" &
 installing=$!
 status=0
