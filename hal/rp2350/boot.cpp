@@ -9,6 +9,7 @@ extern "C" {
 extern const std::uint32_t cusp_stack_top;
 [[noreturn]] void cusp_boot();
 void cusp_boot_clocks();
+void cusp_boot_copy();
 }
 
 namespace {
@@ -33,7 +34,8 @@ __attribute__((flatten, section(".boot"))) void cusp_boot_clocks()
     static_cast<void>(cusp::hal::rp2350::start_clocks<cusp::hal::rp2350::Chip>());
 }
 
-// Runs in the flash. The stack's limit of whoever ran before is no more.
+// Runs in the flash. The stack's limit of whoever ran before is no more; the floating-point unit is on for cusp_rest(),
+// which drives the outputs as soon as it is there.
 __attribute__((naked, section(".boot"))) void cusp_boot()
 {
     __asm volatile(
@@ -42,16 +44,36 @@ __attribute__((naked, section(".boot"))) void cusp_boot()
         "bl cusp_boot_clocks\n"
         "ldr r0, =cusp_image_load\n"
         "ldr r1, =cusp_image_begin\n"
+        "ldr r2, =cusp_early_end\n"
+        "bl cusp_boot_copy\n"
+        "ldr r0, =0xE000ED88\n"
+        "ldr r1, [r0]\n"
+        "orr r1, r1, #0xF00000\n"
+        "str r1, [r0]\n"
+        "dsb\n"
+        "isb\n"
+        "ldr r0, =cusp_rest\n"
+        "blx r0\n"
+        "ldr r0, =cusp_early_load_end\n"
+        "ldr r1, =cusp_early_end\n"
         "ldr r2, =cusp_image_end\n"
-        "1: cmp r1, r2\n"
-        "bhs 2f\n"
-        "ldmia r0!, {r4-r7}\n"
-        "stmia r1!, {r4-r7}\n"
-        "b 1b\n"
-        "2: dsb\n"
+        "bl cusp_boot_copy\n"
+        "dsb\n"
         "isb\n"
         "ldr r0, =cusp_reset\n"
         "bx r0\n"
         ".ltorg");
+}
+
+// From r0 on to r1 on, up to r2, in pieces of 16 bytes.
+__attribute__((naked, section(".boot"))) void cusp_boot_copy()
+{
+    __asm volatile(
+        "1: cmp r1, r2\n"
+        "it hs\n"
+        "bxhs lr\n"
+        "ldmia r0!, {r4-r7}\n"
+        "stmia r1!, {r4-r7}\n"
+        "b 1b\n");
 }
 }

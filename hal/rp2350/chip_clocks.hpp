@@ -63,7 +63,7 @@ bool start_crystal() noexcept
     constexpr std::uint32_t kRange = 0xAA0;
     constexpr std::uint32_t kOn = 0xFABU << 12U;
     constexpr std::uint32_t kStable = 1U << 31U;
-    constexpr std::uint32_t kStartup = kCrystalHz / 256 / 500;  // 2 ms
+    constexpr std::uint32_t kStartup = kCrystalHz / 256 / 1000 + 1;  // 1 ms
     auto& crystal = Chip::crystal();
     crystal.startup.write(kStartup);
     crystal.ctrl.write(kRange | kOn);

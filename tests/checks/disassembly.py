@@ -146,6 +146,19 @@ def read_words(image):
     return words
 
 
+def addresses_in(image, first, end):
+    """(where, the address that is there) of each word and pair of halves between two places that the linker has filled."""
+    words = read_words(image)
+    for line in run("arm-none-eabi-readelf", "-rW", image).splitlines():
+        match = RELOCATION.match(line)
+        if match and first <= int(match.group(1), 16) < end:
+            place, kind, value = int(match.group(1), 16), match.group(2), int(match.group(3), 16)
+            if kind in WORDS and place in words:
+                yield place, words[place]
+            elif kind in HALVES:
+                yield place, value
+
+
 def kept_functions(image, functions):
     """Names of the functions whose address is kept: those of the table of constructors, and all others.
 
@@ -187,7 +200,7 @@ def add_calls_by_pointer(image, functions):
     The one call by pointer of cusp_reset is that of the constructors; no other function reads their table.
     """
     constructors, others = kept_functions(image, functions)
-    others -= {"cusp_boot", "cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt", "cusp_exception"}
+    others -= {"cusp_boot", "cusp_rest", "cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt", "cusp_exception"}
     for function in functions.values():
         if function.name == "cusp_reset" and len(function.indirect) == 1:
             function.calls |= constructors

@@ -10,7 +10,7 @@
   memory    flash and RAM within the chip's and the project's
   settings  nothing of the image lies in their two sectors, and neither lies before its vectors
   copied    of an image that is copied to RAM: it begins with what the boot ROM of an RP2350 looks for, and only what copies
-            it runs in the flash
+            it runs in the flash; what cusp_rest() calls and reads is copied first
   loader    with FIRMWARE.bin: the vectors are at 0x08008000, behind the maker's boot loader, and begin that file
 
 Exit status: 0 all hold, 1 some do not, 2 the image can't be read.
@@ -19,7 +19,7 @@ import re
 import subprocess
 import sys
 
-from disassembly import Unreadable, add_calls_by_pointer, add_compiler_sizes, read_functions, run
+from disassembly import Unreadable, add_calls_by_pointer, add_compiler_sizes, addresses_in, read_functions, run
 
 # From the least to the most urgent: each may be interrupted by those after it.
 CONTEXTS = ("cusp_reset", "cusp_usb_interrupt", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
@@ -38,7 +38,7 @@ RAM_LIMIT = 96 * 1024  # unless the call says otherwise
 BOOT_ROM_STARTS = 0x10000000  # the head of an image for an RP2350
 # A program for the secure state of its Arm cores, the only block (data sheet, 5.9.5.1).
 PROGRAM_BLOCK = [0xFFFFDED3, 0x10210142, 0x000001FF, 0, 0xAB123579]
-IN_FLASH = {"cusp_boot", "cusp_boot_clocks"}
+IN_FLASH = {"cusp_boot", "cusp_boot_clocks", "cusp_boot_copy"}
 LOADED_AT = 0x08008000  # where the makers' boot loaders start what they have loaded
 
 
@@ -174,12 +174,25 @@ def check_memory(image, limit):
         yield f"memory: {flash} bytes of flash"
 
 
+def check_early(image, functions, table):
+    """What runs and what is read while the rest of the image is still in the flash alone. Variables have no values yet."""
+    places = {name: place for name, _, place, _, _ in sections(image)}
+    end = table["cusp_early_end"]
+    for name in sorted(reached(functions, "cusp_rest")):
+        if functions[name].address >= end:
+            yield f"copied: {plain([name])[0]} is called by cusp_rest, but copied later"
+    for place, address in addresses_in(image, places[".early"], end):
+        if end <= address < places[".data"]:
+            yield f"copied: {place:#x} of what is copied first names {address:#x}, which is copied later"
+
+
 def check_copied(image, functions, table):
     if "cusp_boot" not in table:
         return
     for name, function in sorted(functions.items()):
         if function.address >> 28 != 2 and function.address != BOOT_ROM_STARTS and name not in IN_FLASH:
             yield f"copied: {plain([name])[0]} runs at {function.address:#x}, in the flash"
+    yield from check_early(image, functions, table)
     for name in sorted(IN_FLASH):
         for callee in sorted(functions[name].calls - IN_FLASH):
             yield f"copied: {name} calls {plain([callee])[0]} before it is there"

@@ -33,7 +33,7 @@ void cusp_reset() {{ {reset} leaf(); }}
 void cusp_servo_tick() {{ number = number * 2.0F; {tick} leaf(); }}
 void cusp_serial_interrupt() {{ {serial} leaf(); }}
 void cusp_player_interrupt() {{ {player} leaf(); }}
-void cusp_rest() {{}}
+void cusp_rest() {{ {rest} }}
 int cusp_main() {{ return 0; }}
 void cusp_board_stop() {{}}
 __attribute__((section(".vectors"), used)) const unsigned vectors[2] = {{0x20020000u, 0x0800C001u}};
@@ -48,10 +48,10 @@ class ProofsOfTheImage(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.place = pathlib.Path(self.folder.name)
 
-    def build(self, extra="", reset="", tick="", serial="", player="", settings="0x08004000"):
+    def build(self, extra="", reset="", tick="", serial="", player="", settings="0x08004000", rest=""):
         (self.place / "bad.cpp").write_text(
             SOURCE.format(extra=extra, reset=reset, tick=tick, serial=serial, player=player,
-                          settings=settings))
+                          settings=settings, rest=rest))
         (self.place / "bad.ld").write_text(LAYOUT)
         return subprocess.run(
             ["arm-none-eabi-g++", *FLAGS, "-c", "bad.cpp", "-o", "bad.o"], cwd=self.place,
@@ -211,7 +211,7 @@ class ProofsOfACopiedImage(unittest.TestCase):
             boot = (TOP / "hal/rp2350/boot.cpp").read_text()
             boot = boot.replace("0x10210142", block).replace("cusp_boot_clocks()\n{", f"cusp_boot_clocks()\n{{{clocks}")
             (place / "boot.cpp").write_text(boot)
-            given = {"extra": "", "reset": "", "tick": "", "serial": "", "player": "", "settings": "0x103FE000", **parts}
+            given = {"extra": "", "rest": "", "reset": "", "tick": "", "serial": "", "player": "", "settings": "0x103FE000", **parts}
             (place / "bad.cpp").write_text(SOURCE.format(**given))
             (place / "bad.ld").write_text(layout)
             for name in ("boot", "bad"):
@@ -241,6 +241,13 @@ class ProofsOfACopiedImage(unittest.TestCase):
     def test_a_call_of_what_is_not_copied_yet_is_refused(self):
         self.refuse("cusp_boot_clocks calls __early_veneer", clocks="void early(); early();",
                     extra='extern "C" __attribute__((noinline)) void early() { __asm volatile("nop"); }')
+
+    def test_what_rest_calls_and_is_copied_later_is_refused(self):
+        self.refuse("leaf is called by cusp_rest, but copied later", rest="leaf();")
+
+    def test_what_rest_reads_and_is_copied_later_is_refused(self):
+        self.refuse("which is copied later", rest="sink = levels[sink];",
+                    extra="extern volatile int sink; extern const int levels[4]; const int levels[4] = {1, 2, 3, 4};")
 
     def test_a_block_that_the_boot_rom_does_not_take_is_refused(self):
         self.refuse("copied: the image begins at 0x10000000 with", block="0x10210143")
