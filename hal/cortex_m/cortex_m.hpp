@@ -40,6 +40,20 @@ void set_field(Word& word, unsigned shift, unsigned width, std::uint32_t value) 
     word.write((word.read() & ~mask) | (value << shift & mask));
 }
 
+// Every wait for the chip is bounded: a register that never changes counts as a failure.
+inline constexpr std::uint32_t kReadyRounds = 200000;
+
+template <class Word>
+bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
+{
+    for (std::uint32_t round = 0; round < kReadyRounds; ++round) {
+        if ((word.read() & mask) == value) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The core's own blocks, by the names of PM0214 in lower case: sections 4.3 and 4.4. The Cortex-M33 has the same
 // registers at the same addresses.
 template <class Word>

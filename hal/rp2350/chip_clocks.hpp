@@ -26,20 +26,6 @@ static_assert(kCoreHz == 150000000 && rate(kUsbPlan) == 48000000);
 
 namespace detail {
 
-// Every wait for the chip is bounded: a register that never changes counts as a failure.
-inline constexpr std::uint32_t kReadyRounds = 200000;
-
-template <class Word>
-bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
-{
-    for (std::uint32_t round = 0; round < kReadyRounds; ++round) {
-        if ((word.read() & mask) == value) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // 8.6.3: set up while it is in reset and off, then on, then divided.
 template <class Word>
 bool start_multiplier(Multiplier<Word>& multiplier, const MultiplierPlan& plan) noexcept
@@ -77,7 +63,7 @@ template <class Chip>
 bool release_blocks(std::uint32_t blocks) noexcept
 {
     clear_bits(Chip::resets().reset, blocks);
-    return detail::wait_for(Chip::resets().done, blocks, blocks);
+    return wait_for(Chip::resets().done, blocks, blocks);
 }
 // Into reset and out of it: as after a reset of the chip, whatever a boot loader has left.
 template <class Chip>
@@ -114,9 +100,9 @@ bool start_clocks() noexcept
     clocks.peri.ctrl.write(0);
     clocks.usb.ctrl.write(0);
     clear_bits(clocks.sys.ctrl, 1U);
-    bool good = detail::wait_for(clocks.sys.selected, kAll, kFromReference);
+    bool good = wait_for(clocks.sys.selected, kAll, kFromReference);
     clear_bits(clocks.ref.ctrl, 3U);
-    good = detail::wait_for(clocks.ref.selected, kAll, kFromRing) && good;
+    good = wait_for(clocks.ref.selected, kAll, kFromRing) && good;
     good = detail::start_crystal<Chip>() && good;
     good = restart_blocks<Chip>(kCoreMultiplierBlock | kUsbMultiplierBlock) && good;
     good = good && detail::start_multiplier(Chip::core_multiplier(), kCorePlan) &&
@@ -125,10 +111,10 @@ bool start_clocks() noexcept
         return false;
     }
     clocks.ref.ctrl.write(2);
-    good = detail::wait_for(clocks.ref.selected, kAll, kFromCrystal);
+    good = wait_for(clocks.ref.selected, kAll, kFromCrystal);
     clocks.sys.ctrl.write(0);
     clocks.sys.ctrl.write(1);
-    good = detail::wait_for(clocks.sys.selected, kAll, kFromMultiplier) && good;
+    good = wait_for(clocks.sys.selected, kAll, kFromMultiplier) && good;
     clocks.peri.ctrl.write(kEnabled);
     clocks.usb.ctrl.write(kEnabled);
     auto& tick = Chip::ticks().watchdog;

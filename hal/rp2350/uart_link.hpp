@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "hal/contract/board.hpp"
+#include "hal/contract/received_bytes.hpp"
 #include "hal/rp2350/chip_registers.hpp"
 #include "hal/rp2350/gp_pins.hpp"
 #include "hal/rp2350/rp2350.hpp"
@@ -23,8 +24,8 @@ public:
     void start(std::uint32_t clock_hz, std::uint32_t baud) noexcept;
 
     // See hal/contract/board.hpp.
-    bool try_read(std::uint8_t& byte) noexcept;
-    bool try_scan(std::uint8_t& byte) noexcept;
+    bool try_read(std::uint8_t& byte) noexcept { return received_.try_read(byte); }
+    bool try_scan(std::uint8_t& byte) noexcept { return received_.try_scan(byte); }
     bool overrun() noexcept { return lost_.exchange(false, std::memory_order_relaxed); }
     std::uint32_t write_room() const noexcept
     {
@@ -51,12 +52,9 @@ private:
     void receive() noexcept;
     void send() noexcept;
 
-    std::array<std::uint8_t, kReceiveSize> received_{};
-    // These count bytes and wrap at 2^32.
-    std::atomic<std::uint32_t> head_{0};  // by the interrupt
-    std::atomic<std::uint32_t> read_{0};  // by the main loop
-    std::uint32_t scanned_{0};            // by the servo tick
+    ReceivedBytes<kReceiveSize> received_;
     std::array<std::uint8_t, kSendSize> sent_{};
+    // Both count bytes and wrap at 2^32.
     std::atomic<std::uint32_t> send_head_{0};  // by the main loop
     std::atomic<std::uint32_t> send_tail_{0};  // by the interrupt
     std::atomic<bool> lost_{false};
@@ -77,33 +75,6 @@ void UartLink<Chip>::start(std::uint32_t clock_hz, std::uint32_t baud) noexcept
     uart.ifls.write(0);  // from an eighth of a FIFO on: 4 bytes
     uart.imsc.write(kReceived);
     uart.cr.write(kOn);
-}
-
-template <class Chip>
-bool UartLink<Chip>::try_read(std::uint8_t& byte) noexcept
-{
-    const std::uint32_t read = read_.load(std::memory_order_relaxed);
-    if (read == head_.load(std::memory_order_acquire)) {
-        return false;
-    }
-    byte = received_[read % kReceiveSize];
-    read_.store(read + 1, std::memory_order_release);
-    return true;
-}
-
-template <class Chip>
-bool UartLink<Chip>::try_scan(std::uint8_t& byte) noexcept
-{
-    const std::uint32_t read = read_.load(std::memory_order_relaxed);
-    if (static_cast<std::int32_t>(read - scanned_) > 0) {
-        scanned_ = read;
-    }
-    if (scanned_ == head_.load(std::memory_order_acquire)) {
-        return false;
-    }
-    byte = received_[scanned_ % kReceiveSize];
-    ++scanned_;
-    return true;
 }
 
 template <class Chip>
@@ -131,19 +102,17 @@ void UartLink<Chip>::receive() noexcept
 {
     constexpr unsigned kBytesAtOnce = 32;
     auto& uart = Chip::uart0();
-    std::uint32_t head = head_.load(std::memory_order_relaxed);
     for (unsigned i = 0; i < kBytesAtOnce && (uart.fr.read() & kReceiveEmpty) == 0; ++i) {
         const std::uint32_t entry = uart.dr.read();
-        const bool full = head - read_.load(std::memory_order_acquire) == kReceiveSize;
+        const bool full = received_.room() == 0;
         if ((entry & kByteErrors) != 0 || full) {
             lost_.store(true, std::memory_order_relaxed);
         }
         if (!full) {
-            received_[head % kReceiveSize] = static_cast<std::uint8_t>(entry & 0xFFU);
-            ++head;
+            const auto byte = static_cast<std::uint8_t>(entry & 0xFFU);
+            received_.put({&byte, 1});
         }
     }
-    head_.store(head, std::memory_order_release);
 }
 
 template <class Chip>

@@ -42,20 +42,6 @@ enum class ClockSource : std::uint8_t {
 
 namespace detail {
 
-// Every wait for the chip is bounded: a register that never changes counts as a failure.
-inline constexpr std::uint32_t kReadyRounds = 200000;
-
-template <class Word>
-bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
-{
-    for (std::uint32_t round = 0; round < kReadyRounds; ++round) {
-        if ((word.read() & mask) == value) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // True if the running crystal is the planned one, within the accuracy of the chip's own oscillator.
 // The core and timer 11 run from that oscillator, 16 MHz; timer 11 captures each eighth edge of
 // the crystal divided by 31 (RTCPRE). RM0090 sections 7.2.10 and 19.5.11.
@@ -165,7 +151,7 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
         return ClockSource::kNone;
     }
     set_bits(rcc.cr, kCrystalOn);
-    const bool starts = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
+    const bool starts = wait_for(rcc.cr, kCrystalReady, kCrystalReady);
     const bool crystal = starts && detail::crystal_is<Chip>(plan.crystal_hz);
     if (!crystal) {
         clear_bits(rcc.cr, kCrystalOn);
@@ -175,8 +161,8 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) |
                       plan.usb_divisor() << 24U | kUnusedDivisor);
     set_bits(rcc.cr, kMultiplierOn);
-    if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady) ||
-        !detail::wait_for(Chip::power().csr, kRegulatorReady, kRegulatorReady)) {
+    if (!wait_for(rcc.cr, kMultiplierReady, kMultiplierReady) ||
+        !wait_for(Chip::power().csr, kRegulatorReady, kRegulatorReady)) {
         return ClockSource::kNone;
     }
     // Prefetch, both caches, the wait states: before the clock rises.
@@ -186,7 +172,7 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     const std::uint32_t fast = plan.fast_bus_divisor == 2 ? 4U : 0U;
     rcc.cfgr.write(slow << 10U | fast << 13U);
     rcc.cfgr.write(slow << 10U | fast << 13U | 2U);
-    if (!detail::wait_for(rcc.cfgr, 3U << 2U, 2U << 2U)) {
+    if (!wait_for(rcc.cfgr, 3U << 2U, 2U << 2U)) {
         return ClockSource::kNone;
     }
     if (!crystal) {

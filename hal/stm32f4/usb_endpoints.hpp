@@ -218,11 +218,11 @@ void start_usb(UsbSession session) noexcept
     constexpr std::uint32_t kFullSpeed = 3;
     auto& core = Chip::usb();
     set_bits(core.gusbcfg, kInsidePhy);
-    static_cast<void>(detail::wait_for(core.grstctl, kIdle, kIdle));
+    static_cast<void>(wait_for(core.grstctl, kIdle, kIdle));
     core.grstctl.write(kCoreReset);
-    static_cast<void>(detail::wait_for(core.grstctl, kCoreReset, 0));
+    static_cast<void>(wait_for(core.grstctl, kCoreReset, 0));
     core.gusbcfg.write(kInsidePhy | kForceDevice | kTurnaround);
-    static_cast<void>(detail::wait_for(core.gintsts, 1, 0));  // in device mode
+    static_cast<void>(wait_for(core.gintsts, 1, 0));  // in device mode
     core.gccfg.write(kPhyOn | (session == UsbSession::kNotSensed ? kNotSensed : 0U));
     if (session == UsbSession::kOverridden) {
         set_bits(core.gotgctl, kValidByForce);

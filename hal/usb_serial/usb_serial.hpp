@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "hal/contract/board.hpp"
+#include "hal/contract/received_bytes.hpp"
 #include "hal/usb_serial/usb_control.hpp"
 
 namespace cusp::hal::usb_serial {
@@ -28,7 +29,7 @@ class UsbSerial {
 public:
     // See hal/contract/board.hpp. Bytes are never lost.
     bool try_read(std::uint8_t& byte) noexcept;
-    bool try_scan(std::uint8_t& byte) noexcept;
+    bool try_scan(std::uint8_t& byte) noexcept { return received_.try_scan(byte); }
     bool overrun() noexcept { return false; }
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
@@ -36,10 +37,7 @@ public:
     // A program holds the port open, and the host is awake.
     bool open() const noexcept { return open_.load(std::memory_order_acquire); }
     // Everything received was read.
-    bool empty() const noexcept
-    {
-        return read_.load(std::memory_order_relaxed) == head_.load(std::memory_order_acquire);
-    }
+    bool empty() const noexcept { return received_.empty(); }
     // True if open() has ended since the last call: unplugged, closed, or the host sleeps.
     bool sender_left() noexcept { return left_.exchange(false, std::memory_order_relaxed); }
 
@@ -95,13 +93,10 @@ private:
     bool sending_{false};
     bool full_packet_{false};  // the last one: an empty one ends it where nothing follows
 
-    // These count bytes and wrap at 2^32.
-    std::array<std::uint8_t, kReceiveSize> received_{};
-    std::atomic<std::uint32_t> head_{0};   // by the interrupt
-    std::atomic<std::uint32_t> read_{0};   // by the main loop
-    std::uint32_t scanned_{0};             // by the servo tick
+    ReceivedBytes<kReceiveSize> received_;
     std::atomic<bool> wants_room_{false};  // the host is held back
     std::array<std::uint8_t, kSendSize> sent_{};
+    // Both count bytes and wrap at 2^32.
     std::atomic<std::uint32_t> send_head_{0};  // by the main loop
     std::atomic<std::uint32_t> send_tail_{0};  // by the interrupt
     std::atomic<bool> open_{false};
@@ -111,31 +106,11 @@ private:
 template <class Endpoints, class Table>
 bool UsbSerial<Endpoints, Table>::try_read(std::uint8_t& byte) noexcept
 {
-    const std::uint32_t read = read_.load(std::memory_order_relaxed);
-    if (empty()) {
-        return false;
-    }
-    byte = received_[read % kReceiveSize];
-    read_.store(read + 1, std::memory_order_release);
-    if (wants_room_.load(std::memory_order_relaxed)) {
+    const bool there = received_.try_read(byte);
+    if (there && wants_room_.load(std::memory_order_relaxed)) {
         Endpoints::ask_for_service();
     }
-    return true;
-}
-
-template <class Endpoints, class Table>
-bool UsbSerial<Endpoints, Table>::try_scan(std::uint8_t& byte) noexcept
-{
-    const std::uint32_t read = read_.load(std::memory_order_relaxed);
-    if (static_cast<std::int32_t>(read - scanned_) > 0) {
-        scanned_ = read;
-    }
-    if (scanned_ == head_.load(std::memory_order_acquire)) {
-        return false;
-    }
-    byte = received_[scanned_ % kReceiveSize];
-    ++scanned_;
-    return true;
+    return there;
 }
 
 template <class Endpoints, class Table>
@@ -180,12 +155,7 @@ template <class Endpoints, class Table>
 void UsbSerial<Endpoints, Table>::take_bulk(Span<const std::uint8_t> bytes) noexcept
 {
     // There is room: arm_bulk() waits for it.
-    std::uint32_t head = head_.load(std::memory_order_relaxed);
-    for (const std::uint8_t byte : bytes) {
-        received_[head % kReceiveSize] = byte;
-        ++head;
-    }
-    head_.store(head, std::memory_order_release);
+    received_.put(bytes);
     heard_ = heard_ || !bytes.empty();
     update_open();
 }
@@ -302,9 +272,7 @@ void UsbSerial<Endpoints, Table>::arm_bulk() noexcept
     if (armed_ || control_.halted(kUsbBulkOut)) {
         return;
     }
-    const std::uint32_t held =
-        head_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire);
-    const bool room = kReceiveSize - held >= kUsbPacket;
+    const bool room = received_.room() >= kUsbPacket;
     wants_room_.store(!room, std::memory_order_relaxed);
     if (room) {
         Endpoints::receive_bulk();
