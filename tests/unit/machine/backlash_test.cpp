@@ -12,6 +12,7 @@
 #include "tests/generators/random_moves.hpp"
 #include "tests/support/controller_bench.hpp"
 #include "tests/support/motion_rig.hpp"
+#include "tests/support/property_cases.hpp"
 
 using namespace cusp;
 using machine::Backlash;
@@ -45,7 +46,8 @@ int first_side(const std::vector<Position>& way, unsigned axis)
 }
 
 constexpr std::uint64_t kSeed = 20260716;
-constexpr std::uint64_t kPrograms = 60;
+// Seeds of random programs.
+std::uint64_t programs() { return static_cast<std::uint64_t>(test::property_cases(60)); }
 
 struct Followed {
     std::vector<Position> way;
@@ -86,7 +88,7 @@ TEST_GROUP(Backlash){};
 
 TEST(Backlash, HoldsTheLimitsOfTheMotors)
 {
-    for (std::uint64_t seed = kSeed; seed < kSeed + kPrograms; ++seed) {
+    for (std::uint64_t seed = kSeed; seed < kSeed + programs(); ++seed) {
         Backlash backlash;
         const Followed followed = follow_program(seed, backlash);
         const test::LimitUse use =
@@ -104,7 +106,7 @@ TEST(Backlash, HoldsTheLimitsOfTheMotors)
 TEST(Backlash, LeavesTheSlidesWhereTheWayIsButForTheTimeOfATurn)
 {
     std::uint64_t turns = 0;
-    for (std::uint64_t seed = kSeed; seed < kSeed + kPrograms; ++seed) {
+    for (std::uint64_t seed = kSeed; seed < kSeed + programs(); ++seed) {
         Backlash backlash;
         const Followed followed = follow_program(seed, backlash);
         for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -137,7 +139,7 @@ TEST(Backlash, LeavesTheSlidesWhereTheWayIsButForTheTimeOfATurn)
             CHECK(worst_later <= Backlash::kTurn + 2);
         }
     }
-    CHECK(turns > 1000);
+    CHECK(turns > 17 * programs());
 }
 
 TEST(Backlash, StopsAtOnceAndTakesUpTheRestOnceTheWayGoesOn)

@@ -7,6 +7,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/controller_bench.hpp"
+#include "tests/support/property_cases.hpp"
 
 using namespace cusp;
 using machine::State;
@@ -116,7 +117,7 @@ TEST(SecondMotor, IsSquaredByHoming)
     constexpr unsigned kSeed = 24;
     std::printf("(seed %u) ", kSeed);
     std::mt19937 random{kSeed};
-    for (unsigned i = 0; i < 40; ++i) {
+    for (int i = 0; i < test::property_cases(40); ++i) {
         const Gantry gantry{static_cast<unsigned>(random() % 2), uniform(random, -4, 4),
                             uniform(random, -3, 3)};
         Bench bench{gantry};

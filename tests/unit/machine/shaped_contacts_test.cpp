@@ -7,6 +7,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/controller_bench.hpp"
+#include "tests/support/property_cases.hpp"
 
 using namespace cusp;
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kPlateHeight = -40.0;  // machine mm
 constexpr double kStepLength = 1.0 / 800;
 constexpr double kHomingFeed = 120;  // mm/min, at the second touch
-constexpr unsigned kShapedMills = 60;
+constexpr int kShapedMills = 60;
 
 struct AxisShaper {
     unsigned type{0};
@@ -81,7 +82,7 @@ TEST(ShapedContacts, HomingAndProbingFindTheSamePlacesWithAnyShaper)
         return std::uniform_real_distribution<double>{least, most}(random);
     };
     const Vec3d plain = HomedMill{{}}.board.mill.place();
-    for (unsigned trial = 0; trial < kShapedMills; ++trial) {
+    for (int trial = 0; trial < test::property_cases(kShapedMills); ++trial) {
         PerAxis<AxisShaper> shapers{};
         for (unsigned i = 0; i < 3; ++i) {
             shapers[i] = {static_cast<unsigned>(random() % 4), uniform(45, 120), uniform(0, 0.2)};

@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/controller_bench.hpp"
+#include "tests/support/property_cases.hpp"
 
 using namespace cusp;
 using machine::State;
@@ -360,7 +361,8 @@ TEST(ToolChange, AHoldAtTheContactDoesNotDriveTheToolOn)
 // With holds at random ticks every tool is measured, and the tip returns.
 TEST(ToolChange, RandomToolsAndHoldsLeaveTheProgramWhereItWas)
 {
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    const auto last = static_cast<unsigned>(test::property_cases(8));
+    for (unsigned seed = 1; seed <= last; ++seed) {
         const std::string where = "seed " + std::to_string(seed);
         std::mt19937 random{seed};
         std::uniform_real_distribution<double> longer{-10, 10};
