@@ -10,7 +10,6 @@
 namespace cusp::cosim {
 namespace {
 
-constexpr std::uint32_t kFlashStart = 0x08000000;
 constexpr std::uint32_t kNowhere = 0xFFFFFF00;
 constexpr std::uint32_t kPage = 1024;  // of the engine
 constexpr unsigned kNmi = 2;
@@ -32,20 +31,48 @@ void demand(uc_err error, const char* what)
 
 }  // namespace
 
-CoreModel::CoreModel(Circuit& circuit, std::vector<std::uint8_t>& flash, Outside outside)
-    : Model{circuit}, flash_{flash}, outside_{std::move(outside)}, counts_(flash.size() / 2)
+CoreModel::CoreModel(Circuit& circuit,
+                     CoreFacts facts,
+                     std::vector<std::uint8_t>& flash,
+                     Outside outside)
+    : Model{circuit}, facts_{std::move(facts)}, flash_{flash}, outside_{std::move(outside)}
 {
     const auto mode = static_cast<uc_mode>(UC_MODE_THUMB | UC_MODE_MCLASS);
     demand(uc_open(UC_ARCH_ARM, mode, &engine_), "unicorn");
-    demand(uc_ctl_set_cpu_model(engine_, UC_CPU_ARM_CORTEX_M4), "unicorn, Cortex-M4");
-    demand(uc_mem_map_ptr(engine_, kFlashStart, flash_.size(), UC_PROT_READ | UC_PROT_EXEC,
+    demand(uc_ctl_set_cpu_model(engine_, facts_.cpu), "unicorn, the core");
+    map_memories();
+    map_registers();
+    uc_hook hook = 0;
+    demand(
+        uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0),
+        "hook");
+    demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE_PROT,
+                       reinterpret_cast<void*>(on_protected_store), this, 1, 0),
+           "hook");
+}
+
+void CoreModel::map_memories()
+{
+    const auto add_code = [this](std::uint32_t start, const std::vector<std::uint8_t>& bytes) {
+        code_.push_back({start, &bytes, std::vector<std::uint32_t>(bytes.size() / 2)});
+    };
+    demand(uc_mem_map_ptr(engine_, facts_.flash_start, flash_.size(), UC_PROT_READ | UC_PROT_EXEC,
                           flash_.data()),
            "flash");
     for (MemoryArea& area : circuit_.memories) {
-        demand(uc_mem_map_ptr(engine_, area.start, area.bytes.size(), UC_PROT_READ | UC_PROT_WRITE,
-                              area.bytes.data()),
+        const unsigned allowed = UC_PROT_READ | (area.writable ? unsigned{UC_PROT_WRITE} : 0U) |
+                                 (area.executes ? unsigned{UC_PROT_EXEC} : 0U);
+        demand(uc_mem_map_ptr(engine_, area.start, area.bytes.size(), allowed, area.bytes.data()),
                "memory");
+        if (area.executes) {
+            add_code(area.start, area.bytes);
+        }
     }
+    add_code(facts_.flash_start, flash_);
+}
+
+void CoreModel::map_registers()
+{
     const auto read = [](uc_engine*, std::uint64_t offset, unsigned size, void* range) {
         auto* const self = static_cast<std::pair<CoreModel*, std::uint32_t>*>(range);
         return std::uint64_t{
@@ -59,24 +86,12 @@ CoreModel::CoreModel(Circuit& circuit, std::vector<std::uint8_t>& flash, Outside
     };
     // Owned by the engine's callbacks until the end of the program.
     static std::vector<std::unique_ptr<std::pair<CoreModel*, std::uint32_t>>> ranges;
-    for (const auto& [start, size] : {std::pair{0x40000000U, 0x28000U},
-                                      {0x50000000U, 0x5000U},
-                                      {0x1FFF7000U, 0x1000U},
-                                      {0xE0001000U, 0x1000U},
-                                      {0xE000E000U, 0x1000U},
-                                      {0xE0042000U, 0x1000U}}) {
+    for (const auto& [start, size] : facts_.registers) {
         ranges.push_back(std::make_unique<std::pair<CoreModel*, std::uint32_t>>(this, start));
         demand(uc_mmio_map(engine_, start, size, read, ranges.back().get(), write,
                            ranges.back().get()),
                "registers");
     }
-    uc_hook hook = 0;
-    demand(
-        uc_hook_add(engine_, &hook, UC_HOOK_BLOCK, reinterpret_cast<void*>(on_block), this, 1, 0),
-        "hook");
-    demand(uc_hook_add(engine_, &hook, UC_HOOK_MEM_WRITE_PROT,
-                       reinterpret_cast<void*>(on_protected_store), this, 1, 0),
-           "hook");
 }
 
 CoreModel::~CoreModel() { uc_close(engine_); }
@@ -98,22 +113,20 @@ void CoreModel::reset()
     priorities_ = {};
     pend_sv_ = false;
     timer_on_ = timer_pends_ = masked_ = false;
-    vtor_ = 0;
+    vtor_ = facts_.vectors;
     shpr1_ = shpr2_ = shpr3_ = 0;
     cpacr_ = 0;
     reset_wanted_ = false;
     locked_up_ = false;
     sleeping_ = false;
     circuit_.nmi = false;
-    std::array<std::uint32_t, 2> vectors{};
-    std::memcpy(vectors.data(), flash_.data(), sizeof vectors);
     for (const int name : {UC_ARM_REG_CONTROL, UC_ARM_REG_PRIMASK, UC_ARM_REG_BASEPRI}) {
         set_register(name, 0);
     }
     set_register(UC_ARM_REG_XPSR, 1U << 24U);
-    set_register(UC_ARM_REG_SP, vectors[0]);
+    set_register(UC_ARM_REG_SP, word_at(facts_.vectors));
     set_register(UC_ARM_REG_LR, 0xFFFFFFFF);
-    set_register(UC_ARM_REG_PC, vectors[1]);
+    set_register(UC_ARM_REG_PC, word_at(facts_.vectors + 4));
 }
 
 std::uint8_t* CoreModel::memory(std::uint32_t address, std::uint32_t size)
@@ -127,23 +140,44 @@ std::uint8_t* CoreModel::memory(std::uint32_t address, std::uint32_t size)
     return nullptr;
 }
 
+// The flash is seen at address 0, too.
+std::uint32_t CoreModel::word_at(std::uint32_t address)
+{
+    const std::uint8_t* from = memory(address, 4);
+    if (from == nullptr) {
+        const std::uint32_t place =
+            address >= facts_.flash_start ? address - facts_.flash_start : address;
+        if (place > flash_.size() - 4) {
+            lock_up("no vector at " + hexadecimal(address));
+            return 0;
+        }
+        from = &flash_[place];
+    }
+    std::uint32_t word = 0;
+    std::memcpy(&word, from, sizeof word);
+    return word;
+}
+
 // A Thumb instruction has two halfwords where the first begins with 11101, 11110 or 11111.
 unsigned CoreModel::count_instructions(std::uint32_t address, std::uint32_t size)
 {
-    const std::uint32_t place = (address - kFlashStart) / 2;
-    if (address < kFlashStart || place >= counts_.size()) {
-        return size / 2;
-    }
-    std::uint32_t& known = counts_[place];
-    if (known >> 16U != size) {
-        unsigned count = 0;
-        for (std::uint32_t at = 0; at < size; ++count) {
-            const std::uint8_t high = flash_[address - kFlashStart + at + 1];
-            at += high >= 0xE8 ? 4 : 2;
+    for (Code& code : code_) {
+        const std::uint32_t place = (address - code.start) / 2;
+        if (address < code.start || place >= code.counts.size()) {
+            continue;
         }
-        known = size << 16U | count;
+        std::uint32_t& known = code.counts[place];
+        if (known >> 16U != size) {
+            unsigned count = 0;
+            for (std::uint32_t at = 0; at < size; ++count) {
+                const std::uint8_t high = (*code.bytes)[address - code.start + at + 1];
+                at += high >= 0xE8 ? 4 : 2;
+            }
+            known = size << 16U | count;
+        }
+        return known & 0xFFFFU;
     }
-    return known & 0xFFFFU;
+    return size / 2;
 }
 
 void CoreModel::on_block(uc_engine*, std::uint64_t address, std::uint32_t size, void* self)
@@ -213,12 +247,15 @@ void CoreModel::hang()
     constexpr std::uint32_t kRest = 200;  // NOPs
     constexpr std::uint16_t kNop = 0xBF00;
     constexpr std::uint16_t kBranchBack = 0xE000U | (0x7FFU & (0U - (kRest + 2)));
-    const std::size_t at = flash_.size() - kPage;
+    const std::uint32_t at = facts_.circles;
+    const auto flash_end = static_cast<std::uint32_t>(facts_.flash_start + flash_.size());
+    std::uint8_t* const to =
+        at == flash_end - kPage ? &flash_[flash_.size() - kPage] : memory(at, kPage);
     for (std::uint32_t i = 0; i <= kRest; ++i) {
         const std::uint16_t word = i < kRest ? kNop : kBranchBack;
-        std::memcpy(&flash_[at + 2UL * i], &word, sizeof word);
+        std::memcpy(to + 2UL * i, &word, sizeof word);
     }
-    set_register(UC_ARM_REG_PC, (kFlashStart + static_cast<std::uint32_t>(at)) | 1U);
+    set_register(UC_ARM_REG_PC, at | 1U);
     sleeping_ = false;
 }
 
@@ -320,10 +357,7 @@ void CoreModel::enter(unsigned exception)
     set_register(UC_ARM_REG_LR, 0xFFFFFFE1U | (floats ? 0U : 0x10U) | (nested ? 0U : 8U));
     set_register(UC_ARM_REG_CONTROL, 0);
     set_register(UC_ARM_REG_XPSR, 1U << 24U);
-    std::uint32_t vector = 0;
-    const std::uint32_t table = vtor_ >= kFlashStart ? vtor_ - kFlashStart : vtor_;
-    std::memcpy(&vector, &flash_[table + exception * 4], 4);
-    set_register(UC_ARM_REG_PC, vector);
+    set_register(UC_ARM_REG_PC, word_at(vtor_ + exception * 4));
 
     active_.push_back({exception, instructions_, 0});
     circuit_.nmi = circuit_.nmi && exception != kNmi;
@@ -337,11 +371,12 @@ void CoreModel::enter(unsigned exception)
 // Erratum 838869 of the Cortex-M4: a store before the return may lead to a wrong vector.
 void CoreModel::check_barrier(unsigned exception)
 {
-    bool found = false;
-    for (std::uint32_t at = unbroken_from_ - kFlashStart;
-         at + 4 <= block_ - kFlashStart + block_size_; at += 2) {
+    bool found = !facts_.late_stores;
+    const std::uint32_t start = facts_.flash_start;
+    for (std::uint32_t at = unbroken_from_ - start;
+         !found && at + 4 <= block_ - start + block_size_; at += 2) {
         constexpr std::array<std::uint8_t, 4> kBarrier{0xBF, 0xF3, 0x4F, 0x8F};
-        found = found || std::equal(kBarrier.begin(), kBarrier.end(), flash_.begin() + at);
+        found = std::equal(kBarrier.begin(), kBarrier.end(), flash_.begin() + at);
     }
     if (!found) {
         circuit_.violate("exception " + std::to_string(exception) +
@@ -373,7 +408,7 @@ void CoreModel::leave(std::uint32_t exception_return)
     }
     std::array<std::uint32_t, kBasicWords + kFloatWords> saved{};
     std::memcpy(saved.data(), from, words * 4);
-    set_register(UC_ARM_REG_CONTROL, floats ? kFloatingPointActive : 0U);
+    set_register(UC_ARM_REG_CONTROL, floats ? facts_.floating_point_active : 0U);
     for (unsigned i = 0; floats && i < 16; ++i) {
         set_register(UC_ARM_REG_S0 + static_cast<int>(i), saved[kBasicWords + i]);
     }
@@ -389,91 +424,6 @@ void CoreModel::leave(std::uint32_t exception_return)
     set_register(UC_ARM_REG_PC, saved[6] | 1U);
     set_register(UC_ARM_REG_XPSR, saved[7] & ~(1U << 9U));
     circuit_.interrupts_changed = true;
-}
-
-std::uint32_t CoreModel::read(std::uint32_t offset)
-{
-    if (offset >= 0x100 && offset < 0x10C) {
-        std::uint32_t bits = 0;
-        for (unsigned i = 0; i < 32; ++i) {
-            bits |= (enabled_[(offset - 0x100) * 8 + i] ? 1U : 0U) << i;
-        }
-        return bits;
-    }
-    if (offset >= 0x400 && offset < 0x460) {
-        std::uint32_t value = 0;
-        std::memcpy(&value, &priorities_[offset - 0x400], 4);
-        return value;
-    }
-    switch (offset) {
-        case 0xD00:
-            return 0x410FC241;
-        case 0xD04:
-            return (active_.empty() ? 0U : active_.back().exception) | (pend_sv_ ? 1U << 28U : 0U);
-        case 0xD08:
-            return vtor_;
-        case 0xD0C:
-            return 0xFA050000;
-        case 0xD14:
-            return ccr_;
-        case 0xD20:
-            return shpr3_;
-        case 0xD24:
-            return shcsr_;
-        case 0xD28:
-            return 0;
-        case 0xD88:
-            return cpacr_;
-        default:
-            circuit_.violate("the core: read of a register that is not modelled, " +
-                             hexadecimal(0xE000E000U + offset));
-            return 0;
-    }
-}
-
-void CoreModel::write(std::uint32_t offset, std::uint32_t value)
-{
-    circuit_.interrupts_changed = true;
-    const auto each = [&](std::uint32_t base, auto& flags, bool to) {
-        for (unsigned i = 0; i < 32; ++i) {
-            if ((value >> i & 1U) != 0 && (offset - base) * 8 + i < flags.size()) {
-                flags[(offset - base) * 8 + i] = to;
-            }
-        }
-    };
-    if (offset >= 0x100 && offset < 0x10C) {
-        each(0x100, enabled_, true);
-    } else if (offset >= 0x180 && offset < 0x18C) {
-        each(0x180, enabled_, false);
-    } else if (offset >= 0x200 && offset < 0x20C) {
-        each(0x200, circuit_.interrupt_edges, true);
-    } else if (offset >= 0x280 && offset < 0x28C) {
-        each(0x280, circuit_.interrupt_edges, false);
-    } else if (offset >= 0x400 && offset < 0x460) {
-        std::memcpy(&priorities_[offset - 0x400], &value, 4);
-    } else if (offset == 0x010) {
-        // Its time is not modelled: it pends as soon as it is on.
-        timer_on_ = (value & 3U) == 3;
-        timer_pends_ = timer_pends_ || timer_on_;
-    } else if (offset == 0x014 || offset == 0x018) {
-        // What it counts.
-    } else if (offset == 0xD04) {
-        pend_sv_ = (pend_sv_ || (value >> 28U & 1U) != 0) && (value >> 27U & 1U) == 0;
-        timer_pends_ = timer_pends_ && (timer_on_ || (value >> 25U & 1U) == 0);
-    } else if (offset == 0xD08) {
-        vtor_ = value;
-    } else if (offset == 0xD0C) {
-        reset_wanted_ = reset_wanted_ || (value >> 16U == 0x05FA && (value >> 2U & 1U) != 0);
-    } else if (offset == 0xD14) {
-        ccr_ = value;
-    } else if (offset == 0xD20) {
-        shpr3_ = value;
-    } else if (offset == 0xD88) {
-        cpacr_ = value;
-    } else {
-        circuit_.violate("the core: write to a register that is not modelled, " +
-                         hexadecimal(0xE000E000U + offset));
-    }
 }
 
 }  // namespace cusp::cosim

@@ -1,4 +1,4 @@
-// CoreModel: a Cortex-M4F: Unicorn runs its instructions; its exceptions are made here.
+// CoreModel: a Cortex-M4F or M33: Unicorn runs its instructions; its exceptions are made here.
 //
 // Unicorn has no exceptions of an M-profile core: frames are stacked and unstacked by hand, with the
 // floating-point state. It is stopped at the start of a block only: a stop inside an IT block loses
@@ -12,6 +12,19 @@
 
 namespace cusp::cosim {
 
+// The kinds of core, and the addresses around it.
+struct CoreFacts {
+    uc_cpu_arm cpu{UC_CPU_ARM_CORTEX_M4};
+    std::uint32_t flash_start{0x08000000};
+    // Start and size of each range of registers.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> registers;
+    std::uint32_t id{0x410FC241};
+    std::uint32_t floating_point_active{4};  // of CONTROL
+    bool late_stores{true};                  // erratum 838869 of the Cortex-M4
+    std::uint32_t vectors{0};                // after a reset
+    std::uint32_t circles{0};                // a page in which code that hangs goes round
+};
+
 // The interrupt controller and the system control block are its registers.
 class CoreModel final : public Model {
 public:
@@ -22,12 +35,12 @@ public:
         std::function<void()> events;  // what is due by now
         std::function<bool()> must_stop;
     };
-    CoreModel(Circuit& circuit, std::vector<std::uint8_t>& flash, Outside outside);
+    CoreModel(Circuit& circuit, CoreFacts facts, std::vector<std::uint8_t>& flash, Outside outside);
     ~CoreModel() override;
 
     std::uint32_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint32_t value) override;
-    // From the vector table at the flash's start.
+    // From the vector table that the facts name.
     void reset() override;
 
     void set_instruction_time(Picoseconds time) { instruction_time_ = time; }
@@ -58,6 +71,9 @@ private:
     std::uint32_t register_of(int name) const;
     void set_register(int name, std::uint32_t value);
     std::uint8_t* memory(std::uint32_t address, std::uint32_t size);
+    std::uint32_t word_at(std::uint32_t address);
+    void map_memories();
+    void map_registers();
     unsigned most_urgent() const;
     unsigned priority_of(unsigned exception) const;
     bool pending(unsigned exception) const;
@@ -68,9 +84,16 @@ private:
     void lock_up(const std::string& why);
 
     uc_engine* engine_{nullptr};
+    CoreFacts facts_;
     std::vector<std::uint8_t>& flash_;
     Outside outside_;
-    std::vector<std::uint32_t> counts_;  // of blocks: size << 16 | instructions
+    // Memory that instructions come from, and those of its blocks: size << 16 | instructions.
+    struct Code {
+        std::uint32_t start;
+        const std::vector<std::uint8_t>* bytes;
+        std::vector<std::uint32_t> counts;
+    };
+    std::vector<Code> code_;
     Picoseconds instruction_time_{7738};
     std::uint64_t instructions_{0};
     std::uint32_t block_{0}, block_size_{0};

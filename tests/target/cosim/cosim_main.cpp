@@ -19,6 +19,7 @@
 #include "firmware/base/assert.hpp"
 #include "tests/target/cosim/golden_sender.hpp"
 #include "tests/target/cosim/pseudo_terminal.hpp"
+#include "tests/target/cosim/stm32_chip.hpp"
 #include "tests/target/cosim/usb_console.hpp"
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
@@ -278,11 +279,14 @@ void Console::golden(std::istream& words)
 void Console::tell_pins() const
 {
     for (const auto& [letter, port] : chip_.ports()) {
-        for (unsigned pin = 0; pin < 16; ++pin) {
+        static_cast<void>(letter);
+        for (unsigned pin = 0; pin < port->count(); ++pin) {
             if (port->driven(pin)) {
-                std::cout << "pin P" << letter << pin << " " << (port->high(pin) ? 1 : 0) << "\n";
-            } else if (port->mode(pin) == 2) {
-                std::cout << "function P" << letter << pin << " " << port->function(pin) << "\n";
+                std::cout << "pin " << port->name() << pin << " " << (port->high(pin) ? 1 : 0)
+                          << "\n";
+            } else if (port->given_to(pin) >= 0) {
+                std::cout << "function " << port->name() << pin << " " << port->given_to(pin)
+                          << "\n";
             }
         }
     }
@@ -294,8 +298,8 @@ void Console::tell_pins() const
 
 void Console::tell_duties()
 {
-    for (const TimerModel::DutyChange& change : chip_.take_spindle_changes()) {
-        std::cout << "duty " << change.time / 1000 << " " << change.channel + 1 << " " << change.ppm
+    for (const ChipUnderTest::Duty& change : chip_.take_spindle_changes()) {
+        std::cout << "duty " << change.time / 1000 << " " << change.channel << " " << change.ppm
                   << "\n";
     }
 }
@@ -315,11 +319,11 @@ void Console::tell_state() const
 {
     std::cout << "now " << chip_.circuit().now / kMicrosecond << "\n"
               << "instructions " << chip_.core().instructions() << "\n"
-              << "core_hz " << chip_.clocks().core_hz() << "\n"
+              << "core_hz " << chip_.core_hz() << "\n"
               << "resets " << chip_.resets() << "\n"
               << "powered " << chip_.powered() << "\n"
-              << "erases " << chip_.flash().erases() << "\n"
-              << "words " << chip_.flash().words() << "\n"
+              << "erases " << chip_.erases() << "\n"
+              << "words " << chip_.words() << "\n"
               << "lost " << chip_.line().lost() << "\n"
               << "unsent " << chip_.line().waiting() << "\n"
               << "lowest_stack " << chip_.core().lowest_stack() << "\n";
@@ -362,14 +366,14 @@ void Console::perform(const std::string& line)
     } else if (command == "golden") {
         golden(words);
     } else if (command == "crystal") {
-        chip_.clocks().kill_crystal();
+        chip_.kill_crystal();
     } else if (command == "baud") {
         std::uint32_t baud = 0;
         words >> baud;
         chip_.serial().set_sender_baud(baud);
     } else if (command == "flash") {
         const Picoseconds erase = milliseconds(words);
-        chip_.flash().set_times(erase, milliseconds(words));
+        chip_.set_flash_times(erase, milliseconds(words));
     } else if (command == "drive") {
         drive(words);
     } else if (command == "spindle") {
@@ -400,7 +404,7 @@ int run_commands(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
-    std::vector<std::vector<ChipUnderTest::Place>> drives;
+    std::vector<std::vector<Stm32Chip::Place>> drives;
     std::vector<std::uint8_t> image = read_file(arguments[3]);
     unsigned settings = 1;  // their first sector
     struct Spindle {
@@ -438,7 +442,7 @@ int run_commands(int count, char** arguments)
             throw std::runtime_error{"no such word: " + word};
         }
     }
-    ChipUnderTest chip{kind, image};
+    Stm32Chip chip{kind, image};
     chip.flash().set_free_sectors(settings);
     if (settings > 4) {
         chip.flash().set_times(2 * kSecond, 16 * kMicrosecond);  // 128 KB

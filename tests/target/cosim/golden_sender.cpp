@@ -38,9 +38,10 @@ bool has_pause(const std::string& line)
 
 PinName pin_name(const std::string& text)
 {
-    const bool named = text.size() >= 3 && text[0] == 'P' && text[1] >= 'A' && text[1] <= 'I';
+    const bool named = text.size() >= 3 && ((text[0] == 'P' && text[1] >= 'A' && text[1] <= 'I') ||
+                                            (text[0] == 'G' && text[1] == 'P'));
     const int number = named ? std::stoi(text.substr(2)) : -1;
-    if (number < 0 || number > 15) {
+    if (number < 0 || number > (text[0] == 'G' ? 31 : 15)) {
         throw std::runtime_error{"no such pin: " + text};
     }
     return {text[1], static_cast<unsigned>(number)};
@@ -61,7 +62,7 @@ int GoldenSender::run()
     silent_since_ = 0;
     chip_.core().set_instruction_time(kNoTime);
     chip_.line().set_instant(true);
-    chip_.flash().set_times(0, 0);
+    chip_.set_flash_times(0, 0);
     for (const auto& port : chip_.ports()) {
         port.second->forget_changes();
     }
@@ -204,7 +205,7 @@ void GoldenSender::collect()
     struct Change {
         Picoseconds time;
         char port;
-        std::uint16_t high;
+        std::uint32_t high;
     };
     std::vector<Change> changes;
     for (const auto& [letter, port] : chip_.ports()) {
@@ -220,7 +221,7 @@ void GoldenSender::collect()
         unsigned after = levels;
         for (unsigned line = 0; line < job_.pins.size(); ++line) {
             if (job_.pins[line].port == changes[i].port) {
-                const unsigned high = unsigned{changes[i].high} >> job_.pins[line].number & 1U;
+                const unsigned high = changes[i].high >> job_.pins[line].number & 1U;
                 after = (after & ~(1U << line)) | (high ^ (job_.inverted >> line & 1U)) << line;
             }
         }
@@ -231,13 +232,12 @@ void GoldenSender::collect()
         if (!changed || more_at_once || changes[i].time < start_) {
             continue;
         }
-        // The stream's first word follows the change of halves by one tick, a frame behind.
-        const Picoseconds since = changes[i].time - first_boundary_;
+        const Picoseconds since = changes[i].time - first_boundary_ - chip_.frame_delay();
         if (since % kMicrosecond != 0) {
             chip_.circuit().violate("an edge is " + std::to_string(since % kMicrosecond) +
                                     " ps off its microsecond");
         }
-        const std::int64_t tick = since / kMicrosecond - 1001;
+        const std::int64_t tick = since / kMicrosecond;
         edges_.push_back(static_cast<std::uint64_t>(tick) << 8U | levels);
     }
 }

@@ -13,7 +13,7 @@
 
 namespace cusp::cosim {
 
-// A pin by its name on the schematic: "PC6".
+// A pin by its name on the schematic: "PC6"; "GP6" is one of port P.
 struct PinName {
     char port;
     unsigned number;

@@ -1,4 +1,4 @@
-// LineModel: the other end of a line to the chip: the sender's.
+// LineModel: the other end of a line to the chip: the sender's; SerialLine: that of a serial port.
 #pragma once
 
 #include <functional>
@@ -23,6 +23,17 @@ public:
     virtual void set_mute(bool on) = 0;
     // Bytes that the chip did not take.
     virtual std::uint64_t lost() const = 0;
+};
+
+class SerialLine : public LineModel {
+public:
+    virtual void set_sender_baud(std::uint32_t baud) = 0;
+    // A byte came before the last one was fetched: it is lost, and the flag stays until it is read away.
+    virtual void overrun() = 0;
+    // A damaged byte arrives, as when the cable is pulled.
+    virtual void damage() = 0;
+    // The cable is pulled: what was on its way does not arrive.
+    virtual void unplug() = 0;
 };
 
 }  // namespace cusp::cosim

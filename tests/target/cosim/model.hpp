@@ -33,6 +33,8 @@ struct MemoryArea {
     std::uint32_t start{0};
     std::vector<std::uint8_t> bytes;
     bool dma{true};  // whether the DMA controllers reach it too
+    bool executes{false};
+    bool writable{true};
 };
 
 // The view that every block of the chip has of the rest.

@@ -18,7 +18,7 @@ void PortModel::reset()
     odr_ = 0;
     afr_ = {};
     outputs_ = outputs();
-    note();
+    look();
 }
 
 std::uint16_t PortModel::outputs() const
@@ -110,7 +110,7 @@ void PortModel::write(std::uint32_t offset, std::uint32_t value)
             circuit_.violate(std::string{"port "} + letter_ + ": write to a register to be read, " +
                              hexadecimal(offset));
     }
-    note();
+    look();
 }
 
 void PortModel::write_by_dma(std::uint32_t offset, std::uint32_t value)
@@ -127,14 +127,12 @@ void PortModel::write_by_dma(std::uint32_t offset, std::uint32_t value)
         circuit_.violate(std::string{"port "} + letter_ + ": DMA drives a pin that is no output");
     }
     set_reset(value);
-    note();
+    look();
 }
 
-void PortModel::note()
+void PortModel::look()
 {
-    const auto high = static_cast<std::uint16_t>(odr_ & outputs_);
-    if (changes_.empty() || changes_.back().driven != outputs_ || changes_.back().high != high) {
-        changes_.push_back({circuit_.now, outputs_, high});
+    if (note(circuit_.now, outputs_, odr_ & outputs_)) {
         for (const Listener& listener : listeners_) {
             listener.call();
         }

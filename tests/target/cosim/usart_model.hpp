@@ -9,7 +9,7 @@
 
 namespace cusp::cosim {
 
-class UsartModel final : public Model, public LineModel {
+class UsartModel final : public Model, public SerialLine {
 public:
     struct Wiring {
         std::function<std::uint32_t()> bus_hz;
@@ -29,7 +29,7 @@ public:
     void stream_ready() { ask_for_transmit(); }
 
     // The other end of the line.
-    void set_sender_baud(std::uint32_t baud) { sender_baud_ = baud; }
+    void set_sender_baud(std::uint32_t baud) override { sender_baud_ = baud; }
     void set_instant(bool on) override;
     void send(const std::string& bytes) override;
     void set_receiver(std::function<void(char)> receiver) override
@@ -39,13 +39,11 @@ public:
     std::size_t waiting() const override { return incoming_.size(); }
     bool quiet() const override { return incoming_.empty() && shift_due_ == kNever && !stuck_; }
     std::uint64_t lost() const override { return lost_; }
-    void unplug() { incoming_.clear(); }
+    void unplug() override { incoming_.clear(); }
     // The other end takes no more bytes: the one on its way stays in the port.
     void set_mute(bool on) override;
-    // A byte came before the last one was fetched: it is lost, and the flag stays until it is read away.
-    void overrun();
-    // A damaged byte arrives, as when the cable is pulled.
-    void damage();
+    void overrun() override;
+    void damage() override;
 
 private:
     Picoseconds byte_time() const;

@@ -28,7 +28,7 @@ std::string name_of(Handshake handshake)
 
 }  // namespace
 
-UsbHost::UsbHost(Circuit& circuit, UsbModel& device) : Model{circuit}, device_{device}
+UsbHost::UsbHost(Circuit& circuit, UsbDevice& device) : Model{circuit}, device_{device}
 {
     device_.set_listener([this] {
         refused_ = false;

@@ -6,13 +6,14 @@
 #include <deque>
 
 #include "tests/target/cosim/line_model.hpp"
-#include "tests/target/cosim/usb_model.hpp"
+#include "tests/target/cosim/model.hpp"
+#include "tests/target/cosim/usb_device.hpp"
 
 namespace cusp::cosim {
 
 class UsbHost final : public Model, public LineModel {
 public:
-    UsbHost(Circuit& circuit, UsbModel& device);
+    UsbHost(Circuit& circuit, UsbDevice& device);
 
     struct Request {
         std::array<std::uint8_t, 8> setup;
@@ -66,7 +67,7 @@ private:
                    const std::function<void(Picoseconds)>& run);
     Result read_data(unsigned length, const std::function<void(Picoseconds)>& run);
 
-    UsbModel& device_;
+    UsbDevice& device_;
     std::function<void(char)> receiver_;
     std::deque<std::uint8_t> outgoing_;
     // A host's driver gets bytes once its buffer is full or a packet is short.

@@ -64,9 +64,7 @@ std::uint32_t UsbModel::status() const
 void UsbModel::change()
 {
     circuit_.set_line(wiring_.interrupt, (gahbcfg_ & 1U) != 0 && (status() & gintmsk_) != 0);
-    if (listener_) {
-        listener_();
-    }
+    answers_otherwise();
 }
 
 std::uint32_t UsbModel::fifo_words(unsigned number) const { return txf_[number] >> 16U; }

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "tests/target/cosim/model.hpp"
+#include "tests/target/cosim/usb_device.hpp"
 
 namespace cusp::cosim {
 
-// The answer of a device to a token of the host.
-enum class Handshake : std::uint8_t { kAck, kNak, kStall, kNone };
-
-class UsbModel final : public Model {
+class UsbModel final : public Model, public UsbDevice {
 public:
     struct Wiring {
         std::function<std::uint32_t()> clock_hz;  // must be 48 MHz
@@ -29,25 +27,21 @@ public:
     void write(std::uint32_t offset, std::uint32_t value) override;
     void reset() override;
 
-    // The wire. The device's pull-up is on.
-    bool attached() const;
-    void bus_reset();
-    void suspend();
-    void resume();
-    Handshake setup(unsigned address, const std::array<std::uint8_t, 8>& bytes);
-    // `data_one`: the packet is DATA1. A packet that the device has had already is taken and dropped.
+    // UsbDevice
+    bool attached() const override;
+    void bus_reset() override;
+    void suspend() override;
+    void resume() override;
+    Handshake setup(unsigned address, const std::array<std::uint8_t, 8>& bytes) override;
     Handshake out(unsigned address,
                   unsigned endpoint,
                   const std::vector<std::uint8_t>& bytes,
-                  bool data_one);
+                  bool data_one) override;
     Handshake in(unsigned address,
                  unsigned endpoint,
                  std::vector<std::uint8_t>& bytes,
-                 bool& data_one);
-    // A packet of an IN endpoint waits to be fetched.
-    bool has_packet(unsigned endpoint) const;
-    // Called where the device may answer otherwise than before.
-    void set_listener(std::function<void()> listener) { listener_ = std::move(listener); }
+                 bool& data_one) override;
+    bool has_packet(unsigned endpoint) const override;
 
 private:
     static constexpr unsigned kEndpoints = 4;
@@ -83,7 +77,6 @@ private:
     void change();
 
     Wiring wiring_;
-    std::function<void()> listener_;
     std::uint32_t gotgctl_{0}, gahbcfg_{0}, gusbcfg_{0}, gintsts_{0}, gintmsk_{0}, gccfg_{0};
     std::uint32_t grxfsiz_{0}, pcgcctl_{0}, dcfg_{0}, dctl_{2}, diepmsk_{0}, doepmsk_{0},
         daintmsk_{0};

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/target/cosim/chip_under_test.hpp"
+#include "tests/target/cosim/stm32_chip.hpp"
 
 namespace cusp::cosim {
 namespace {
@@ -83,7 +83,7 @@ ChipKind chip_kind(const std::string& name)
     throw std::runtime_error{"no such chip: " + name};
 }
 
-void ChipUnderTest::make_blocks()
+void Stm32Chip::make_blocks()
 {
     for (const char letter : kind_.ports) {
         const auto bit = static_cast<unsigned>(letter - 'A');
@@ -120,10 +120,10 @@ void ChipUnderTest::make_blocks()
     active_ = {dma1_.get(), dma2_.get(), watchdog_.get()};
 }
 
-void ChipUnderTest::add_timer(const std::string& name,
-                              std::uint32_t address,
-                              TimerModel::Wiring wiring,
-                              std::function<bool()> clocked)
+void Stm32Chip::add_timer(const std::string& name,
+                          std::uint32_t address,
+                          TimerModel::Wiring wiring,
+                          std::function<bool()> clocked)
 {
     auto timer = std::make_unique<TimerModel>(circuit_, name, std::move(wiring));
     add(address, name, *timer, std::move(clocked));
@@ -131,7 +131,7 @@ void ChipUnderTest::add_timer(const std::string& name,
     timers_[name] = std::move(timer);
 }
 
-void ChipUnderTest::make_timers()
+void Stm32Chip::make_timers()
 {
     const auto slow = [this] {
         return clocks_->slow_timer_hz();
@@ -176,7 +176,7 @@ void ChipUnderTest::make_timers()
 }
 
 // RM0090 tables 42 and 43: the streams that take and give bytes, all by channel 4.
-struct ChipUnderTest::SerialWiring {
+struct Stm32Chip::SerialWiring {
     unsigned number;
     std::uint32_t address;
     DmaModel& dma;
@@ -189,7 +189,7 @@ struct ChipUnderTest::SerialWiring {
     unsigned interrupt;
 };
 
-void ChipUnderTest::add_serial(const SerialWiring& wiring)
+void Stm32Chip::add_serial(const SerialWiring& wiring)
 {
     DmaModel* const dma = &wiring.dma;
     const auto ask = [dma](const std::vector<unsigned>& streams) {
@@ -203,7 +203,7 @@ void ChipUnderTest::add_serial(const SerialWiring& wiring)
     usart = std::make_unique<UsartModel>(
         circuit_, name,
         UsartModel::Wiring{wiring.bus_hz, ask(wiring.receive_streams), ask(wiring.send_streams),
-                           [&port = port(wiring.port), first = wiring.first_pin] {
+                           [&port = port_model(wiring.port), first = wiring.first_pin] {
                                return port.mode(first) == 2 && port.function(first) == 7 &&
                                       port.mode(first + 1) == 2 && port.function(first + 1) == 7;
                            },
@@ -212,7 +212,7 @@ void ChipUnderTest::add_serial(const SerialWiring& wiring)
     active_.push_back(usart.get());
 }
 
-void ChipUnderTest::make_serial()
+void Stm32Chip::make_serial()
 {
     add_serial({1,
                 0x40011000,
@@ -252,7 +252,7 @@ void ChipUnderTest::make_serial()
 }
 
 // RM0090 section 34 and table 62; the pins by alternate function 10.
-void ChipUnderTest::make_usb()
+void Stm32Chip::make_usb()
 {
     usb_ = std::make_unique<UsbModel>(
         circuit_, UsbModel::Wiring{[this] { return clocks_->usb_hz(); },
