@@ -11,7 +11,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 CHIPS = {"mill3_f405": ("stm32f405", 8000000), "black_pill_f411": ("stm32f411", 25000000),
          "nucleo_f446_cnc_shield": ("stm32f446", 8000000, "external"),
          "skr2_f407": ("stm32f407", 8000000), "octopus_f446": ("stm32f446", 12000000),
-         "skr2_f429": ("stm32f429", 8000000), "octopus_f429": ("stm32f429", 8000000)}
+         "skr2_f429": ("stm32f429", 8000000), "octopus_f429": ("stm32f429", 8000000),
+         "pico2_terminals": ("rp2350", 12000000)}
 # An image behind the maker's boot loader, NAME_sd, is for the same board; its settings begin in this sector.
 BEHIND_LOADER = "_sd"
 SETTINGS_SECTOR = {"stm32f407": 10, "stm32f429": 10, "stm32f446": 6}
@@ -20,7 +21,7 @@ WIRED_AS = {"skr2_f429": "skr2_f407", "octopus_f429": "octopus_f446"}
 # A core that stands still does not turn the wire round on which a drive answers: for 2 ms both drive it.
 WITHOUT_CORE = ("driven from outside and from inside", "the wire is driven from both ends")
 # Which USART has the pin as its transmitter.
-USARTS = {"PA9": (), "PA2": ("usart2",)}
+USARTS = {"PA9": (), "PA2": ("usart2",), "GP0": ()}
 USART_OF_SPINDLE = {"PA2": "2", "PD8": "3"}
 # Contacts to ground that are closed where nothing is tripped.
 CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")
@@ -55,7 +56,7 @@ def wiring(board):
     """signal -> pin, from the wiring table of the board's README."""
     pins = {}
     text = page_of(board)
-    for signals, names in re.findall(r"^\| ([^|]+) \| ((?:P[A-I]\d+)(?:, P[A-I]\d+)*) \|", text, re.M):
+    for signals, names in re.findall(r"^\| ([^|]+) \| ((?:P[A-I]|GP)\d+(?:, (?:P[A-I]|GP)\d+)*) \|", text, re.M):
         words = [re.sub(r"\(.*?\)", "", word).strip() for word in signals.split(",")]
         names = names.split(", ")
         if len(words) != len(names):
@@ -78,6 +79,7 @@ class Chip:
             loader = pathlib.Path(image).resolve().parents[1] / "test_loader.bin"
             more += ["loader", str(loader), str(SETTINGS_SECTOR[chip])]
         self.may_violate = may_violate
+        self.page = page_of(board)
         self.pins = wiring(board)
         self.lines = [self.pins[line] for line in LINES]
         self.drives = [drive for drive in DRIVES if drive in self.pins]
@@ -129,6 +131,10 @@ class Chip:
         wanted = until.encode("latin-1").hex()
         answer = self.command(f"run {milliseconds} {wanted}")
         return bytes.fromhex(answer[-1].partition(" ")[2]).decode("latin-1")
+
+    def level_of(self, signal):
+        """The level at which an input acts, as its row in the wiring table says."""
+        return 0 if re.search(rf"^\| {signal} \| \w+ \| low = ", self.page, re.M) else 1
 
     def boot(self):
         return self.run(1000, "help]\r\n") + self.run(DRIVES_UP if self.drives else 20)

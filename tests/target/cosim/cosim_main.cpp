@@ -1,6 +1,6 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2] [drive PIN]... [bus_drive SELECT CLOCK TO FROM]... [spindle PROTOCOL USART PIN] [loader FILE.bin SECTOR]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin; of an STM32 also [external] [usart2] [drive PIN]... [bus_drive SELECT CLOCK TO FROM]... [spindle PROTOCOL USART PIN] [loader FILE.bin SECTOR]
 //
 // `loader`: the file lies before the image, which begins at 0x08008000 and may write to two sectors; `drive`: a TMC2209 is at this pin; `bus_drive`: a TMC5160 at these; `spindle`: a spindle's drive (1 Huanyang, 2 P2A, 3 plain) is at this USART, this pin its transceiver's; `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
@@ -19,6 +19,7 @@
 #include "firmware/base/assert.hpp"
 #include "tests/target/cosim/golden_sender.hpp"
 #include "tests/target/cosim/pseudo_terminal.hpp"
+#include "tests/target/cosim/rp2350/rp2350_chip.hpp"
 #include "tests/target/cosim/stm32_chip.hpp"
 #include "tests/target/cosim/usb_console.hpp"
 
@@ -279,13 +280,11 @@ void Console::golden(std::istream& words)
 void Console::tell_pins() const
 {
     for (const auto& [letter, port] : chip_.ports()) {
-        static_cast<void>(letter);
         for (unsigned pin = 0; pin < port->count(); ++pin) {
-            if (port->driven(pin)) {
-                std::cout << "pin " << port->name() << pin << " " << (port->high(pin) ? 1 : 0)
-                          << "\n";
-            } else if (port->given_to(pin) >= 0) {
-                std::cout << "function " << port->name() << pin << " " << port->given_to(pin)
+            const bool driven = port->driven(pin);
+            const int value = driven ? (port->high(pin) ? 1 : 0) : port->given_to(pin);
+            if (value >= 0) {
+                std::cout << (driven ? "pin " : "function ") << port->name() << pin << " " << value
                           << "\n";
             }
         }
@@ -400,7 +399,29 @@ void Console::perform(const std::string& line)
 
 constexpr std::size_t kLoaderBytes = 0x8000;
 
-int run_commands(int count, char** arguments)
+int obey(ChipUnderTest& chip, std::uint32_t hz)
+{
+    // 1.3 cycles an instruction.
+    chip.core().set_instruction_time(kSecond / hz * 13 / 10);
+    Console console{chip};
+    for (std::string line; std::getline(std::cin, line);) {
+        console.perform(line);
+        std::cout << "done" << std::endl;
+    }
+    return 0;
+}
+
+int run_rp2350(int count, char** arguments)
+{
+    if (count > 4) {
+        throw std::runtime_error{std::string{"no such word for this chip: "} + arguments[4]};
+    }
+    rp2350::Rp2350Chip chip{static_cast<std::uint32_t>(std::stoul(arguments[2])),
+                            read_file(arguments[3])};
+    return obey(chip, rp2350::Rp2350Chip::kMostHz);
+}
+
+int run_stm32(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
@@ -453,14 +474,7 @@ int run_commands(int count, char** arguments)
     if (spindle) {
         chip.add_spindle(spindle->protocol, spindle->usart, spindle->pin.port, spindle->pin.number);
     }
-    // 1.3 cycles an instruction.
-    chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);
-    Console console{chip};
-    for (std::string line; std::getline(std::cin, line);) {
-        console.perform(line);
-        std::cout << "done" << std::endl;
-    }
-    return 0;
+    return obey(chip, kind.clocks.most_hz);
 }
 
 }  // namespace
@@ -474,7 +488,9 @@ int main(int count, char** arguments)
         return 2;
     }
     try {
-        return cusp::cosim::run_commands(count, arguments);
+        const bool pico = std::string{arguments[1]} == "rp2350";
+        return pico ? cusp::cosim::run_rp2350(count, arguments)
+                    : cusp::cosim::run_stm32(count, arguments);
     } catch (const std::exception& error) {
         std::cerr << "cosim: " << error.what() << "\n";
         std::cout << "failed: " << error.what() << std::endl;  // the answer to the last command

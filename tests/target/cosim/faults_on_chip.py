@@ -12,10 +12,13 @@ from chip import BUS, CHIPS, DRIVES, ROOT, WIRED_AS, Chip, CosimFailed
 
 options = None
 MOST_HZ = {"black_pill_f411": 96e6}  # the others: 168 MHz
+# ms from the reset until the outputs are driven; the others: 1. The RP2350 waits 2 ms for its crystal first, to copy the image
+# to RAM at its full clock; till then pull-downs hold the pins.
+DRIVEN_WITHIN = {"pico2_terminals": 3.0}
 QUICK = "$0=2\n" + "".join(f"$10{axis}=800.000\n$11{axis}=9000.000\n$12{axis}=5000.000\n$80{axis}=1000000.000\n"
                            for axis in range(3))
-# Pins that are channels of timer 3, by alternate function 2.
-TIMER3 = {"PA6": "1", "PA7": "2", "PB0": "3", "PB1": "4"}
+# Pins of the spindle's pulses: their channel, and the function that gives it to them.
+PULSES = {"PA6": ("1", 2), "PA7": ("2", 2), "PB0": ("3", 2), "PB1": ("4", 2), "GP10": ("1", 4)}
 
 
 def chip(**more):
@@ -27,6 +30,10 @@ def chip(**more):
 def most_steps_per_second():
     table, = (ROOT / "boards" / WIRED_AS.get(options.board, options.board)).glob("*_table.hpp")
     return int(re.search(r"kMostStepsPerSecond = (\d+);", table.read_text()).group(1))
+
+
+def is_rp2350():
+    return CHIPS[options.board][0] == "rp2350"
 
 
 def settings_of(machine):
@@ -86,7 +93,8 @@ class Pins(unittest.TestCase):
 
     def test_all_outputs_are_driven_within_a_millisecond_of_the_reset(self):
         """By the instructions till then, at the 16 MHz of the reset; the model counts them at the full clock."""
-        slower = MOST_HZ.get(options.board, 168e6) / 16e6
+        slower = 1 if is_rp2350() else MOST_HZ.get(options.board, 168e6) / 16e6
+        most = DRIVEN_WITHIN.get(options.board, 1.0)
         with chip() as machine:
             for settings, high in (("", 0), ("$2=7\n$3=7\n$4=1\n$15=3\n$16=7", 1)):
                 machine.boot()
@@ -107,7 +115,7 @@ class Pins(unittest.TestCase):
                     driven = [time for time, port, driven, _ in changes[1:]
                               if port == pin[1] and driven >> int(pin[2:]) & 1]
                     self.assertTrue(driven, pin)
-                    self.assertLessEqual((driven[0] - began) / 1e6 * slower, 1.0, pin)
+                    self.assertLessEqual((driven[0] - began) / 1e6 * slower, most, pin)
                     # Those of the pulses and of the drives go on.
                     if pin not in (machine.pins.get("spindle pulses"), *wires):
                         edges = machine.edges_of(pin, changes[1:])
@@ -139,18 +147,19 @@ class Pins(unittest.TestCase):
                 machine.run(5)
                 self.assertEqual(on(), wanted, line)
             pulses = machine.pins["spindle pulses"]
-            self.assertEqual(machine.answered("function")[pulses], 2)
-            self.assertEqual(machine.answered("spindle")[TIMER3[pulses]], 500000)
+            channel, function = PULSES[pulses]
+            self.assertEqual(machine.answered("function")[pulses], function)
+            self.assertAlmostEqual(machine.answered("spindle")[channel], 500000, delta=10)
             self.assertEqual(machine.answered("rate")["TIM3"], 1000)
             # Off at 5 %, full speed at 80 %, ten times as many of them.
             for setting in ("$34=5", "$36=80", "$33=10000"):
                 machine.ask("M5")
                 machine.ask(setting)
-            self.assertAlmostEqual(machine.answered("spindle")[TIMER3[pulses]], 50000, delta=300)
+            self.assertAlmostEqual(machine.answered("spindle")[channel], 50000, delta=300)
             self.assertAlmostEqual(machine.answered("rate")["TIM3"], 10000, delta=3)
             machine.ask("M3 S24000")
             machine.run(5)
-            self.assertAlmostEqual(machine.answered("spindle")[TIMER3[pulses]], 800000, delta=300)
+            self.assertAlmostEqual(machine.answered("spindle")[channel], 800000, delta=300)
             if "drives power" in machine.pins:
                 self.assertEqual(machine.levels()[machine.pins["drives power"]], 1)
 
@@ -175,9 +184,10 @@ class Pins(unittest.TestCase):
             machine.send("!")
             machine.wait_for("Hold")
             machine.run(200)  # it comes to rest
-            machine.pin(machine.pins["start"], 1)
+            pressed = machine.level_of("start")
+            machine.pin(machine.pins["start"], pressed)
             machine.run(50)
-            machine.pin(machine.pins["start"], 0)
+            machine.pin(machine.pins["start"], 1 - pressed)
             self.assertEqual(machine.wait_for("Idle")[1][0], 5.0)
 
 
@@ -207,6 +217,8 @@ class StandStill(unittest.TestCase):
             self.assertLess(steps, 1.1 * each_millisecond)
 
     def test_a_debugger_that_holds_the_core_holds_the_stream(self):
+        if is_rp2350():
+            self.skipTest("no debugger stops its PIO: as a core that locks up")
         for steps, each_millisecond in self.steps_after("halt"):
             self.assertGreater(each_millisecond, 50)
             self.assertLessEqual(steps, 1)
@@ -264,6 +276,10 @@ class StandStill(unittest.TestCase):
 
 
 class Clocks(unittest.TestCase):
+    def setUp(self):
+        if is_rp2350() and "planned" not in self.id():
+            self.skipTest("the crystal of a Pico 2 is on the module")
+
     def say(self, crystal):
         with chip(crystal=crystal) as machine:
             return machine.boot(), machine.state()["core_hz"]
@@ -271,7 +287,7 @@ class Clocks(unittest.TestCase):
     def test_the_planned_crystal_runs_the_chip_and_nothing_is_said(self):
         heard, rate = self.say(None)
         self.assertNotIn("MSG", heard)
-        self.assertEqual(rate, {"stm32f411": 96000000}.get(CHIPS[options.board][0], 168000000))
+        self.assertEqual(rate, {"stm32f411": 96000000, "rp2350": 150000000}.get(CHIPS[options.board][0], 168000000))
 
     def test_other_crystals_neither_overclock_nor_stop_the_chip(self):
         rate = self.say(None)[1]

@@ -21,7 +21,7 @@ STEPS_PER_MM = 800
 FEED, SPEED = 50.0, 0.5  # mm/s, of $30
 LINES = ["G21 G90 G61", f"M4 S500 F{60 * FEED:.0f}", "G1 X10", "X2", "G64 P0.05 G1 Y8", "X8 Y9", "G3 X4 Y5 J-4 I0", "G0 X0 Y0",
          "M3 S200 G1 X6", "G0 X0", "M5"]
-CHANNEL = {"PA6": 1, "PA7": 2, "PB0": 3, "PB1": 4}
+CHANNEL = {"PA6": 1, "PA7": 2, "PB0": 3, "PB1": 4, "GP10": 1}
 # ms: a change of power comes with the tick, before which the frame has begun.
 LATE = 0.1
 

@@ -173,12 +173,21 @@ TEST(PioData, AForcedInstructionMayNotWait)
     forbidden("has to wait");
 }
 
-TEST(PioData, FifosThatHoldWordsAreNotJoined)
+TEST(PioData, FifosThatHoldWordsAreEmptiedByAnotherJoin)
 {
     send(1);
     shift(kRight | kJoinSent);
+    CHECK_EQUAL(0U, pio.read(0x0C));
+}
+
+TEST(PioData, FifosOfAMachineThatRunsAreNotJoined)
+{
+    load({nop()});
+    start();
+    send(1);
+    shift(kRight | kJoinSent);
     expected_violations = 1;
-    forbidden("which are lost");
+    forbidden("joined otherwise");
 }
 
 }  // namespace cusp::cosim::rp2350

@@ -37,7 +37,7 @@ void PioModel::reset()
     on_their_way_.clear();
     synchronised_ = wiring_.levels();
     clock_changed();
-    outputs_changed_ = true;
+    outputs_changed_ = interrupts_changed_ = true;
     settle();
 }
 
@@ -140,6 +140,7 @@ void PioModel::inputs_changed()
     }
     on_their_way_.push_back({cycle_now(), levels});
     wake(cycle_now() + kSynchronisers - 1);
+    plan();
 }
 
 void PioModel::write_pins(std::uint32_t mask, std::uint32_t levels)
@@ -168,7 +169,6 @@ void PioModel::wake(std::int64_t after)
             paces_[i].tick = paces_[i].on ? next_tick(i, after) : 0;
         }
     }
-    plan();
 }
 
 void PioModel::happen()
@@ -202,11 +202,18 @@ void PioModel::settle()
     if (fifos_changed) {
         wiring_.requests_changed();
     }
-    for (unsigned i = 0; i < 2; ++i) {
-        const std::uint32_t status = (raw_interrupts() & enabled_[i]) | forced_[i];
-        circuit_.set_line(wiring_.interrupt + i, (status & kInterruptBits) != 0);
+    if (flags_changed || fifos_changed || std::exchange(interrupts_changed_, false)) {
+        update_lines();
     }
     plan();
+}
+
+void PioModel::update_lines()
+{
+    for (unsigned i = 0; i < 2; ++i) {
+        const bool raised = enabled_[i] != 0 && (raw_interrupts() & enabled_[i]) != 0;
+        circuit_.set_line(wiring_.interrupt + i, raised || forced_[i] != 0);
+    }
 }
 
 void PioModel::plan()
@@ -333,9 +340,15 @@ void PioModel::write_machine(std::uint32_t offset, std::uint32_t value)
             }
             machine.execctrl = value & ~(1U << 31U);
             break;
-        case 0x08:
+        case 0x08: {
+            constexpr std::uint32_t kJoins = 3U << 30U | 3U << 14U;
+            if (pace.on && ((machine.shiftctrl() ^ value) & kJoins) != 0 &&
+                (machine.sent() != 0 || machine.received() != 0)) {
+                forbid("FIFOs are joined otherwise while their machine takes words from them");
+            }
             machine.write_shiftctrl(value);
             break;
+        }
         case 0x10:
             cycle_ = cycle_now();
             machine.force(static_cast<std::uint16_t>(value));
@@ -417,6 +430,7 @@ void PioModel::write(std::uint32_t offset, std::uint32_t value)
     } else if (offset >= 0x170 && offset < 0x188 && (offset - 0x170) % 12 < 8) {
         const unsigned line = (offset - 0x170) / 12;
         ((offset - 0x170) % 12 == 0 ? enabled_ : forced_)[line] = value & kInterruptBits;
+        interrupts_changed_ = true;
     } else if (offset == 0x00) {
         control(value);
     } else if (offset == 0x08) {

@@ -68,6 +68,7 @@ private:
     std::uint32_t states_of_fifos() const;
     std::uint32_t debug() const;
     void settle();
+    void update_lines();
     void plan();
 
     std::string name_;
@@ -78,7 +79,7 @@ private:
     std::uint32_t out_{0}, directions_{0}, flags_{0}, bypass_{0}, overruns_{0};
     std::uint32_t flags_up_{0}, flags_down_{0};
     std::array<std::uint32_t, 2> enabled_{}, forced_{};
-    bool fifos_changed_{false}, outputs_changed_{false};
+    bool fifos_changed_{false}, outputs_changed_{false}, interrupts_changed_{false};
     // The clock since its last change.
     std::uint32_t hz_{1};
     Picoseconds since_{0};
