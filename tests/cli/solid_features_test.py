@@ -32,11 +32,17 @@ AROUND = [2 * math.pi * (k + 0.3) / 16 for k in range(16)]
 
 class Tools:
     """Of a call, and what they can make."""
-    def __init__(self, flats, drills, others=()):
-        self.flats, self.drills, self.others = flats, drills, others
+    def __init__(self, flats, drills, vees=(), vees_first=False):
+        self.flats, self.drills, self.vees, self.vees_first = flats, drills, vees, vees_first
 
     def words(self):
-        return [f"flat:{d}" for d in self.flats] + [f"drill:{d}" for d in self.drills] + list(self.others)
+        vees = [f"vee:{d}:90" for d in self.vees]
+        others = [f"flat:{d}" for d in self.flats] + [f"drill:{d}" for d in self.drills]
+        return vees + others if self.vees_first else others + vees
+
+    def breaks(self, width, height):
+        """Whether a vee of 90 degrees has a flank for an edge: its tip runs 0.2 mm beside it."""
+        return abs(width - height) < 1e-6 and any(width + 0.2 <= d / 2 for d in self.vees)
 
     def drills_to(self, radius):
         return 2 * radius in self.drills
@@ -74,7 +80,7 @@ def faults_of_hole(cut, hole, tools):
         else:
             for share in (0.05, 0.5, 0.95):
                 away, z = a + (b - a) * share, p + (q - p) * share
-                if p == q or (b > 0 and tools.others):
+                if p == q or (b > 0 and tools.breaks(a - b, p - q)):
                     ask(away, z + WITHIN, True, "step" if p == q else "cone")
                 ask(away, z - WITHIN, False, "step" if p == q else "cone")
     radius, floor = hole.profile[-1]
@@ -98,6 +104,10 @@ def faults_of_ground(cut, block, tools):
             lowest, z = min(around), cut.at(x, y)
             if z < lowest - WITHIN:
                 faults.append(f"gouged to {z:.3f} at {x:.2f} {y:.2f}, not {lowest:.3f}")
+            rim = min(x, y, (block.edge or block.wide) - x, block.deep - y)
+            if block.chamfer and 0.03 < rim < block.chamfer - 0.03 and tools.breaks(block.chamfer, block.chamfer):
+                if z > block.height(x, y) + WITHIN:
+                    faults.append(f"chamfer stands to {z:.3f} at {x:.2f} {y:.2f}, not {block.height(x, y):.3f}")
             on_shelf = block.edge is not None and block.edge + 0.03 < x
             if on_shelf and max(around) == block.shelf and z > block.shelf + WITHIN:
                 faults.append(f"stands to {z:.3f} at {x:.2f} {y:.2f}, not {block.shelf:.3f}, tool {reach}")
@@ -147,6 +157,81 @@ class SolidFeatures(unittest.TestCase):
                 said, program = self.plan(block, tools)
                 asked += self.check(block, tools, said, program)
         self.assertGreater(asked, 300 * CASES)
+
+    def test_edges_and_mouths_are_broken_by_a_vee(self):
+        asked, edges = 0, 0
+        for seed in range(FIRST, FIRST + CASES):
+            with self.subTest(seed=seed):
+                r = random.Random(seed)
+                block = FeaturedBlock(seed, DIAMETERS, chamfered=True)
+                tools = Tools([r.choice((3.0, 2.5))], r.sample(DIAMETERS, 1), [r.choice((4.0, 6.0))], r.random() < 0.5)
+                said, program = self.plan(block, tools)
+                asked += self.check(block, tools, said, program)
+                left = not tools.breaks(block.chamfer, block.chamfer)
+                edges += 0 if left else 1
+                self.assertEqual(left, "the vee's flank is too narrow; --tool vee:" in said and
+                                 f"{block.chamfer:g} mm wide: stay" in said, said)
+                self.assertNotIn("slanted ground stays, 0 ", said)
+        self.assertGreater(asked, 300 * CASES)
+        self.assertGreater(edges, 0)
+
+    def test_the_judge_finds_chamfers_that_are_missing_or_wrong(self):
+        block, tools = FeaturedBlock(FIRST, DIAMETERS, chamfered=True), Tools([2.5], [], [6.0])
+        self.plan(block, tools)
+        job = (self.folder / "job.toml").read_text()
+        self.assertIn("#edges:", job)
+        for old, new, on_edge, in_mouth in (('strategy = "chamfer"', "", "stands", True),
+                                            (r"\nwidth = 1\n", "\nwidth = 1.1\n", "gouged", False),
+                                            (r"tip_angle = 90", "tip_angle = 80", "gouged|stands", True)):
+            parts = re.split(r"(?=\n\[\[)", job)
+            wrong = "".join(re.sub(old, new, part) if new else part for part in parts if new or old not in part)
+            self.assertNotEqual(job, wrong)
+            (self.folder / "wrong.toml").write_text(wrong)
+            self.run_cusp("plan", "wrong.toml", "-o", "wrong.ngc")
+            cut = SweptHeights((self.folder / "wrong.ngc").read_text())
+            self.assertRegex(str(faults_of_ground(cut, block, tools)), on_edge)
+            mouths = [hole for hole in block.holes if hole.kind == "countersunk"]
+            self.assertEqual(in_mouth, any(faults_of_hole(cut, hole, tools)[0] for hole in mouths))
+
+    def test_edges_that_no_vee_of_the_call_cuts_are_named(self):
+        block = FeaturedBlock(FIRST, DIAMETERS, chamfered=True)
+        (self.folder / "part.step").write_text(block.step())
+        c = block.chamfer
+        for tools, words in ((("flat:2.5",), f" at z 12, {c:g} mm wide: stay, such as at x "),
+                             (("flat:2.5",), "no vee has their 90 degrees; --tool vee:"),
+                             (("flat:2.5", "vee:6:60"), "vee 6 mm of 60 degrees is not used: it fits no edge of the part"),
+                             (("flat:2.5", "vee:1:90"), "the vee's flank is too narrow; --tool vee:")):
+            done = self.run_cusp("plan", "part.step", "--tool", *tools, "--print-job")
+            self.assertIn(words, done.stdout + done.stderr)
+            self.assertNotIn('strategy = "chamfer"', done.stdout)
+
+    def test_a_vee_that_would_gouge_a_wall_is_not_used(self):
+        """A countersunk hole so near to a wall that a wide vee would be in it, and a thin one is not."""
+        block = FeaturedBlock(FIRST, (3.0,))
+        block.edge, block.shelf = 27.0, 7.0
+        block.holes = [RoundHole(31, 14, [(3.0, 7.0), (1.5, 5.5), (1.5, 0.0)], "countersunk")]
+        for vee, breaks in ((12.0, False), (4.0, True)):
+            tools = Tools([2.5], [3.0], [vee])
+            said, program = self.plan(block, tools)
+            self.assertEqual(breaks, "1 edge at z 7, 1.5 mm wide: chamfer, vee 4 mm" in said, said)
+            self.assertEqual(not breaks, "the vee would gouge the part beside them" in said, said)
+            self.assertEqual([], faults_of_ground(SweptHeights(program), block, tools))
+
+    def test_inches(self):
+        block, tools = FeaturedBlock(FIRST, DIAMETERS, chamfered=True), Tools([2.5], [4.0], [6.0])
+        (self.folder / "part.step").write_text(block.step())
+        done = self.run_cusp("plan", "part.step", "--units", "inch", "--tool", "flat:2.5mm", "drill:4mm", "vee:6mm:90",
+                             "--post", "linuxcnc", "--print-job")
+        (self.folder / "job.toml").write_text(done.stdout)
+        self.run_cusp("plan", "job.toml", "-o", "p.ngc")
+        self.assertIn("all bounds hold", self.run_cusp("verify", "job.toml", "p.ngc").stdout)
+        self.assertIn('units = "inch"', done.stdout)
+        (self.folder / "mm.toml").write_text(self.run_cusp("plan", "part.step", "--tool", *tools.words(), "--post",
+                                                           "linuxcnc", "--print-job").stdout)
+        self.run_cusp("plan", "mm.toml", "-o", "mm.ngc")
+        self.assertEqual(done.stdout.count('strategy = "chamfer"'),
+                         (self.folder / "mm.toml").read_text().count('strategy = "chamfer"'))
+        self.assertIn("all bounds hold", self.run_cusp("verify", "mm.toml", "p.ngc").stdout)
 
     def test_the_judge_finds_planted_faults(self):
         block, tools = FeaturedBlock(FIRST, DIAMETERS), Tools([2.5], [])

@@ -184,7 +184,7 @@ class Solids(unittest.TestCase):
         self.write_plate(random_plate(1))
         for options, words in ((("drill:3",), "--tool: level ground and upright walls need a flat end"),
                                (("flat:80",), "--tool flat:80: its diameter is 80 mm, the part is only 36 x 36"),
-                               (("flat:4", "vee:6:60"), "--tool vee:6:60: is for drawings"),
+                               (("ball:4", "vee:6:60", "--scallop", "0.1"), "--tool vee:6:60: is for drawings"),
                                (("flat:4", "--stock-top", "5"), "--stock-top: is 5 mm, but plate.stl rises to z = 7"),
                                (("flat:4", "--depth", "5"), "--depth: is for drawings")):
             self.assertIn(words, self.run_cusp("plan", "plate.stl", "--tool", *options, "-o", "p.ngc", status=2))

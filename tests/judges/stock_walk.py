@@ -65,21 +65,21 @@ class StockWalk:
                     if away <= tool.radius - SLACK), default=0.0)
 
 
-def positions(start, end, arc=None):
-    """Points from start to end, the end included; arc: centre and whether clockwise."""
+def positions(start, end, arc=None, apart=STEP):
+    """Points from start to end, the end included, at most `apart`; arc: centre and whether clockwise."""
     if arc:
         (cx, cy), clockwise = arc
         begin, stop = (math.atan2(p[1] - cy, p[0] - cx) for p in (start, end))
         sweep = (begin - stop if clockwise else stop - begin) % (2 * math.pi)
         sweep = sweep if sweep > 1e-9 else 2 * math.pi
         radius = math.hypot(start[0] - cx, start[1] - cy)
-        count = max(1, math.ceil(radius * sweep / STEP))
+        count = max(1, math.ceil(radius * sweep / apart))
         for k in range(1, count + 1):
             angle = begin + (-sweep if clockwise else sweep) * k / count
             yield (cx + radius * math.cos(angle), cy + radius * math.sin(angle),
                    start[2] + (end[2] - start[2]) * k / count)
         return
-    count = max(1, math.ceil(math.dist(start, end) / STEP))
+    count = max(1, math.ceil(math.dist(start, end) / apart))
     for k in range(1, count + 1):
         yield tuple(a + (b - a) * k / count for a, b in zip(start, end))
 

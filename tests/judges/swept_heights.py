@@ -7,9 +7,10 @@ import math
 
 import numpy
 
-from stock_walk import moves, positions
+from stock_walk import STEP, moves, positions
 
 CELL = 2.0  # mm
+APART_OF_CONES = 0.05  # mm: beside its tip a cone's flank is wrong by far less then
 
 
 class SweptHeights:
@@ -18,7 +19,8 @@ class SweptHeights:
         at = {}
         for _, tool, rapid, start, end, arc in moves(program):
             if not rapid:
-                at.setdefault(tool, [start]).extend(positions(start, end, arc))
+                apart = APART_OF_CONES if tool.rise else STEP
+                at.setdefault(tool, [start]).extend(positions(start, end, arc, apart))
         self.cells = []
         for tool, places in at.items():
             places = numpy.array(places)

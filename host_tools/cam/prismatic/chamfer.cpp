@@ -10,6 +10,7 @@
 #include "host_tools/cam/prismatic/profile_contours.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/toolpath/short_tour.hpp"
+#include "host_tools/job/job/chamfer_tip.hpp"
 
 #include "fmt/format.h"
 
@@ -28,18 +29,11 @@ using toolpath::MoveKind;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
 
-namespace {
-
-// mm: clearance between tip and wall, so that the flank and not the tip cuts the lower edge.
-constexpr double kTipClearance = 0.2;
-
-}  // namespace
-
 std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& operation)
 {
     const Prismatic& cut = *operation.prismatic;
     const toolpath::Tool& tool = operation.tool;
-    const double away = tool.tip_radius + kTipClearance;
+    const double away = tool.tip_radius + job::kChamferTip;
     if (away + cut.width > tool.radius) {
         throw InputError(
             fmt::format("{}width {:g} mm is more than the flank of tool {} cuts, "
@@ -47,7 +41,7 @@ std::vector<PlannedOperation> plan_chamfer(const Job& job, const Operation& oper
                         operation_text(job, operation), cut.width, tool.number,
                         std::max(0.0, tool.radius - away)));
     }
-    const double z = cut.top - (cut.width + kTipClearance) / elementary::tan(tool.tip_angle / 2);
+    const double z = cut.top - (cut.width + job::kChamferTip) / elementary::tan(tool.tip_angle / 2);
     const Region2d centres =
         RegionOffset{opposite(without_common_edges(material_of(cut)).region)}.at(away);
     if (centres.contours.empty()) {

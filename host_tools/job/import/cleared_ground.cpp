@@ -1,6 +1,8 @@
 // A level is cleared where a disc of the tool fits beside what stands above it.
 #include "host_tools/job/import/cleared_ground.hpp"
 
+#include <algorithm>
+
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/job/import/part_regions.hpp"
@@ -8,6 +10,12 @@
 namespace cusp::import {
 
 using offset::Region2d;
+
+namespace {
+
+constexpr double kSameGround = 1e-3;  // mm
+
+}  // namespace
 
 ClearedGround::ClearedGround(const Triangles& facets,
                              const std::vector<job::Hole>& holes,
@@ -21,23 +29,35 @@ ClearedGround::ClearedGround(const Triangles& facets,
             with_holes_filled(offset::shadow_above(facets, band.bottom), holes, band.bottom);
         const Region2d centres = offset::RegionOffset{offset::without(around, stands)}.at(radius);
         if (!centres.contours.empty()) {
-            levels_.push_back({band.bottom, offset::grown(centres, radius)});
+            levels_.push_back({band.bottom, offset::grown(centres, radius), stands});
         }
     }
 }
 
 double ClearedGround::around(const job::Hole& hole, double top) const
 {
-    constexpr double kSameHeight = 1e-3;     // mm
     constexpr double kShareStanding = 0.02;  // of the hole's area: corners
     const Region2d disc = hole_disc(hole);
     for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
-        if (level->z >= top - kSameHeight && offset::area(offset::without(disc, level->cleared)) <=
+        if (level->z >= top - kSameGround && offset::area(offset::without(disc, level->cleared)) <=
                                                  kShareStanding * offset::area(disc)) {
             return level->z;
         }
     }
     return top_;
+}
+
+bool ClearedGround::is_open(const Region2d& region, double top) const
+{
+    constexpr double kCorner = 0.05;  // mm^2
+    if (top >= top_ - kSameGround) {
+        return true;
+    }
+    const auto level = std::find_if(levels_.rbegin(), levels_.rend(),
+                                    [&](const Level& one) { return one.z >= top - kSameGround; });
+    return level != levels_.rend() &&
+           offset::area(offset::without(offset::without(region, level->cleared), level->stands)) <=
+               kCorner;
 }
 
 }  // namespace cusp::import

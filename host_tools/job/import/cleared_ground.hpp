@@ -19,10 +19,14 @@ public:
     // z, mm: the lowest cleared level at the height `top` or over it that reaches all around the hole; else the part's top.
     double around(const job::Hole& hole, double top) const;
 
+    // True if no stock stands above `top` in the region, but for the part itself.
+    bool is_open(const offset::Region2d& region, double top) const;
+
 private:
     struct Level {
         double z;
         offset::Region2d cleared;
+        offset::Region2d stands;  // of the part
     };
     double top_;
     std::vector<Level> levels_;  // the highest first

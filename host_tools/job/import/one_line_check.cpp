@@ -208,11 +208,6 @@ void check_shapes(const OneLineRequest& request,
                   const Vec2d& part)
 {
     for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (tools[i].tip_angle > 0 && tools[i].shape != name_of(toolpath::ToolShape::kDrill)) {
-            throw InputError(fmt::format(
-                "--tool {}: is for drawings; parts are cut by ball, flat and bull, holes by drills",
-                request.tools[i]));
-        }
         if (tools[i].diameter > std::max(part.x, part.y)) {
             throw InputError(fmt::format(
                 "--tool {}: its diameter is {:.6g} {}, the part is only {:.6g} x {:.6g}: give a "
@@ -225,6 +220,11 @@ void check_shapes(const OneLineRequest& request,
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools)
 {
     for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (tools[i].shape == name_of(toolpath::ToolShape::kVee)) {
+            throw InputError(fmt::format(
+                "--tool {}: is for drawings, and for edges of one part that a flat end cuts too",
+                request.tools[i]));
+        }
         if (tools[i].shape == name_of(toolpath::ToolShape::kDrill)) {
             throw InputError(fmt::format(
                 "--tool {}: drills holes of one STEP, IGES or BREP part without --boundary",

@@ -123,19 +123,22 @@ std::vector<std::string> OneLineWriter::said() const
                         request_.tolerance ? "" : " (--tolerance)", request_.output)};
 }
 
-bool is_no_drill(const std::string& tool) { return tool.rfind("drill:", 0) != 0; }
-
-// Its tools, the drills last.
-OneLineRequest with_drills_last(OneLineRequest request)
+bool is_mill(const std::string& tool)
 {
-    std::stable_partition(request.tools.begin(), request.tools.end(), is_no_drill);
+    return tool.rfind("drill:", 0) != 0 && tool.rfind("vee:", 0) != 0;
+}
+
+// Its tools, the drills and vees last.
+OneLineRequest with_mills_first(OneLineRequest request)
+{
+    std::stable_partition(request.tools.begin(), request.tools.end(), is_mill);
     return request;
 }
 
-OneLineRequest without_drills(OneLineRequest request)
+OneLineRequest with_mills_alone(OneLineRequest request)
 {
     auto& tools = request.tools;
-    tools.erase(std::partition_point(tools.begin(), tools.end(), is_no_drill), tools.end());
+    tools.erase(std::partition_point(tools.begin(), tools.end(), is_mill), tools.end());
     return request;
 }
 
@@ -144,7 +147,7 @@ OneLineJob solid_job(const OneLineRequest& asked,
                      PartFiles& parts)
 {
     check_solid_request(asked);
-    const OneLineRequest request = with_drills_last(asked);
+    const OneLineRequest request = with_mills_first(asked);
     const OneLineChoice all = choose_rates(request);
     place_request(request, parts);
     const SolidCuts solid = solid_cuts(request, all, strategies, parts);
@@ -154,7 +157,7 @@ OneLineJob solid_job(const OneLineRequest& asked,
                     placing_toml(request) + solid.before + solid.after,
                 solid.said};
     }
-    const OneLineRequest mills = without_drills(request);
+    const OneLineRequest mills = with_mills_alone(request);
     const OneLineChoice choice = choose(mills, strategies, parts);
     const OneLineWriter writer{mills, choice, all, solid};
     OneLineJob job{writer.toml(), writer.said()};

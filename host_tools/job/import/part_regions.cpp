@@ -27,9 +27,10 @@ using offset::Region2d;
 
 namespace {
 
-constexpr const char* kRegions = "#outline, #above:Z, #below:Z, #level:Z";
+constexpr const char* kRegions = "#outline, #above:Z, #below:Z, #level:Z, #edges:Z:Z:WIDTH";
 constexpr const char* kFilled = ":no_holes";
 constexpr const char* kHoleTops = "holes:";
+constexpr const char* kEdges = "edges";
 constexpr double kSameTop = 1e-3;  // mm
 
 struct RegionName {
@@ -65,6 +66,10 @@ RegionName read_name(const std::string& name, double millimetres)
     }
     const std::size_t colon = std::min(text.find(':'), text.size());
     RegionName read{name.substr(0, layer_mark(name)), text.substr(0, colon), 0};
+    if (const auto band = edge_band(name, millimetres)) {
+        read.z = band->low;
+        return read;
+    }
     const bool has_height = read.kind == "above" || read.kind == "below" || read.kind == "level";
     if (!has_height && text != "outline") {
         throw InputError(
@@ -166,6 +171,30 @@ bool names_filled_region(const std::string& name)
     const std::string ending = kFilled;
     return text.size() > ending.size() &&
            text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::optional<EdgeBand> edge_band(const std::string& name, double millimetres)
+{
+    const std::string text = region_text(name);
+    if (text.substr(0, text.find(':')) != kEdges) {
+        return std::nullopt;
+    }
+    std::vector<std::string> numbers;
+    for (std::size_t colon = text.find(':'); colon != std::string::npos;) {
+        const std::size_t next = text.find(':', colon + 1);
+        numbers.push_back(text.substr(colon + 1, next - colon - 1));
+        colon = next;
+    }
+    if (numbers.size() != 3) {
+        throw InputError(fmt::format(
+            "{}: broken edges are #edges:Z:Z:WIDTH, the heights of their lower and upper edge, and "
+            "the width between them seen from above",
+            name));
+    }
+    const auto at = [&](std::size_t k) {
+        return height_of(name, "edges:-4:-3:1", numbers[k], millimetres);
+    };
+    return EdgeBand{at(0), at(1), at(2)};
 }
 
 std::optional<std::array<double, 2>> hole_tops(const std::string& name, double millimetres)

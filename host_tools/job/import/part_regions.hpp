@@ -6,6 +6,8 @@
 //   FILE#above:Z    what stands above Z: a profile around it finishes the walls down to there
 //   FILE#below:Z    what the part's box has beside that: a pocket of it clears the part down to Z
 //   FILE#level:Z    the level ground at Z
+//   FILE#edges:Z:Z:WIDTH  broken edges: of what stands above the first Z the loops beside which the ground rises evenly
+//                         to the second within WIDTH, seen from above; a chamfer with that `width` cuts them
 //
 // After Z may follow ":no_holes": round holes of a model that begin above Z are filled in. Holes themselves, for what
 // drills and bores, are chosen by
@@ -29,6 +31,13 @@ namespace cusp::import {
 // mm: loops are no farther from the part's facets, of which those of a model are kFacetsOff from it.
 inline constexpr double kRegionFit = 1e-3;
 
+// A band of even slope beside an edge. mm
+struct EdgeBand {
+    double low;  // z of its lower edge
+    double high;
+    double width;  // seen from above
+};
+
 // True if a "#" follows the name of a model or of a mesh.
 bool names_part_region(const std::string& name);
 
@@ -40,7 +49,12 @@ bool names_filled_region(const std::string& name);
 // Errors: InputError: the name is that of another region, or a height is no number.
 std::optional<std::array<double, 2>> hole_tops(const std::string& name, double millimetres);
 
-// The region's loops, of lines and arcs, not nested.
+// The band of the broken edges that the name wants; none: it is that of another region.
+//
+// Errors: InputError: not three numbers.
+std::optional<EdgeBand> edge_band(const std::string& name, double millimetres);
+
+// The region's loops, of lines and arcs, not nested; of broken edges all of what stands above the band's foot.
 //
 // name         FILE#REGION, for messages too
 // millimetres  of one unit of Z

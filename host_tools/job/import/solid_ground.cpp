@@ -67,8 +67,9 @@ class SolidSurvey {
 public:
     SolidSurvey(const Triangles& facets,
                 const std::vector<job::Hole>& holes,
-                const std::vector<job::Hole>& mouths)
-        : facets_{facets}, holes_{holes}, mouths_{mouths}
+                const std::vector<job::Hole>& mouths,
+                const IsCutApart& is_cut_apart)
+        : facets_{facets}, holes_{holes}, mouths_{mouths}, is_cut_apart_{is_cut_apart}
     {
         ground_.box = extent_of_triangles(facets);
     }
@@ -191,7 +192,8 @@ private:
         for (const Triangle& t : facets_) {
             const Vec3d across = cross(t[1] - t[0], t[2] - t[0]);
             if (std::abs(across.z) > kUprightNormal * norm(across) &&
-                highest(t) - lowest(t) > kSameHeight && !is_in_hole(middle(t), holes_)) {
+                highest(t) - lowest(t) > kSameHeight && !is_in_hole(middle(t), holes_) &&
+                !is_cut_apart_(t)) {
                 slanted.push_back(t);
             }
         }
@@ -218,6 +220,7 @@ private:
     const Triangles& facets_;
     const std::vector<job::Hole>& holes_;
     const std::vector<job::Hole>& mouths_;
+    const IsCutApart& is_cut_apart_;
     SolidGround ground_;
 };
 
@@ -225,9 +228,10 @@ private:
 
 SolidGround ground_of_solid(const Triangles& facets,
                             const std::vector<job::Hole>& holes,
-                            const std::vector<job::Hole>& mouths)
+                            const std::vector<job::Hole>& mouths,
+                            const IsCutApart& is_cut_apart)
 {
-    return SolidSurvey{facets, holes, mouths}.ground();
+    return SolidSurvey{facets, holes, mouths, is_cut_apart}.ground();
 }
 
 }  // namespace cusp::import

@@ -1,6 +1,8 @@
 // What of a solid is to be cut from above: levels, walls, holes, slanted ground.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "host_tools/geometry/offset/shadow.hpp"
@@ -29,12 +31,16 @@ struct SolidGround {
     Vec3d slanted_at;              // in its largest facet
 };
 
-// Sides of the part's box are no walls, and nothing in the holes counts.
+// True if an operation of its own cuts the facet.
+using IsCutApart = std::function<bool(const std::array<Vec3d, 3>& facet)>;
+
+// Sides of the part's box are no walls, and nothing in the holes counts; what is cut apart is not slanted.
 //
 // facets  of the whole part
 // holes   that are cut by themselves, with their mouths (mouths_of())
 SolidGround ground_of_solid(const Triangles& facets,
                             const std::vector<job::Hole>& holes,
-                            const std::vector<job::Hole>& mouths);
+                            const std::vector<job::Hole>& mouths,
+                            const IsCutApart& is_cut_apart);
 
 }  // namespace cusp::import

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "firmware/base/inch.hpp"
@@ -17,6 +19,8 @@
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/import/sheet_layers.hpp"
 #include "host_tools/job/import/sheet_tools.hpp"
+#include "host_tools/job/import/solid_chamfers.hpp"
+#include "host_tools/job/import/solid_edges.hpp"
 #include "host_tools/job/import/solid_ground.hpp"
 #include "host_tools/job/import/solid_holes.hpp"
 
@@ -78,7 +82,9 @@ public:
         const std::vector<Hole> mouths = mouths_of(found);
         has_holes_ = !found.holes.empty();
         const Triangles& facets = parts_.facets(file_, unit_);
-        const SolidGround ground = ground_of_solid(facets, found.holes, mouths);
+        const std::vector<SolidChamfer> chamfers = solid_chamfers(facets, choice_.tools, unit_);
+        const SolidGround ground =
+            ground_of_solid(facets, found.holes, mouths, cut_by_vees(chamfers));
         const Vec3d size = ground.box.size();
         check_shapes(request_, choice_.tools, {number(size.x), number(size.y)});
         const bool slants = ground.slanted > kLeastSlant;
@@ -101,8 +107,9 @@ public:
             say_part(ground);
             add_face(ground);
         }
+        const ClearedGround levels = cleared(facets, mouths, ground);
         if (!cuts_.is_all) {
-            cuts_.before += hole_operations(found, facets, mouths, ground);
+            cuts_.before += hole_operations(found, levels, ground);
         }
         for (const SolidBand& band : cuts_.is_all ? ground.openings : ground.walls) {
             if (cuts_.is_all) {
@@ -113,8 +120,12 @@ public:
             }
         }
         if (cuts_.is_all) {
-            cuts_.after += hole_operations(found, facets, mouths, ground);
+            cuts_.after += hole_operations(found, levels, ground);
         }
+        for (const SolidChamfer& chamfer : chamfers) {
+            add_chamfer(chamfer, levels);
+        }
+        say_idle_vees();
         if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
             throw InputError(fmt::format(
                 "{}: a flat end has nothing to cut: {:.4g} mm2 of slanted ground need a ball, such "
@@ -174,18 +185,24 @@ private:
             fmt::format("top: face, {}, {:.6g} {} deep", tool_words(tool), above, choice_.unit));
     }
 
+    bool flats_clear() const { return cuts_.is_all && !flats_.empty(); }
+
+    ClearedGround cleared(const Triangles& facets,
+                          const std::vector<Hole>& mouths,
+                          const SolidGround& ground) const
+    {
+        return {facets, mouths, flats_clear() ? ground : SolidGround{},
+                flats_clear() ? across(flats_.back()) / 2 : 0.0};
+    }
+
     // A ball finishes before holes are cleared down to their ground: they begin at the stock's top then.
     std::string hole_operations(const CadHoles& found,
-                                const Triangles& facets,
-                                const std::vector<Hole>& mouths,
+                                const ClearedGround& levels,
                                 const SolidGround& ground)
     {
         const double top = std::max(top_ * unit_, ground.box.high.z);
-        const bool cleared = cuts_.is_all && !flats_.empty();
-        const ClearedGround levels{facets, mouths, cleared ? ground : SolidGround{},
-                                   cleared ? across(flats_.back()) / 2 : 0.0};
         const GroundAround around = [&](const Hole& hole, double height) {
-            return cleared ? levels.around(hole, height) : top;
+            return flats_clear() ? levels.around(hole, height) : top;
         };
         std::string text;
         for (const SolidHoles& holes : solid_holes(found, choice_.tools, unit_, around)) {
@@ -251,6 +268,77 @@ private:
             cuts_.is_all ? one ? "stays" : "stay" : "left to the " + finishing_words(),
             fmt::join(places, ", "), more > 0 ? fmt::format(" and {} more places", more) : "",
             one ? "its" : "their", diameter, one ? "it" : "them"));
+    }
+
+    // True for the facets of the chamfers that a vee makes.
+    static IsCutApart cut_by_vees(const std::vector<SolidChamfer>& chamfers)
+    {
+        std::vector<BandGround> made;
+        for (const SolidChamfer& chamfer : chamfers) {
+            if (chamfer.tool) {
+                made.emplace_back(chamfer.band, chamfer.loops);
+            }
+        }
+        const auto all = std::make_shared<const std::vector<BandGround>>(std::move(made));
+        return [all](const std::array<Vec3d, 3>& facet) {
+            return std::any_of(all->begin(), all->end(),
+                               [&](const BandGround& band) { return band.has(facet); });
+        };
+    }
+
+    // After all others: only then is the ground around it open.
+    void add_chamfer(const SolidChamfer& chamfer, const ClearedGround& levels)
+    {
+        const EdgeBand& band = chamfer.band;
+        if (!chamfer.tool || !levels.is_open(chamfer.near, band.high)) {
+            say_chamfer_left(chamfer, chamfer.tool ? ChamferFault::kStockBeside : chamfer.fault);
+            return;
+        }
+        const std::size_t tool = *chamfer.tool;
+        vees_at_work_.insert(tool);
+        cuts_.after +=
+            operation(Region::kEdges, fmt::format("{}#edges:{}:{}:{}", file_, number(band.low),
+                                                  number(band.high), number(band.width))) +
+            fmt::format("tool = {}\ntop = {}\nwidth = {}\noutput = \"{}\"\n", tool + 1,
+                        number(band.high), number(band.width), request_.output);
+        cuts_.said.push_back(fmt::format("{}: chamfer, {}", edge_words(chamfer), tool_words(tool)));
+    }
+
+    // "2 edges at z 12, 1 mm wide".
+    std::string edge_words(const SolidChamfer& chamfer) const
+    {
+        return fmt::format("{} at z {:.6g}, {:.4g} {} wide",
+                           counted(chamfer.loops.contours.size(), "edge"),
+                           number(chamfer.band.high), number(chamfer.band.width), choice_.unit);
+    }
+
+    void say_chamfer_left(const SolidChamfer& chamfer, ChamferFault fault)
+    {
+        const std::string vee = fmt::format("--tool vee:{:g}{}:{:g}", least_vee(chamfer),
+                                            request_.inch ? "mm" : "", chamfer.angle);
+        const std::string why =
+            fault == ChamferFault::kNoVee
+                ? fmt::format("no vee has their {:g} degrees; {} cuts them", chamfer.angle, vee)
+            : fault == ChamferFault::kTooNarrow
+                ? fmt::format("the vee's flank is too narrow; {} cuts them", vee)
+            : fault == ChamferFault::kNoRoom     ? "the vee's tip has no room beside them"
+            : fault == ChamferFault::kWouldGouge ? "the vee would gouge the part beside them"
+                                                 : "stock stands there that no flat end reaches";
+        const Vec2d at = chamfer.loops.contours.front().front().start;
+        cuts_.said.push_back(fmt::format("{}: {}, such as at x {:.6g} y {:.6g}: {}",
+                                         edge_words(chamfer),
+                                         cuts_.is_all ? "stay" : "left to the " + finishing_words(),
+                                         number(at.x), number(at.y), why));
+    }
+
+    void say_idle_vees()
+    {
+        for (std::size_t k = 0; k < choice_.tools.size(); ++k) {
+            if (choice_.tools[k].shape == name_of(toolpath::ToolShape::kVee) &&
+                vees_at_work_.count(k) == 0) {
+                cuts_.said.push_back(tool_words(k) + " is not used: it fits no edge of the part");
+            }
+        }
     }
 
     // Down to a band's bottom: what the part's box has beside it is cleared, or its walls are finished.
@@ -348,6 +436,7 @@ private:
     bool has_holes_{};
     bool faces_{};
     bool needs_box_{};
+    std::set<std::size_t> vees_at_work_;  // places in the call
     SolidCuts cuts_;
 };
 

@@ -203,6 +203,23 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
     }
 }
 
+// A chamfer may have some loops of a part alone, such as mouths of holes: the nearest says where the material is.
+double CutRegion::beside_edges(double x, double y) const
+{
+    constexpr double kCommon = 1e-6;  // mm: loops with an edge in common
+    double least = kUnbounded;
+    double inward = -cap_;
+    for (std::size_t n = 0; n < walls_.size(); ++n) {
+        const double d = (operation_->prismatic->loops[n].hole ? -1 : 1) * walls_[n].at(x, y);
+        const bool is_nearer = std::abs(d) < least - kCommon;
+        if (is_nearer || (std::abs(d) <= least + kCommon && d > 0)) {
+            least = std::min(least, std::abs(d));
+            inward = d;
+        }
+    }
+    return inward;
+}
+
 double CutRegion::from_curves(double x, double y) const
 {
     double least = cap_;
@@ -214,6 +231,9 @@ double CutRegion::from_curves(double x, double y) const
 
 double CutRegion::into_material(double x, double y) const
 {
+    if (operation_->cuts(job::Region::kEdges)) {
+        return beside_edges(x, y);
+    }
     double least = cap_;
     bool inside = false;
     for (const WallDistance& wall : walls_) {

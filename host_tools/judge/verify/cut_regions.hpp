@@ -52,6 +52,7 @@ public:
 private:
     // mm from the loops, positive in the material that they bound.
     double into_material(double x, double y) const;
+    double beside_edges(double x, double y) const;
     double from_curves(double x, double y) const;
     // mm from the line that is nearest, on the side that is cut; nothing beyond its ends. Far away: from it.
     std::optional<double> beside_lines(double x, double y) const;

@@ -7,6 +7,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/job/job/chamfer_tip.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 #include "host_tools/judge/verify/wall_distance.hpp"
@@ -24,13 +25,12 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kSpare = 0.02;     // mm: of the room that a tool needs
-constexpr double kStep = 0.1;       // mm along the wall
-constexpr double kSquare = 2.0;     // mm: side of a square of moves
-constexpr double kThickest = 1.0;   // mm: stock that is thicker is a pass that is missing
-constexpr double kNothing = 1e-9;   // mm
-constexpr int kGougeLooks = 8;      // from the wall to where the tool reaches
-constexpr double kTipBeside = 0.2;  // mm from an edge: there the tip of a chamfer's tool passes
+constexpr double kSpare = 0.02;    // mm: of the room that a tool needs
+constexpr double kStep = 0.1;      // mm along the wall
+constexpr double kSquare = 2.0;    // mm: side of a square of moves
+constexpr double kThickest = 1.0;  // mm: stock that is thicker is a pass that is missing
+constexpr double kNothing = 1e-9;  // mm
+constexpr int kGougeLooks = 8;     // from the wall to where the tool reaches
 
 bool follows_curves(const Operation& operation)
 {
@@ -317,7 +317,7 @@ private:
     {
         const Tool& tool = operation_.tool;
         return kSpare + (operation_.cuts(job::Region::kValleys) ? tool.tip_radius
-                         : operation_.cuts(job::Region::kEdges) ? tool.tip_radius + kTipBeside
+                         : operation_.cuts(job::Region::kEdges) ? tool.tip_radius + job::kChamferTip
                                                                 : tool.radius);
     }
 
