@@ -29,7 +29,7 @@ inline constexpr std::array<std::uint16_t, 6> kPulseProgram{0x8080, 0x6010, 0x60
                                                             0x4030, 0x4030, 0xA426};
 inline constexpr std::uint32_t kPullInstruction = 0x8080;
 inline constexpr std::uint32_t kOutInstruction = 0x6010;
-inline constexpr std::uint32_t kOnesInstruction = 0xA0EB;        // mov osr, ~null
+inline constexpr std::uint32_t kOnesInstruction = 0xA0EB;        // mov osr, not null
 inline constexpr std::uint32_t kDirectionsInstruction = 0x6090;  // out pindirs, 16
 inline constexpr std::uint32_t kBeginInstruction = 0x0000;       // jmp 0
 

@@ -19,6 +19,7 @@ constexpr unsigned kFirstInterrupt = 16;
 constexpr unsigned kNone = 0;
 constexpr unsigned kThreadPriority = 256;
 constexpr std::uint32_t kFloatingPointActive = 4;  // FPCA of CONTROL
+constexpr std::uint32_t kSecureFloatingPoint = 8;  // SFPA
 constexpr unsigned kBasicWords = 8;
 constexpr unsigned kFloatWords = 18;
 
@@ -408,7 +409,8 @@ void CoreModel::leave(std::uint32_t exception_return)
     }
     std::array<std::uint32_t, kBasicWords + kFloatWords> saved{};
     std::memcpy(saved.data(), from, words * 4);
-    set_register(UC_ARM_REG_CONTROL, floats ? facts_.floating_point_active : 0U);
+    // Without the second bit the engine, of any core, begins a new context, and the flags of a comparison are gone.
+    set_register(UC_ARM_REG_CONTROL, floats ? kFloatingPointActive | kSecureFloatingPoint : 0U);
     for (unsigned i = 0; floats && i < 16; ++i) {
         set_register(UC_ARM_REG_S0 + static_cast<int>(i), saved[kBasicWords + i]);
     }

@@ -19,10 +19,9 @@ struct CoreFacts {
     // Start and size of each range of registers.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> registers;
     std::uint32_t id{0x410FC241};
-    std::uint32_t floating_point_active{4};  // of CONTROL
-    bool late_stores{true};                  // erratum 838869 of the Cortex-M4
-    std::uint32_t vectors{0};                // after a reset
-    std::uint32_t circles{0};                // a page in which code that hangs goes round
+    bool late_stores{true};    // erratum 838869 of the Cortex-M4
+    std::uint32_t vectors{0};  // after a reset
+    std::uint32_t circles{0};  // a page in which code that hangs goes round
 };
 
 // The interrupt controller and the system control block are its registers.

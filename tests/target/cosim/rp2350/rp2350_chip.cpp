@@ -63,7 +63,6 @@ void Rp2350Chip::make_core()
     facts.registers = {{0x40000000, 0x168000}, {0x50000000, 0x600000}, {kCoreRegisters, 0x1000},
                        {0xE0001000, 0x1000},   {0xE000E000, 0x1000},   {BootRom::kGate, 0x1000}};
     facts.id = 0x411FD210;
-    facts.floating_point_active = 12;  // and SFPA
     facts.late_stores = false;
     facts.vectors = rom_->vectors();
     facts.circles = BootRom::kCircles;
