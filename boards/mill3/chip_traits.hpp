@@ -7,7 +7,7 @@
 //   SerialPort          hal/stm32f4/serial_ports.hpp: which USART is the line
 //   kClocks             crystal and rates
 //   kBaud               of the line
-//   kUsb, kUsbSession   hal/usb_serial/usb_descriptors.hpp, usb_endpoints.hpp: of a plug on PA11 and PA12; a
+//   kUsb, kUsbSession   hal/usb_serial/usb_descriptors.hpp, hal/stm32f4/usb_endpoints.hpp: of a plug on PA11 and PA12; a
 //                       board without has neither
 //   kDriveWires, kSenseMilliohms   hal/stm32f4/drive_wire.hpp: of TMC2209 drives that are set by UART, and
 //                       their sense resistors; a board without has neither

@@ -8,7 +8,7 @@
 //   kFlashBytes         of the flash, whose last two sectors are the settings'
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
-// What a traits type is for: boards/mill3/chip_traits.hpp, which is that of the STM32F4 family.
+// boards/mill3/chip_traits.hpp, which is that of the STM32F4 family, says what a traits type is for.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the rules for pins of every family of chips ask of a board's table.
+// Checks of a board's table that the rules for pins of every family of chips share.
 #pragma once
 
 #include <cstddef>

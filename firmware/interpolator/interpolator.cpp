@@ -213,7 +213,7 @@ void Interpolator::add_start(const WarpBounds& rest, float whole) noexcept
 void Interpolator::add_ahead(const LawCell& cell, const WarpBounds& bounds) noexcept
 {
     least_rate_ = std::min(least_rate_, rate_of(cell));
-    // What is left of the piece that is played stays apart: with the next it would seem to need what neither does.
+    // The rest of the piece that is played stays apart: with the next it would seem to need more than either does.
     constexpr std::size_t kPlayed = 2;
     const bool is_short = ahead_.size() > kPlayed && ahead_.back().time < kServoTick;
     if (is_short || ahead_.full()) {

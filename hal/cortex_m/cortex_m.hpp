@@ -91,7 +91,7 @@ Block& block_at(std::uintptr_t address) noexcept
     return *reinterpret_cast<Block*>(address);
 }
 
-// What a chip inherits. Tests pass a type whose functions return models.
+// The base of each chip. Tests pass a type whose functions return models.
 struct Core {
     using Word = DeviceWord;
 

@@ -35,7 +35,7 @@ void set_pin_function(Pin pin, PinFunction function, std::uint32_t pad) noexcept
     Chip::pads().pin[pin.number].write(pad);
 }
 
-// What a panel does with its pins (boards/mill3/mill_panel.hpp).
+// A panel reads and drives its pins by this (boards/mill3/mill_panel.hpp).
 template <class Chip>
 struct PinAccess {
     // Erratum E9: a pull-down inside does not bring a pin low.

@@ -273,7 +273,7 @@ bool PioPulsePlayer<Chip, Table>::on_interrupt() noexcept
     return true;
 }
 
-// What the queue holds still plays; then the state machine lowers the steps.
+// The words in the queue still play; then the state machine lowers the steps.
 template <class Chip, class Table>
 void PioPulsePlayer<Chip, Table>::fail() noexcept
 {

@@ -33,7 +33,7 @@ public:
     static constexpr unsigned kBulk = 1;
     static constexpr unsigned kNotify = 2;
 
-    // What the chip's own memory for one-time values says of it: four rows of 16 bits, random (13.7.1).
+    // From the chip's memory for one-time values: four rows of 16 bits, random (13.7.1).
     static std::array<std::uint32_t, 3> chip_number() noexcept
     {
         constexpr std::uint32_t kRows = 0x40130000;
@@ -218,7 +218,7 @@ private:
         if (!resumed) {
             return;
         }
-        // What was on its way before goes on, with DATA0.
+        // A packet on its way before goes on, with DATA0.
         const std::uint32_t given = given_[place];
         take_back(place);
         odd_[place] = false;

@@ -48,7 +48,7 @@ void set_level(Gpio<Word>& port, unsigned pin, bool level) noexcept
     port.bsrr.write(level ? 1U << pin : 1U << (pin + 16));
 }
 
-// What a panel does with its pins (boards/mill3/mill_panel.hpp).
+// A panel reads and drives its pins by this (boards/mill3/mill_panel.hpp).
 template <class Chip>
 struct PinAccess {
     static constexpr bool kPullsDown = true;  // where it is asked for

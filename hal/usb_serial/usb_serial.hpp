@@ -8,7 +8,7 @@
 // sends more than is read is answered NAK by the hardware; for one that does not read, or none, nothing
 // waits: bytes for a port that no program holds open are dropped.
 //
-// What requests are answered: usb_control.hpp; as what the port describes itself: usb_descriptors.hpp.
+// usb_control.hpp answers the requests, usb_descriptors.hpp describes the port.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ protected:
     using SetupBytes = std::array<std::uint8_t, 8>;
     using Packet = std::array<std::uint8_t, kUsbPacket>;
 
-    // What the chip's interrupt tells.
+    // The chip's interrupt tells these.
     void on_reset() noexcept;
     void on_sleep(bool suspended) noexcept
     {

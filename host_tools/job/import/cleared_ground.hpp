@@ -1,4 +1,4 @@
-// What stands around a place of a solid once flat ends have cleared its levels.
+// Heights of what stands around a place of a solid once flat ends have cleared its levels.
 #pragma once
 
 #include <vector>

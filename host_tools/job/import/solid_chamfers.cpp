@@ -52,7 +52,7 @@ bool has_room(const Region2d& loops, const Region2d& centres)
     });
 }
 
-// What is within `reach` of the loops.
+// The ground within `reach` of the loops.
 Region2d strips(const Region2d& loops, double reach)
 {
     Region2d all;

@@ -106,16 +106,16 @@ FAULTS_OF_STOPS = {
     "a door that cuts nothing": ("firmware/machine/stops.hpp", "kCutting = kHalting | kDoor", "kCutting = kHalting"),
     "a byte that cuts nothing": ("firmware/machine/stops.hpp", "byte_pending(cutting_byte_) ||", "false ||"),
     "an overrun that is not read away": (LINK, "static_cast<void>(Port::usart().dr.read());", ""),
-    "a watchdog fed without ticks": ("boards/mill3/chip_traits.hpp", "if (ticks != fed_at)", "if (true)"),
+    "a watchdog fed without ticks": ("boards/mill3/main_loop.hpp", "if (ticks != fed_at)", "if (true)"),
 }
 
 # Faults of USB; usb_on_chip.py judges. `--usb-faults` plants these, on a board with a plug.
-USB, ENDPOINTS, TWO_LINKS = "hal/stm32f4/usb_link.hpp", "hal/stm32f4/usb_endpoints.hpp", "boards/mill3/two_links.hpp"
+USB, ENDPOINTS, TWO_LINKS = "hal/usb_serial/usb_serial.hpp", "hal/stm32f4/usb_endpoints.hpp", "boards/mill3/two_links.hpp"
 FAULTS_OF_USB = {
-    "more urgent than the tick": ("hal/stm32f4/chip.hpp", "kUsbPriority = 0xE0", "kUsbPriority = 0x00"),
+    "more urgent than the tick": ("hal/cortex_m/cortex_m.hpp", "kUsbPriority = 0xE0", "kUsbPriority = 0x00"),
     "47 MHz": (CLOCKS, "plan.usb_divisor() << 24U", "(plan.usb_divisor() + 1) << 24U"),
-    "takes what has no room": (USB, "kReceiveSize - held >= kUsbPacket", "true"),
-    "never takes more": (USB, "if (wants_room_.load(std::memory_order_relaxed)) {", "if (false) {"),
+    "takes what has no room": (USB, "received_.room() >= kUsbPacket", "true"),
+    "never takes more": (USB, "if (there && wants_room_.load(std::memory_order_relaxed)) {", "if (false) {"),
     "waits for a port that is closed": (USB, "return open() ? kSendSize", "return true ? kSendSize"),
     "answers of before": (USB, "send_tail_.store(send_head_.load(std::memory_order_relaxed), std::memory_order_release);", ""),
     "no empty packet": (USB, "full_packet_ = size == kUsbPacket;", "full_packet_ = false;"),
