@@ -47,11 +47,16 @@ std::string numbered_line(std::string_view line, std::uint64_t number)
         return as_it_is;
     }
     std::string words;
+    bool had_number = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
         if (line[i] != 'N' && line[i] != 'n') {
             words.push_back(line[i]);
             continue;
         }
+        if (had_number) {
+            return as_it_is;  // two lines in one: the controller refuses it
+        }
+        had_number = true;
         std::size_t digits = 0;
         while (i + 1 + digits < line.size() && is_digit(line[i + 1 + digits])) {
             ++digits;

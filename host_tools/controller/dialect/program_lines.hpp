@@ -40,7 +40,7 @@ private:
 };
 
 // bare_line() with `number` as its only N word, so that the controller's reports name the line of
-// the file. $ commands and lines with a malformed N word are unchanged.
+// the file. $ commands and lines with a malformed N word, or with two of them, are unchanged.
 std::string numbered_line(std::string_view line, std::uint64_t number);
 
 struct ProgramLine {

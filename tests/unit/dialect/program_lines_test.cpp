@@ -37,6 +37,9 @@ TEST(ProgramLines, LeaveBadLineNumbersToTheController)
     STRCMP_EQUAL("N12345678G1", numbered_line("N12345678G1", 7).c_str());
     STRCMP_EQUAL("N-1G1", numbered_line("N-1G1", 7).c_str());
     STRCMP_EQUAL("N1.5.2G1", numbered_line("N1.5.2G1", 7).c_str());
+    // a line end that was lost: as one line it would go straight to both places
+    STRCMP_EQUAL("N1G0Z5N2X50", numbered_line("N1G0Z5N2X50", 7).c_str());
+    STRCMP_EQUAL("G1X1n3N3", numbered_line("G1X1n3N3", 7).c_str());
 }
 
 TEST(ProgramLines, AreNeverMadeTooLong)

@@ -159,6 +159,9 @@ TEST(ProgramRun, SaysWhatEndedIt)
     STRCMP_EQUAL("error:2: a number is missing or malformed: Q in \"G1 X2 Q\"",
                  fault_text(refused, refused.errors.at(0)).c_str());
     LONGS_EQUAL(3, refused.errors[0].line);
+    const RunResult joined = run("G21\nN10 Z5 N20 X50\nX3\n");
+    STRCMP_EQUAL("error:25: a word is repeated: N20 in \"N10 Z5 N20 X50\"",
+                 fault_text(joined, joined.errors.at(0)).c_str());
     const RunResult alarmed = run("G38.2 Z-5 F200\n");
     STRCMP_EQUAL("ALARM:5: alarm: the probe did not touch",
                  fault_text(alarmed, alarmed.errors.at(0)).c_str());
