@@ -1,4 +1,6 @@
 // The records of the 2.5-D strategies.
+#include <utility>
+
 #include "host_tools/cam/prismatic/prismatic.hpp"
 #include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
@@ -34,6 +36,13 @@ void check_profile(const Operation& operation, const Refuse& refuse)
     if (cut.side == job::ProfileSide::kOn && operation.passes.allowance > 0) {
         refuse("allowance",
                "belongs to a profile inside or outside: on the line there is no wall to finish");
+    }
+    for (const auto& [key, lead] :
+         {std::pair{"lead_in", cut.lead_in}, std::pair{"lead_out", cut.lead_out}}) {
+        if (cut.side == job::ProfileSide::kOn && lead.value_or(0) > 0) {
+            refuse(key, "belongs to a profile beside the line: on the line it would cut next to "
+                        "what is drawn");
+        }
     }
     if (cut.tabs && cut.tabs->height >= cut.depth) {
         refuse("tabs",
@@ -104,7 +113,7 @@ const Strategy kProfile{
            "bridges that hold the part: `{ count = 4, width = 6.0, height = 1.5, shape = \"ramp\" "
            "}`"),
      {"lead_in", Kind::kLength, "the tool's radius",
-      "radius of the arc onto the path; 0: none. Halved where it has no room; on the line 0",
+      "radius of the arc onto the path; 0: none. Halved where it has no room; on the line only 0",
       kNotNegative},
      {"lead_out", Kind::kLength, "`lead_in`", "likewise off the path", kNotNegative}},
     {Region::kOutline},
