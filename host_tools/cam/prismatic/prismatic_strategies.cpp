@@ -40,8 +40,9 @@ void check_profile(const Operation& operation, const Refuse& refuse)
     for (const auto& [key, lead] :
          {std::pair{"lead_in", cut.lead_in}, std::pair{"lead_out", cut.lead_out}}) {
         if (cut.side == job::ProfileSide::kOn && lead.value_or(0) > 0) {
-            refuse(key, "belongs to a profile beside the line: on the line it would cut next to "
-                        "what is drawn");
+            refuse(key,
+                   "belongs to a profile beside the line: on the line it would cut next to "
+                   "what is drawn");
         }
     }
     if (cut.tabs && cut.tabs->height >= cut.depth) {

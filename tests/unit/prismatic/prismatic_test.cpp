@@ -266,9 +266,11 @@ TEST(Prismatic, KeysOfOtherOperationsAreRefused)
 
 TEST(Prismatic, AProfileOnTheLineHasNoLeads)
 {
-    const std::string profile = "strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\n"
-                                "depth = 3\nside = \"on\"\n";
-    STRCMP_CONTAINS("lead_in: belongs to a profile beside", why_not(profile + "lead_in = 3").c_str());
+    const std::string profile =
+        "strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\n"
+        "depth = 3\nside = \"on\"\n";
+    STRCMP_CONTAINS("lead_in: belongs to a profile beside",
+                    why_not(profile + "lead_in = 3").c_str());
     STRCMP_CONTAINS("lead_out: belongs to a profile beside",
                     why_not(profile + "lead_in = 0\nlead_out = 0.4").c_str());
     STRCMP_EQUAL("", broken(profile + "lead_in = 0\nlead_out = 0").c_str());
