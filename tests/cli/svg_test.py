@@ -8,11 +8,11 @@ usage: svg_test.py CUSP [COUNT [FIRST SEED]]
 import json
 import math
 import random
-import re
 import sys
 import unittest
 
 from cusp_case import CuspCase
+from program_cuts import away, cuts
 
 COUNT, FIRST = (int(sys.argv[k]) if len(sys.argv) > k else otherwise for k, otherwise in ((2, 12), (3, 1)))
 TOLERANCE = 0.01
@@ -39,29 +39,6 @@ POCKET = JOB.replace('"vee"', '"flat"').replace("tip_angle = 60", "").replace('"
 def svg(body, attributes='width="100mm" height="80mm" viewBox="0 0 100 80"'):
     return f'<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" ' \
            f'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" {attributes}>\n{body}\n</svg>\n'
-
-
-def cuts(program):
-    """Lines of the program below 0, as pairs of points."""
-    at, z, out = (0.0, 0.0), 1.0, []
-    for line in program.splitlines():
-        words = dict(re.findall(r"([XYZ])(-?[\d.]+)", line.split("(")[0]))
-        to = float(words.get("X", at[0])), float(words.get("Y", at[1]))
-        z = float(words.get("Z", z))
-        if z < 0 and to != at and "G0" not in line.split("(")[0].replace("G01", ""):
-            out.append((at, to))
-        at = to
-    return out
-
-
-def away(point, pieces):
-    """Distance of a point to the nearest of the pieces."""
-    def one(a, b):
-        d = b[0] - a[0], b[1] - a[1]
-        square = d[0] ** 2 + d[1] ** 2
-        share = 0 if square == 0 else max(0, min(1, ((point[0] - a[0]) * d[0] + (point[1] - a[1]) * d[1]) / square))
-        return math.hypot(a[0] + share * d[0] - point[0], a[1] + share * d[1] - point[1])
-    return min(one(a, b) for a, b in pieces)
 
 
 def bezier(points, t):
