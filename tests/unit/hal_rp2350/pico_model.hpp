@@ -10,6 +10,7 @@
 
 #include "hal/rp2350/boot_rom.hpp"
 #include "hal/rp2350/chip_registers.hpp"
+#include "tests/support/pin_change.hpp"
 
 namespace cusp::test {
 
@@ -20,15 +21,6 @@ public:
     void write(std::uint32_t value);
     // The value of the register; reading it is not reported.
     std::uint32_t value{0};
-};
-
-struct PinChange {
-    std::uint64_t microsecond;
-    std::uint32_t levels;
-    friend bool operator==(const PinChange& a, const PinChange& b)
-    {
-        return a.microsecond == b.microsecond && a.levels == b.levels;
-    }
 };
 
 // The state machine: the instructions that the player's program uses (11.4).

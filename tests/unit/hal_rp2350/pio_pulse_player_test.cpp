@@ -5,22 +5,23 @@
 #include <random>
 #include <vector>
 
-#include "CppUTest/TestHarness.h"
-
 #include "tests/unit/hal_rp2350/pico_model.hpp"
 
-using cusp::PulseEdge;
+// Last: CppUTest redefines new, which breaks standard headers included after it.
+#include "tests/support/pulse_player_case.hpp"
+
 using cusp::PulseFrame;
 using cusp::hal::rp2350::GP;
 using cusp::test::PicoChip;
 using cusp::test::PicoModel;
 using cusp::test::PinChange;
+using cusp::test::PulsePlayerCase;
+using cusp::test::pulses_at;
+using cusp::test::raised_at;
 
 namespace {
 
 constexpr std::uint32_t kCoreHz = 150000000;
-// A frame is behind its interrupt by the words of the queue, and the one that plays.
-constexpr unsigned kBehind = 9;
 
 // The lines lie apart and in no order.
 struct ScatteredTable {
@@ -45,166 +46,45 @@ std::uint32_t pins_of(std::uint32_t lines)
     return pins;
 }
 
-PulseFrame pulses_at(std::initializer_list<std::uint16_t> ticks)
-{
-    PulseFrame frame;
-    for (const std::uint16_t tick : ticks) {
-        frame.edges.try_push_back({tick, 1, 0});
-        frame.edges.try_push_back({static_cast<std::uint16_t>(tick + 2), 0, 1});
-    }
-    return frame;
-}
-
-// A frame of random edges that leaves the steps low, and directions as they come.
-PulseFrame random_frame(std::mt19937& random, std::uint32_t& lines)
-{
-    PulseFrame frame;
-    auto tick = static_cast<std::uint32_t>(random() % 100);
-    while (tick < 990) {
-        const std::uint32_t next = random() & 0x3FU;
-        frame.edges.try_push_back({static_cast<std::uint16_t>(tick),
-                                   static_cast<std::uint8_t>(next & ~lines),
-                                   static_cast<std::uint8_t>(lines & ~next)});
-        lines = next;
-        tick += 1 + static_cast<std::uint32_t>(random() % 60);
-    }
-    frame.edges.try_push_back({999, 0, static_cast<std::uint8_t>(lines & 7U)});
-    lines &= ~7U;
-    return frame;
-}
-
-void append(std::vector<PinChange>& changes, std::uint64_t start, const PulseFrame& frame)
-{
-    std::uint32_t levels = changes.empty() ? 0 : changes.back().levels;
-    for (const PulseEdge& edge : frame.edges) {
-        const std::uint32_t next = (levels | pins_of(edge.raise)) & ~pins_of(edge.lower);
-        if (next != levels) {
-            changes.push_back({start + edge.tick, next});
-        }
-        levels = next;
-    }
-}
+struct OnChip {
+    using Model = PicoModel;
+    using Player = PlayerOf<ScatteredTable>;
+    // The words of the queue, and the one that plays.
+    static constexpr unsigned kBehind = 9;
+    static constexpr std::uint32_t kLowered = 7;
+    static std::uint32_t pins_of(std::uint32_t lines) { return ::pins_of(lines); }
+    static void start(Player& player, bool in_motion = false) { player.start(kCoreHz, in_motion); }
+};
 
 }  // namespace
 
-TEST_GROUP(PioPulsePlayer)
-{
-    PicoModel chip;
-    Player player;
-
-    void setup() override
-    {
-        player.start(kCoreHz);
-        chip.changes.clear();
-    }
-    // Runs this long; the interrupt is served at once.
-    unsigned run(unsigned microseconds)
-    {
-        unsigned ticks = 0;
-        for (unsigned i = 0; i < microseconds; ++i) {
-            chip.run_microsecond();
-            if (chip.interrupt_pending() && player.on_interrupt()) {
-                ++ticks;
-            }
-        }
-        return ticks;
-    }
-    // Until the interrupt: the begin of what the model calls a frame.
-    void run_to_interrupt()
-    {
-        while (run(1) == 0) {
-        }
-    }
-};
+TEST_GROUP_BASE(PioPulsePlayer, PulsePlayerCase<OnChip>){};
 
 TEST(PioPulsePlayer, CallsForAServoTickEachMillisecondAndPlaysSilence)
 {
-    LONGS_EQUAL(50, run(50000));
-    CHECK_FALSE(player.underrun());
-    LONGS_EQUAL(0, chip.changes.size());
-    LONGS_EQUAL(0, chip.violations);
+    calls_for_a_tick_each_millisecond_and_plays_silence();
 }
 
-TEST(PioPulsePlayer, TakesExactlyTwoFrames)
-{
-    run(1100);
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    CHECK_FALSE(player.try_play(pulses_at({20})));
-    run(1000);
-    CHECK_TRUE(player.try_play(pulses_at({20})));
-    CHECK_FALSE(player.try_play(pulses_at({30})));
-}
+TEST(PioPulsePlayer, TakesExactlyTwoFrames) { takes_exactly_two_frames(); }
 
-TEST(PioPulsePlayer, PlaysEachEdgeAtItsTickBackToBack)
-{
-    run_to_interrupt();
-    std::vector<PinChange> expected;
-    std::mt19937 random{20240917};
-    std::uint32_t lines = 0;
-    for (unsigned k = 0; k < 40; ++k) {
-        const PulseFrame frame = random_frame(random, lines);
-        CHECK_TRUE(player.try_play(frame));
-        append(expected, chip.now() + 1000 + kBehind, frame);
-        run(1000);
-    }
-    CHECK_TRUE(player.try_play({}));
-    run(2000);
-    CHECK_FALSE(player.underrun());
-    LONGS_EQUAL(expected.size(), chip.changes.size());
-    CHECK_TRUE(expected == chip.changes);
-    LONGS_EQUAL(0, chip.violations);
-}
+TEST(PioPulsePlayer, PlaysEachEdgeAtItsTickBackToBack) { plays_each_edge_at_its_tick(); }
 
 TEST(PioPulsePlayer, MissingAFrameInMotionIsAnUnderrunWithTheStepsLow)
 {
-    run_to_interrupt();
-    PulseFrame high;
-    high.edges.try_push_back({10, 0x09, 0});
-    CHECK_TRUE(player.try_play(high));
-    run(2100);
-    CHECK_TRUE(player.underrun());
-    LONGS_EQUAL(pins_of(0x08), chip.changes.back().levels);
-    const auto changes = chip.changes.size();
-    LONGS_EQUAL(0, run(10000));
-    LONGS_EQUAL(changes, chip.changes.size());
-    LONGS_EQUAL(0, chip.violations);
+    missing_a_frame_in_motion_is_an_underrun_with_the_steps_low();
 }
 
-TEST(PioPulsePlayer, MissingAFrameAtRestIsNone)
-{
-    run_to_interrupt();
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    run(1000);
-    CHECK_TRUE(player.try_play({}));
-    run(5000);
-    CHECK_FALSE(player.underrun());
-    LONGS_EQUAL(2, chip.changes.size());
-}
+TEST(PioPulsePlayer, MissingAFrameAtRestIsNone) { missing_a_frame_at_rest_is_none(); }
 
 TEST(PioPulsePlayer, StartsOnSilenceAfterAnUnderrunIsCleared)
 {
-    run_to_interrupt();
-    CHECK_TRUE(player.try_play(pulses_at({10, 990})));
-    run(2100);
-    CHECK_TRUE(player.underrun());
-    CHECK_TRUE(player.try_play(pulses_at({30})));
-    player.clear_underrun();
-    const auto changes = chip.changes.size();
-    LONGS_EQUAL(4, run(4000));
-    LONGS_EQUAL(changes, chip.changes.size());
-    CHECK_TRUE(player.try_play(pulses_at({30})));
-    run(1000);
-    CHECK_TRUE(player.try_play({}));
-    run(1100);
-    LONGS_EQUAL(changes + 2, chip.changes.size());
-    LONGS_EQUAL(0, chip.violations);
+    starts_on_silence_after_an_underrun_is_cleared();
 }
 
 TEST(PioPulsePlayer, KeepsDirectionsOverAnUnderrun)
 {
     run_to_interrupt();
-    PulseFrame frame;
-    frame.edges.try_push_back({10, 0x21, 0});
+    const PulseFrame frame = raised_at(10, 0x21);
     CHECK_TRUE(player.try_play(frame));
     run(2100);
     CHECK_TRUE(player.underrun());
@@ -217,8 +97,7 @@ TEST(PioPulsePlayer, KeepsDirectionsOverAnUnderrun)
 TEST(PioPulsePlayer, StopsOnAnErrorOfTheBus)
 {
     run_to_interrupt();
-    PulseFrame high;
-    high.edges.try_push_back({10, 0x01, 0});
+    const PulseFrame high = raised_at(10, 0x01);
     CHECK_TRUE(player.try_play(high));
     run(1500);
     CHECK_TRUE(player.try_play({}));
@@ -234,14 +113,11 @@ TEST(PioPulsePlayer, StopsOnAnErrorOfTheBus)
 TEST(PioPulsePlayer, LowersTheStepsByItselfWhereTheCoreStaysAway)
 {
     run_to_interrupt();
-    PulseFrame high;
-    high.edges.try_push_back({990, 0x09, 0});
+    const PulseFrame high = raised_at(990, 0x09);
     CHECK_TRUE(player.try_play(high));
     run(1000);
     CHECK_TRUE(player.try_play(pulses_at({200})));
-    for (unsigned i = 0; i < 100000; ++i) {
-        chip.run_microsecond();
-    }
+    run_alone(100000);
     // Up, and down at the end of the frame; the frame after it does not play.
     LONGS_EQUAL(2, chip.changes.size());
     LONGS_EQUAL(10, chip.changes[1].microsecond - chip.changes[0].microsecond);
@@ -252,17 +128,7 @@ TEST(PioPulsePlayer, LowersTheStepsByItselfWhereTheCoreStaysAway)
 
 TEST(PioPulsePlayer, SurvivesALongHaltOfTheCoreAtRest)
 {
-    run_to_interrupt();
-    for (unsigned i = 0; i < 800300; ++i) {
-        chip.run_microsecond();
-    }
-    LONGS_EQUAL(1, run(1));
-    CHECK_FALSE(player.underrun());
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    run(1000);
-    CHECK_TRUE(player.try_play({}));
-    run(1100);
-    LONGS_EQUAL(2, chip.changes.size());
+    survives_a_long_halt_of_the_core_at_rest();
 }
 
 TEST(PioPulsePlayer, TurnsInvertedLinesRoundInASilence)
@@ -294,8 +160,7 @@ TEST(PioPulsePlayer, LeavesInvertedStepsHighWhereAFrameIsMissing)
     inverted.invert(0x41);
     inverted.start(kCoreHz);
     LONGS_EQUAL(0x41U << 2U, chip.levels() & 0x3FCU);
-    PulseFrame frame;
-    frame.edges.try_push_back({10, 0x49, 0});
+    const PulseFrame frame = raised_at(10, 0x49);
     CHECK_TRUE(inverted.try_play(frame));
     for (unsigned i = 0; i < 1500; ++i) {
         chip.run_microsecond();
@@ -304,9 +169,7 @@ TEST(PioPulsePlayer, LeavesInvertedStepsHighWhereAFrameIsMissing)
         }
     }
     LONGS_EQUAL(0x08U << 2U, chip.levels() & 0x3FCU);
-    for (unsigned i = 0; i < 3000; ++i) {
-        chip.run_microsecond();
-    }
+    run_alone(3000);
     LONGS_EQUAL(0x49U << 2U, chip.levels() & 0x3FCU);
     inverted.stop();
     LONGS_EQUAL(0x49U << 2U, chip.levels() & 0x3FCU);
@@ -314,10 +177,7 @@ TEST(PioPulsePlayer, LeavesInvertedStepsHighWhereAFrameIsMissing)
 
 TEST(PioPulsePlayer, TakesAResetAmidMotionForAnUnderrun)
 {
-    player.start(kCoreHz, true);
-    CHECK_TRUE(player.underrun());
-    player.clear_underrun();
-    CHECK_FALSE(player.underrun());
+    takes_a_reset_amid_motion_for_an_underrun();
 }
 
 // For all delays of interrupt and servo tick: the frames taken are played, in order, each edge once and at its tick, back to
@@ -335,28 +195,9 @@ TEST(PioPulsePlayer, PlaysWhatItTookOrSaysSoWhateverTheDelays)
         model.changes.clear();
         const unsigned slow = round % 4 == 0 ? 1200 : 800;
         const unsigned late = round % 5 == 0 ? 12 : 6;
-        std::uint32_t lines = 0;
         std::vector<PulseFrame> taken;
-        std::uint64_t interrupt_at = 0;
-        std::uint64_t tick_at = 0;
-        PulseFrame frame = random_frame(random, lines);
-        for (unsigned i = 0; i < 20000 && !fresh.underrun(); ++i) {
-            model.run_microsecond();
-            if (model.interrupt_pending() && interrupt_at == 0) {
-                interrupt_at = model.now() + random() % late;
-            }
-            if (interrupt_at != 0 && model.now() >= interrupt_at) {
-                interrupt_at = 0;
-                tick_at = fresh.on_interrupt() ? model.now() + random() % slow : tick_at;
-            }
-            if (tick_at != 0 && model.now() >= tick_at && !fresh.underrun()) {
-                tick_at = 0;
-                if (fresh.try_play(frame)) {
-                    taken.push_back(frame);
-                    frame = random_frame(random, lines);
-                }
-            }
-        }
+        run_late(model, fresh, random, late, slow,
+                 [&](const PulseFrame& frame) { taken.push_back(frame); });
         underruns += fresh.underrun() ? 1U : 0U;
         // The first begins whenever it was taken, the next exactly a frame later.
         std::vector<PinChange> expected;

@@ -143,7 +143,7 @@ void ChipModel::write_port(std::uint32_t word)
     const std::uint32_t levels = (port_c.odr.value & ~lower) | raise;
     if (levels != port_c.odr.value) {
         port_c.odr.value = levels;
-        changes.push_back({now_, static_cast<std::uint16_t>(levels)});
+        changes.push_back({now_, levels & 0xFFFFU});
     }
 }
 

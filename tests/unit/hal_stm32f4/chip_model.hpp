@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/stm32f4/registers.hpp"
+#include "tests/support/pin_change.hpp"
 
 namespace cusp::test {
 
@@ -18,15 +19,6 @@ public:
     void write(std::uint32_t value);
     // The value of the register; reading it is not reported.
     std::uint32_t value{0};
-};
-
-struct PortChange {
-    std::uint64_t microsecond;
-    std::uint16_t levels;
-    friend bool operator==(const PortChange& a, const PortChange& b)
-    {
-        return a.microsecond == b.microsecond && a.levels == b.levels;
-    }
 };
 
 class ChipModel {
@@ -43,7 +35,7 @@ public:
     void raise_transfer_error();
 
     // Every change of the port's levels, in order.
-    std::vector<PortChange> changes;
+    std::vector<PinChange> changes;
     // Accesses that the manual forbids: the stream's registers while it runs, flags left set at its
     // start, flash writes without unlocking, programming what is not erased.
     std::uint32_t violations{0};

@@ -2,19 +2,21 @@
 #include "hal/stm32f4/dma_pulse_player.hpp"
 
 #include <cstdio>
-#include <map>
 #include <random>
 #include <vector>
 
-#include "CppUTest/TestHarness.h"
-
 #include "tests/unit/hal_stm32f4/chip_model.hpp"
 
-using cusp::PulseEdge;
+// Last: CppUTest redefines new, which breaks standard headers included after it.
+#include "tests/support/pulse_player_case.hpp"
+
 using cusp::PulseFrame;
 using cusp::test::ChipModel;
 using cusp::test::ModelChip;
-using cusp::test::PortChange;
+using cusp::test::PinChange;
+using cusp::test::PulsePlayerCase;
+using cusp::test::pulses_at;
+using cusp::test::raised_at;
 
 namespace {
 
@@ -33,74 +35,25 @@ using PlayerOf =
 using Player = PlayerOf<Table>;
 static_assert(cusp::hal::is_pulse_player<Player>());
 
-PulseFrame pulses_at(std::initializer_list<std::uint16_t> ticks)
-{
-    PulseFrame frame;
-    for (const std::uint16_t tick : ticks) {
-        frame.edges.try_push_back({tick, 1, 0});
-        frame.edges.try_push_back({static_cast<std::uint16_t>(tick + 2), 0, 1});
-    }
-    return frame;
-}
-
-// A frame of random edges that leaves all lines low.
-PulseFrame random_frame(std::mt19937& random)
-{
-    PulseFrame frame;
-    std::uint8_t levels = 0;
-    auto tick = static_cast<std::uint32_t>(random() % 100);
-    while (tick < 990) {
-        const auto next = static_cast<std::uint8_t>(random() & 0x3FU);
-        frame.edges.try_push_back({static_cast<std::uint16_t>(tick),
-                                   static_cast<std::uint8_t>(next & ~levels),
-                                   static_cast<std::uint8_t>(levels & ~next)});
-        levels = next;
-        tick += static_cast<std::uint32_t>(1 + random() % 60);
-    }
-    frame.edges.try_push_back({999, 0, levels});
-    return frame;
-}
-
-void append(std::vector<PortChange>& changes, std::uint64_t start, const PulseFrame& frame)
-{
-    std::uint16_t levels = changes.empty() ? std::uint16_t{0} : changes.back().levels;
-    for (const PulseEdge& edge : frame.edges) {
-        const auto next = static_cast<std::uint16_t>((levels | edge.raise) & ~unsigned{edge.lower});
-        if (next != levels) {
-            changes.push_back({start + edge.tick, next});
-        }
-        levels = next;
-    }
-}
-
-}  // namespace
-
-TEST_GROUP(DmaPulsePlayer)
-{
-    ChipModel chip;
-    Player player;
-
-    void setup() override { player.start(kTimerHz, kGateHz); }
-
-    // Runs this long; the interrupt is served at once.
-    unsigned run(unsigned microseconds)
+struct OnChip {
+    using Model = ChipModel;
+    using Player = PlayerOf<Table>;
+    static constexpr unsigned kBehind = 0;
+    static constexpr std::uint32_t kLowered = 0x3F;
+    static std::uint32_t pins_of(std::uint32_t lines) { return lines; }
+    static void start(Player& player, bool in_motion = false)
     {
-        unsigned ticks = 0;
-        for (unsigned i = 0; i < microseconds; ++i) {
-            chip.run_microsecond();
-            if (chip.interrupt_pending() && player.on_interrupt()) {
-                ++ticks;
-            }
-        }
-        return ticks;
+        player.start(kTimerHz, kGateHz, in_motion);
     }
 };
 
+}  // namespace
+
+TEST_GROUP_BASE(DmaPulsePlayer, PulsePlayerCase<OnChip>){};
+
 TEST(DmaPulsePlayer, CallsForAServoTickEachMillisecondAndPlaysSilence)
 {
-    LONGS_EQUAL(50, run(50000));
-    CHECK_FALSE(player.underrun());
-    LONGS_EQUAL(0, chip.changes.size());
+    calls_for_a_tick_each_millisecond_and_plays_silence();
 }
 
 TEST(DmaPulsePlayer, TouchesTheStreamOnlyWhileItIsOff)
@@ -112,56 +65,16 @@ TEST(DmaPulsePlayer, TouchesTheStreamOnlyWhileItIsOff)
     LONGS_EQUAL(0, chip.violations);
 }
 
-TEST(DmaPulsePlayer, TakesExactlyTwoFrames)
-{
-    run(1100);
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    CHECK_FALSE(player.try_play(pulses_at({20})));
-    run(1000);
-    CHECK_TRUE(player.try_play(pulses_at({20})));
-    CHECK_FALSE(player.try_play(pulses_at({30})));
-}
+TEST(DmaPulsePlayer, TakesExactlyTwoFrames) { takes_exactly_two_frames(); }
 
-TEST(DmaPulsePlayer, PlaysEachEdgeAtItsTick)
-{
-    run(1000);
-    std::vector<PortChange> expected;
-    std::mt19937 random{20240917};
-    for (unsigned k = 0; k < 40; ++k) {
-        const PulseFrame frame = random_frame(random);
-        CHECK_TRUE(player.try_play(frame));
-        append(expected, (k + 2) * 1000U, frame);
-        run(1000);
-    }
-    run(1000);
-    LONGS_EQUAL(expected.size(), chip.changes.size());
-    CHECK_TRUE(expected == chip.changes);
-}
+TEST(DmaPulsePlayer, PlaysEachEdgeAtItsTick) { plays_each_edge_at_its_tick(); }
 
 TEST(DmaPulsePlayer, MissingAFrameInMotionIsAnUnderrunWithTheStepsLow)
 {
-    run(1000);
-    PulseFrame high;
-    high.edges.try_push_back({10, 0x09, 0});
-    CHECK_TRUE(player.try_play(high));
-    run(2000);
-    CHECK_TRUE(player.underrun());
-    LONGS_EQUAL(0x08, chip.changes.back().levels);
-    const auto changes = chip.changes.size();
-    LONGS_EQUAL(0, run(10000));
-    LONGS_EQUAL(changes, chip.changes.size());
+    missing_a_frame_in_motion_is_an_underrun_with_the_steps_low();
 }
 
-TEST(DmaPulsePlayer, MissingAFrameAtRestIsNone)
-{
-    run(1000);
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    run(1000);
-    CHECK_TRUE(player.try_play({}));
-    run(5000);
-    CHECK_FALSE(player.underrun());
-    LONGS_EQUAL(2, chip.changes.size());
-}
+TEST(DmaPulsePlayer, MissingAFrameAtRestIsNone) { missing_a_frame_at_rest_is_none(); }
 
 TEST(DmaPulsePlayer, RefusesAFrameThatComesTooLateInsteadOfTearingIt)
 {
@@ -176,26 +89,13 @@ TEST(DmaPulsePlayer, RefusesAFrameThatComesTooLateInsteadOfTearingIt)
 
 TEST(DmaPulsePlayer, StartsOnSilenceAfterAnUnderrunIsCleared)
 {
-    run(1000);
-    CHECK_TRUE(player.try_play(pulses_at({10, 990})));
-    run(2000);
-    CHECK_TRUE(player.underrun());
-    CHECK_TRUE(player.try_play(pulses_at({30})));
-    player.clear_underrun();
-    const auto changes = chip.changes.size();
-    LONGS_EQUAL(4, run(4000));
-    LONGS_EQUAL(changes, chip.changes.size());
-    CHECK_TRUE(player.try_play(pulses_at({30})));
-    run(2000);
-    LONGS_EQUAL(changes + 2, chip.changes.size());
-    LONGS_EQUAL(0, chip.violations);
+    starts_on_silence_after_an_underrun_is_cleared();
 }
 
 TEST(DmaPulsePlayer, StopsOnAnErrorOfTheBus)
 {
     run(1000);
-    PulseFrame high;
-    high.edges.try_push_back({10, 0x01, 0});
+    const PulseFrame high = raised_at(10, 0x01);
     CHECK_TRUE(player.try_play(high));
     run(1500);
     chip.raise_transfer_error();
@@ -206,15 +106,7 @@ TEST(DmaPulsePlayer, StopsOnAnErrorOfTheBus)
 
 TEST(DmaPulsePlayer, SurvivesALongHaltOfTheCoreAtRest)
 {
-    run(1000);
-    for (unsigned i = 0; i < 800300; ++i) {
-        chip.run_microsecond();
-    }
-    LONGS_EQUAL(1, run(1));
-    CHECK_FALSE(player.underrun());
-    CHECK_TRUE(player.try_play(pulses_at({10})));
-    run(2000);
-    LONGS_EQUAL(2, chip.changes.size());
+    survives_a_long_halt_of_the_core_at_rest();
 }
 
 TEST(DmaPulsePlayer, TakesAHaltOfTheCoreInMotionForAnUnderrun)
@@ -223,9 +115,7 @@ TEST(DmaPulsePlayer, TakesAHaltOfTheCoreInMotionForAnUnderrun)
     CHECK_TRUE(player.try_play(pulses_at({10})));
     run(1000);
     CHECK_TRUE(player.try_play(pulses_at({10})));
-    for (unsigned i = 0; i < 2500; ++i) {
-        chip.run_microsecond();
-    }
+    run_alone(2500);
     run(1);
     CHECK_TRUE(player.underrun());
 }
@@ -236,9 +126,7 @@ TEST(DmaPulsePlayer, PlaysNoWordTwiceWhereTheCoreStaysAway)
     CHECK_TRUE(player.try_play(pulses_at({100, 500, 900})));
     run(1000);
     CHECK_TRUE(player.try_play(pulses_at({200})));
-    for (unsigned i = 0; i < 100000; ++i) {
-        chip.run_microsecond();
-    }
+    run_alone(100000);
     // The half that plays to its end, and no more.
     LONGS_EQUAL(6, chip.changes.size());
 }
@@ -262,10 +150,7 @@ TEST(DmaPulsePlayer, TurnsInvertedLinesRoundInASilence)
 
 TEST(DmaPulsePlayer, TakesAResetAmidMotionForAnUnderrun)
 {
-    player.start(kTimerHz, kGateHz, true);
-    CHECK_TRUE(player.underrun());
-    player.clear_underrun();
-    CHECK_FALSE(player.underrun());
+    takes_a_reset_amid_motion_for_an_underrun();
 }
 
 TEST(DmaPulsePlayer, SwapsTheLevelsOfInvertedLines)
@@ -274,12 +159,9 @@ TEST(DmaPulsePlayer, SwapsTheLevelsOfInvertedLines)
     inverted.invert(0x21);
     inverted.start(kTimerHz, kGateHz);
     LONGS_EQUAL(0x21, chip.changes.back().levels);
-    PulseFrame frame;
-    frame.edges.try_push_back({10, 0x21, 0});
+    const PulseFrame frame = raised_at(10, 0x21);
     CHECK_TRUE(inverted.try_play(frame));
-    for (unsigned i = 0; i < 1100; ++i) {
-        chip.run_microsecond();
-    }
+    run_alone(1100);
     LONGS_EQUAL(0x00, chip.changes.back().levels);
 }
 
@@ -296,27 +178,10 @@ TEST(DmaPulsePlayer, PlaysWhatItTookOrSaysSoWhateverTheDelays)
         Player fresh;
         fresh.start(kTimerHz, kGateHz);
         const unsigned slow = round % 4 == 0 ? 1200 : 800;
-        std::vector<PortChange> expected;
-        std::uint64_t interrupt_at = 0;
-        std::uint64_t tick_at = 0;
-        PulseFrame frame = random_frame(random);
-        for (unsigned i = 0; i < 20000 && !fresh.underrun(); ++i) {
-            model.run_microsecond();
-            if (model.interrupt_pending() && interrupt_at == 0) {
-                interrupt_at = model.now() + random() % 20;
-            }
-            if (interrupt_at != 0 && model.now() >= interrupt_at) {
-                interrupt_at = 0;
-                tick_at = fresh.on_interrupt() ? model.now() + random() % slow : tick_at;
-            }
-            if (tick_at != 0 && model.now() >= tick_at && !fresh.underrun()) {
-                tick_at = 0;
-                if (fresh.try_play(frame)) {
-                    append(expected, (model.now() / 1000 + 1) * 1000, frame);
-                    frame = random_frame(random);
-                }
-            }
-        }
+        std::vector<PinChange> expected;
+        run_late(model, fresh, random, 20, slow, [&](const PulseFrame& frame) {
+            append(expected, (model.now() / 1000 + 1) * 1000, frame);
+        });
         underruns += fresh.underrun() ? 1U : 0U;
         CHECK_TRUE(model.changes.size() <= expected.size());
         expected.resize(model.changes.size());
