@@ -16,6 +16,7 @@ for board in mill3_f405 mill3_f405_qemu skr2_f407 octopus_f446 nucleo_f446_cnc_s
     [ -s /usr/share/cusp/boards/$board/$board.bin ]
     [ -s /usr/share/cusp/boards/$board/README.md ]
 done
+[ -s /usr/share/cusp/boards/pico2_terminals/pico2_terminals.uf2 ]
 for page in cusp cusp-plan cusp-sim cusp-verify cusp-stream; do
     zcat /usr/share/man/man1/$page.1.gz | grep -q '^\.SH NAME'
 done
