@@ -31,7 +31,7 @@ public:
     bool publish(std::uint32_t certain) noexcept;
     // True if the tick is on its way to rest, or there, within a stretch.
     bool starves() const noexcept { return load(resting_) == load(published_); }
-    // What the tick has yet to begin of the certain cells.
+    // The certain cells that the tick has yet to begin.
     struct Way {
         float length;  // mm
         float time;    // s, at least

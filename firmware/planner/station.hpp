@@ -44,7 +44,7 @@ struct Station {
     std::uint8_t percent;  // of the programmed feed
 };
 
-// What starts or ends a stretch of path: from rest with constant jerk. x = (9/2 w)^(2/3) s^(4/3),
+// The start or end of a stretch of path: from rest with constant jerk. x = (9/2 w)^(2/3) s^(4/3),
 // so that x' = 4/3 x/s at its inner end.
 struct StopElement {
     float length;     // mm

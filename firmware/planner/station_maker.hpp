@@ -44,7 +44,7 @@ inline constexpr unsigned kReachTicks = 3;      // on top of the filters
 class StationMaker {
 public:
     void set_limits(const MachineLimits& limits) noexcept;
-    // What is behind the axis filters. Its length counts for caps on both sides of a place.
+    // The shaper behind the axis filters. Its length counts for caps on both sides of a place.
     void set_shaper(const InputShaper& shaper) noexcept
     {
         shaper_length_ = shaper.length;

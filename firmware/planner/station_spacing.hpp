@@ -113,7 +113,7 @@ private:
     StaticVector<LawJoint, kMostJoints> joints_;  // around the next station
     PathCursor collected_{};                      // the block whose joints come next
     StaticVector<TurnGroup, kTurnGroups> turns_;  // the last ones that were read
-    // What is read next of the path.
+    // The place on the path that is read next.
     PathCursor read_{};
     std::uint8_t read_stretch_{0};
     std::uint32_t read_offset_{0};  // path units into the block

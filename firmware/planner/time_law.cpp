@@ -212,7 +212,7 @@ void TimeLaw::begin_window(std::uint32_t least_behind) noexcept
     restart();
 }
 
-// What is left behind a window has room for the way from its crawl to the stop: the window ends
+// The path behind a window has room for the way from its crawl to the stop: the window ends
 // earlier; or it reaches the end, though it be long, or more of the last plan becomes final.
 void TimeLaw::make_room_behind(std::uint32_t least_behind) noexcept
 {

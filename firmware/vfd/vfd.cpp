@@ -1,4 +1,4 @@
-// What a spindle's drive is told and asked, message by message.
+// The dialogue with a spindle's drive, message by message.
 #include "firmware/vfd/vfd.hpp"
 
 namespace cusp::vfd {

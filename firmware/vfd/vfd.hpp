@@ -54,7 +54,7 @@ public:
     bool waits() const noexcept { return waits_; }
     // True if these bytes are a whole answer, or none can come any more.
     bool is_over(Span<const std::uint8_t> bytes, std::uint32_t tick) const noexcept;
-    // What came after the last message. Precondition: waits().
+    // Takes the bytes that came after the last message. Precondition: waits().
     void take(Span<const std::uint8_t> bytes, std::uint32_t tick) noexcept;
     // The last message was not sent to its end: it is sent anew, after a pause. Precondition: waits().
     void put_off(std::uint32_t tick) noexcept;
@@ -70,7 +70,7 @@ private:
     VfdTimes times_;
     Turning wanted_{Turning::kOff};
     float wanted_rpm_{0};
-    // What the drive has taken.
+    // Settings that the drive has taken.
     std::optional<Turning> turning_;
     std::optional<std::uint16_t> word_;
     float scale_{0};        // 0: not known

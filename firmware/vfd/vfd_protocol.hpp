@@ -36,7 +36,7 @@ struct VfdSetup {
     PlainDrive plain;
 };
 
-// What a message asks for. kScale: the speed at 50 Hz of a Huanyang, the greatest of a P2A, rpm; a plain
+// The value that a message asks for. kScale: the speed at 50 Hz of a Huanyang, the greatest of a P2A, rpm; a plain
 // drive has none.
 enum class Query : std::uint8_t { kScale, kRun, kSpeed, kRead };
 constexpr bool has_scale(Protocol protocol) noexcept { return protocol != Protocol::kPlain; }
@@ -58,7 +58,7 @@ struct Answer {
     AnswerKind kind;
     std::uint16_t value;  // of kScale and kRead
 };
-// What `bytes` say in answer to `message`.
+// The meaning of `bytes` as an answer to `message`.
 Answer parse_answer(Protocol protocol,
                     Query query,
                     const Message& message,

@@ -175,7 +175,7 @@ def check_memory(image, limit):
 
 
 def check_early(image, functions, table):
-    """What runs and what is read while the rest of the image is still in the flash alone. Variables have no values yet."""
+    """Code and data that are used while the rest of the image is still in the flash alone. Variables have no values yet."""
     places = {name: place for name, _, place, _, _ in sections(image)}
     end = table["cusp_early_end"]
     for name in sorted(reached(functions, "cusp_rest")):

@@ -126,7 +126,7 @@ class SolidFeatures(unittest.TestCase):
         return done
 
     def plan(self, block, tools, *options):
-        """What is said of the plan of a block, and its program, which cusp verifies by the printed job."""
+        """The messages of planning a block, and its program, which cusp verifies by the printed job."""
         (self.folder / "part.step").write_text(block.step())
         arguments = ("plan", "part.step", "--tool", *tools.words(), "--post", "linuxcnc", *options)
         done = self.run_cusp(*arguments, "-o", "p.ngc")

@@ -1,4 +1,4 @@
-"""What a stranger does with the installed module: plans, verifies, simulates, is refused."""
+"""A stranger's use of the installed module: plans, verifies, simulates, is refused."""
 import pathlib
 import re
 import sys

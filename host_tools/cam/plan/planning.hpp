@@ -21,7 +21,7 @@ struct Planned {
     std::vector<toolpath::PlannedOperation> paths;
 };
 
-// What the engagement of a path asked of its feeds.
+// Feeds that the engagement of a path asked for.
 struct FeedRange {
     double low{kUnbounded};  // mm/min
     double high{};           // 0: the feeds are as planned

@@ -1,4 +1,4 @@
-// What emscripten writes: build.mjs names the file.
+// Module that emscripten writes: build.mjs names the file.
 declare module "engine-module" {
   const createEngine: unknown;
   export default createEngine;

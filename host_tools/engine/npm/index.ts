@@ -143,7 +143,7 @@ export async function keys(): Promise<KeyTable> {
   return (await call("keys", {}, {}, {})).result as KeyTable;
 }
 
-/** What part files hold, as `cusp info` says it. */
+/** The content of part files, as `cusp info` says it. */
 export async function describe(parts: string[], files: Files, options: CallOptions & { units?: "mm" | "inch"; tolerance?: number } = {}): Promise<PartInfo> {
   const answer = await call("describe", { files: parts, ...given(options) }, files, options);
   const result = answer.result as { files: Stats[]; text: string; facets: { file: string; triangles: number; block: string }[] };

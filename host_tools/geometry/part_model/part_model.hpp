@@ -175,8 +175,8 @@ public:
     };
     std::optional<DroppedTool> drop_tool(const toolpath::Tool& tool, double x, double y) const;
 
-    // What blocks a tool at three tips, and so at all tips between them, from a mesh: a facet nearer than
-    // `least` (mm) to all of them does, since it is convex.
+    // The block of a tool at three tips, and so at all tips between them, by a mesh: a facet nearer than
+    // `least` (mm) to all of them blocks it, since a facet is convex.
     //
     // kFree: nothing is so near to the tool in the middle of the tips.
     enum class Blocked : std::uint8_t { kFree, kByOneFacet, kHere };

@@ -85,7 +85,7 @@ inline constexpr double kFacetsOff = 1e-3;  // mm
 std::vector<std::array<Vec3d, 3>> read_cad_facets(const std::string& file,
                                                   const Similarity& placed);
 
-// What of a model is wanted: faces with an upward normal, all faces, triangles alone, or all faces and triangles.
+// The wanted parts of a model: faces with an upward normal, all faces, triangles alone, or all faces and triangles.
 enum class CadWanted : std::uint8_t { kUpward, kAllFaces, kFacets, kEverything };
 
 // All three, by Open CASCADE.

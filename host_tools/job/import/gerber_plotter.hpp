@@ -1,4 +1,4 @@
-// What a photoplotter does for a Gerber file: flashes, strokes and regions become objects in order.
+// A photoplotter of Gerber files: flashes, strokes and regions become objects in order.
 #pragma once
 
 #include <map>
@@ -48,10 +48,10 @@ public:
     void end_contour();
     void end_region();
 
-    // What is drawn until its end is an aperture.
+    // All that is drawn until its end is an aperture.
     void begin_block(int code);
     void end_block();
-    // What is drawn until its end, or the end of the file, is drawn that often: the copies of all lines and rows.
+    // All that is drawn until its end, or the end of the file, is drawn that often: copies in all lines and rows.
     void begin_repeat(int across, int up, Vec2d step);
     void end_repeat();
     void end_file();

@@ -1,4 +1,4 @@
-// What apertures of Gerber files draw, as regions of lines and arcs.
+// Shapes that apertures of Gerber files draw, as regions of lines and arcs.
 #pragma once
 
 #include <vector>

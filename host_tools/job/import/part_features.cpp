@@ -27,7 +27,7 @@ constexpr double kLeastBeside = 0.01;  // mm^2 of the ring beside a piece
 
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameFeature; }
 
-// What is beside a piece, by area: far enough that a fillet has risen.
+// Surroundings of a piece, by area: far enough that a fillet has risen.
 struct Beside {
     double walls{};  // mm^2 of what stands above it
     double open{};   // mm^2 of what does not

@@ -1,4 +1,4 @@
-// What of a solid is to be cut from above: levels, walls, holes, slanted ground.
+// The parts of a solid that are cut from above: levels, walls, holes, slanted ground.
 #pragma once
 
 #include <array>

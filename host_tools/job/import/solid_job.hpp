@@ -7,7 +7,7 @@
 
 namespace cusp::import {
 
-// What 2.5-D operations cut of a solid, beside the operations that finish its slanted ground.
+// The 2.5-D operations of a solid, beside those that finish its slanted ground.
 struct SolidCuts {
     std::string before;             // tables of operations: the face, the holes
     std::string after;              // likewise: the walls, or all levels where nothing else is cut

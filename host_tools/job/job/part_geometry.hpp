@@ -106,7 +106,7 @@ struct PartCorners {
     std::size_t count{};
 };
 
-// What a tool from above is chosen by.
+// Features by which a tool from above is chosen.
 struct PartFeatures {
     std::vector<PartLevel> levels;     // the highest first
     std::vector<PartPocket> pockets;   // the highest first, the largest of a level first

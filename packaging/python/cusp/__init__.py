@@ -70,7 +70,7 @@ class Program:
 
 @_dataclasses.dataclass(frozen=True)
 class Verification:
-    """What cutting a program in memory has shown.
+    """Verdict on a program that was cut in memory.
 
     broken   each bound that does not hold, in words; empty: all hold
     figures  the keys of `cusp verify --stats`

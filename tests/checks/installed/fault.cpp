@@ -1,4 +1,4 @@
-// What happens where an assertion of the firmware's core fails: a program's own choice.
+// The handler of failed assertions of the firmware's core: a program's own choice.
 #include <cstdlib>
 
 #include "firmware/base/assert.hpp"

@@ -44,7 +44,7 @@ class Porting(unittest.TestCase):
 
     @classmethod
     def build(cls, board, build, *targets):
-        """What went wrong; None if nothing did."""
+        """The failure in words; None if all went well."""
         for command in (("cmake", "-S", board, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={cls.prefix}",
                          f"-DCMAKE_TOOLCHAIN_FILE={cls.prefix}/share/cusp-firmware/cmake/toolchain-cortex-m4f.cmake"),
                         ("cmake", "--build", build, *targets)):

@@ -60,7 +60,7 @@ TEST_GROUP(PicoReset)
 {
     PicoModel chip;
 
-    // What a start makes of the records that are in memory.
+    // A start, with the records that are in memory.
     void restart(std::uint32_t by_watchdog)
     {
         chip.watchdog.reason.value = by_watchdog;

@@ -209,7 +209,7 @@ TEST(PioPulsePlayer, PlaysWhatItTookOrSaysSoWhateverTheDelays)
         for (auto at = expected.rbegin(); at != expected.rend() && !model.changes.empty(); ++at) {
             at->microsecond += model.changes[0].microsecond - expected[0].microsecond;
         }
-        // What an underrun leaves out ends with the steps low.
+        // A frame that an underrun cuts short ends with the steps low.
         auto& changes = model.changes;
         const bool cut = fresh.underrun() && !changes.empty() &&
                          changes.size() <= expected.size() &&

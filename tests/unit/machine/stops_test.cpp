@@ -29,7 +29,7 @@ constexpr unsigned kCuts = kHalts | cusp::kDoor;
 constexpr unsigned kBrakes = kCuts | cusp::kHoldButton;
 constexpr unsigned kWatched = kBrakes | cusp::kStartButton;
 
-// What is pending, by name; the tick's and the main loop's words in the order in which they come.
+// Pending stops, by name; the tick's and the main loop's words in the order in which they come.
 struct Model {
     unsigned pending{0};
     unsigned acted{0};

@@ -137,7 +137,7 @@ TEST(Barrier, fifteen_steps_come_within_a_hundredth_of_sixty)
     CHECK_TEXT(slower < kBarrierCases / 20, std::to_string(slower).c_str());
 }
 
-// What has overflowed holds no limit.
+// A value that has overflowed holds no limit.
 TEST(Barrier, a_coefficient_that_is_no_number_is_over_the_limits)
 {
     RandomStations random{kBarrierSeed + 3000};

@@ -18,7 +18,7 @@ constexpr int kPlansCases = 200;
 
 LawCell cell_of(std::uint32_t number, LawPiece piece) { return {{}, number, piece}; }
 
-// What the main loop believes: the numbers of the cells that the tick plays, in order.
+// The main loop's belief: the numbers of the cells that the tick plays, in order.
 struct Loop {
     // One more plan: some certain cells, then the way to rest, if the path goes on.
     void plan(LawPlans& plans, std::mt19937_64& random)
@@ -104,7 +104,7 @@ TEST(LawPlans, nothing_is_played_before_a_start_and_after_an_end)
     CHECK(!plans.next(cell));
 }
 
-// What the tick has looked at it plays: a plan that comes later does not change it.
+// The tick plays the cell that it has looked at: a plan that comes later does not change it.
 TEST(LawPlans, what_is_looked_at_is_what_is_played)
 {
     for (int n = 0; n < kPlansCases; ++n) {

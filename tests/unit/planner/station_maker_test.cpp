@@ -126,7 +126,7 @@ TEST(StationMaker, a_turn_is_cut_by_no_more_than_the_filters_may)
         Block block{};
         block.filter = {static_cast<std::uint8_t>(2 + random() % 20), 2};
         const auto first = static_cast<float>(block.filter.first);
-        // What the filters leave of a circle is their deviation.
+        // The filters shrink a circle by their deviation.
         const float square = (first * first + 4.0F - 2.0F) * kServoTick * kServoTick / 24.0F;
         const float deviation = 0.001F + 0.02F * part(random);
         const float turned = 0.0001F + 0.01F * part(random);

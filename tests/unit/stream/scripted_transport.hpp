@@ -22,7 +22,7 @@ public:
         return std::string{};
     };
     std::string state{"Idle"};
-    // What comes in place of a status report.
+    // The text that comes in place of a status report.
     std::function<std::string(const std::string&)> report = [](const std::string& whole) {
         return whole;
     };

@@ -1,4 +1,4 @@
-// What the linter holds against src/: the strict rules that need no types, and the checks of promises.
+// The rules of the linter for src/: the strict ones that need no types, and the checks of promises.
 import tseslint from "typescript-eslint";
 
 export default tseslint.config(...tseslint.configs.strictTypeChecked, {

@@ -73,7 +73,7 @@ export class EngineError extends Error {
   }
 }
 
-/** What an engine answers, as JSON. */
+/** The answer of an engine, as JSON. */
 export type AnswerLine<R> = { ok: true; result: R } | { ok: false; error: Fault & { kind: ErrorKind } };
 
 export function resultOf<R>(answer: AnswerLine<R>): R {

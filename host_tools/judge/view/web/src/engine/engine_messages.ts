@@ -1,4 +1,4 @@
-// What the page and the worker of the planners tell each other.
+// Messages between the page and the worker of the planners.
 
 export type ToEngineWorker = { module: WebAssembly.Module } | { name: string; args: unknown; files: [string, Uint8Array][] };
 

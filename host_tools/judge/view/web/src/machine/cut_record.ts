@@ -1,4 +1,4 @@
-// What a page that was closed amid a cut leaves behind: the program's name, its text's checksum, the line that the tool had reached, and
+// The record that a page closed amid a cut leaves behind: the program's name, its text's checksum, the line that the tool had reached, and
 // the controller as it was at the beginning. The next page offers to resume there.
 import { crc32 } from "../sender/crc32";
 import type { Place } from "../sender/status_report";

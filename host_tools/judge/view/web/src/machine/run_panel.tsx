@@ -44,7 +44,7 @@ async function look(): Promise<void> {
   if (program && line >= 1) await lookAtLine(program.name, program.text(), line);
 }
 
-// What is asked before a program begins amid itself.
+// The question before a program begins amid itself.
 function Way(): JSX.Element | null {
   const found = wayBack.value;
   if (!found) return null;

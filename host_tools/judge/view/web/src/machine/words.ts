@@ -1,4 +1,4 @@
-// What the machine's states, alarms and waits mean, and what to do.
+// Meanings of the machine's states, alarms and waits, and the remedies.
 import type { CodeTexts } from "../engine/engine";
 import type { Snapshot } from "../sender/snapshot";
 

@@ -42,7 +42,7 @@ export class MillPort implements Port {
     }
   }
 
-  // What the sender writes because of an answer is there before the next tick.
+  // Bytes that the sender writes because of an answer are there before the next tick.
   private exchange(): void {
     for (let bytes = this.waiting.shift(); bytes; bytes = this.waiting.shift()) this.take(this.mill.send(bytes));
   }

@@ -64,7 +64,7 @@ export class SerialStreamPort implements Port {
     events.lost(why);
   }
 
-  /** What was written goes out first. */
+  /** Bytes already written go out first. */
   async close(): Promise<void> {
     await this.end((writer) => Promise.race([writer.close(), new Promise<void>((done) => { self.setTimeout(done, kLastBytes); })]));
   }

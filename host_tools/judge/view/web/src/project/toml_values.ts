@@ -15,7 +15,7 @@ function quoted(text: string): string {
   return JSON.stringify(text).replace(/\u007f/g, "\\u007f");
 }
 
-/** What a field shows of a value: numbers and texts plain, lists by commas, pairs in brackets. */
+/** The text by which a field shows a value: numbers and texts plain, lists by commas, pairs in brackets. */
 export function shown(value: unknown): string {
   if (value === undefined || value === null) return "";
   if (Array.isArray(value)) return value.map((part) => Array.isArray(part) ? `[${shown(part)}]` : shown(part)).join(", ");
@@ -32,7 +32,7 @@ function numberOf(text: string): string {
 
 const partsOf = (text: string): string[] => text.replace(/^\[(.*)\]$/s, "$1").split(",").map((part) => part.trim()).filter((part) => part !== "");
 
-/** What a field holds, as TOML; undefined: the key is not given. `kind` is the key's, as the schema names it. */
+/** The content of a field, as TOML; undefined: the key is not given. `kind` is the key's, as the schema names it. */
 export function typed(kind: string, text: string): string | undefined {
   const given = text.trim();
   if (given === "") return undefined;

@@ -1,4 +1,4 @@
-// What a controller says of itself: the answers to $I, $$, $G and $#.
+// A controller's description of itself: the answers to $I, $$, $G and $#.
 import type { Place } from "./status_report";
 
 export class ControllerFacts {

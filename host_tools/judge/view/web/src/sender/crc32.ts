@@ -16,7 +16,7 @@ export function crc32(text: string): string {
 /** A line as it is sent, without line end. */
 export const checkedLine = (number: number, text: string): string => `N${number}${text}*${crc32(`N${number}${text}`)}`;
 
-/** What stands before a checksum that is right; null: there is none, or it is wrong. */
+/** The text before a checksum that is right; null: there is none, or it is wrong. */
 export function checkedText(line: string): string | null {
   const star = line.length - 9, text = line.slice(0, Math.max(star, 0));
   return star > 0 && line[star] === "*" && line.slice(star + 1).toUpperCase() === crc32(text) ? text : null;

@@ -129,7 +129,7 @@ export class Dialogue {
     return votes.lines();
   }
 
-  /** What may go out now. */
+  /** Sends all that may go out now. */
   flush(): void {
     const now = this.port.now();
     for (let wire = this.window.next(now); wire !== null && !this.ended; wire = this.window.next(now)) this.putText(wire);

@@ -10,7 +10,7 @@ export interface LineWindow {
   /** True if another line may be added. */
   hasRoom(): boolean;
   add(line: Sent): void;
-  /** What goes out next, with its line end; null: nothing now. */
+  /** The line that goes out next, with its end; null: none now. */
   next(now: number): string | null;
   /** An answer. Null: the text is none, or a damaged one. */
   take(text: string, now: number): Verdict | null;

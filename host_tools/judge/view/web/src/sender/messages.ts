@@ -4,7 +4,7 @@ import type { ProgramLine } from "./program_run";
 import type { Snapshot } from "./snapshot";
 import type { Place } from "./status_report";
 
-/** What the planners need to know to resume a program. */
+/** Facts from which the planners resume a program. */
 export interface ResumeFacts { start: string[]; startPlace: Place; now: string[]; place: Place }
 
 export type ToSender =

@@ -79,7 +79,7 @@ export class ProgramRun {
     if (this.restReports >= 2) this.end("done");
   }
 
-  /** What the machine waits at: M0, or a change of tool, which may be a T word and an M0 in the next line. */
+  /** The command at which the machine waits: M0, or a change of tool, which may be a T word and an M0 in the next line. */
   get pause(): { kind: "stop" | "tool"; line: number; text: string } | null {
     const isNext = this.next > this.answered && pauseOf(this.lines[this.answered].text) !== null, index = isNext ? this.answered : this.answered - 1;
     const { text, line } = this.lines.at(Math.max(index, 0)) ?? { text: "", line: 0 }, kind = pauseOf(text), before = this.lines.at(Math.max(index - 1, 0))?.text ?? "";

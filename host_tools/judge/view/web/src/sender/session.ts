@@ -198,7 +198,7 @@ export class Session {
     };
   }
 
-  /** What a call to resume needs to know: the controller as it was when the program began, and as it is. */
+  /** Facts for a call to resume: the controller as it was when the program began, and as it is. */
   resumeFacts(): { start: string[]; startPlace: Place; now: string[]; place: Place } {
     return { start: this.startListing, startPlace: this.startPlace, now: this.dialogue?.facts.listing ?? [], place: this.machinePlace() };
   }

@@ -1,4 +1,4 @@
-// What the page knows of the machine, some ten times a second. Lengths are mm, speeds mm/min.
+// The machine as the page knows it, some ten times a second. Lengths are mm, speeds mm/min.
 import type { RunPhase } from "./program_run";
 import type { Place } from "./status_report";
 

@@ -15,7 +15,7 @@ const plain = (text: string): string => text.replace(/`/g, "");
 const labelOf = (name: string): string => name.replace(/_/g, " ");
 const kPlaceholder = /^(none|needed|see)/;
 
-// What is being typed is the field's own until it is set: the page may be drawn anew meanwhile.
+// Text that is being typed is the field's own until it is set: the page may be drawn anew meanwhile.
 function Control({ item, id, value, listId, typing, set }: { item: Key; id: string; value: unknown; listId: string; typing: Signal<string | null>; set: (text: string) => void }): JSX.Element {
   const described = `${id}-help ${id}-fault`;
   if (item.choices.length > 0 || item.kind === "true or false") {

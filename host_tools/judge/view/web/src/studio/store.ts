@@ -1,4 +1,4 @@
-// What the steps of the studio share: project, engine, the work at hand, and what came of it.
+// State that the steps of the studio share: project, engine, the work at hand, and its results.
 import { computed, effect, signal } from "@preact/signals";
 import type { Calls, CallOptions, CodeTexts, Engine, Fault, FileSet, Setup } from "../engine/engine";
 import { EngineError, isAbort, textOf } from "../engine/engine";
@@ -16,9 +16,9 @@ export const inch = computed(() => job.value.values.units === "inch");
 export const engine = signal<Engine | null>(null);
 export const engineText = signal("");
 export const keys = signal<KeyTables | null>(null);
-/** What the controller's codes mean. */
+/** Meanings of the controller's codes. */
 export const codes = signal<{ errors: CodeTexts; alarms: CodeTexts }>({ errors: {}, alarms: {} });
-/** What the last action had to say; shown under the steps. */
+/** The message of the last action; shown under the steps. */
 export const said = signal<{ text: string; bad: boolean } | null>(null);
 
 export interface Work { title: string; text: string; share: number; cancel: () => void }

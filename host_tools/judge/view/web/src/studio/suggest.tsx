@@ -8,11 +8,11 @@ import { engineCall, history, inch, keys, kinds, project, say, work, working } f
 type Use = "surfaces" | "drawings";
 
 const kFirst = ["tools", "scallop", "depth", "tabs", "layers", "material"];
-/** What is typed, by the kind of parts. */
+/** The typed fields, by the kind of parts. */
 const wanted = signal<Record<Use, Record<string, string>>>({
   surfaces: { tools: "flat:8 ball:6", scallop: "0.02" }, drawings: { tools: "flat:3", depth: "3" },
 });
-/** What the last suggestion chose, in words. */
+/** The choices of the last suggestion, in words. */
 const chosen = signal<string[]>([]);
 
 const partsOf = (): { use: Use; parts: string[] } => {
