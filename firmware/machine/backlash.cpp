@@ -100,7 +100,6 @@ void Backlash::rest(Position at) noexcept
         // The rest of a take-up that was cut stays to be taken up.
         axis.to -= axis.at;
         axis.at = 0;
-        axis.before = 0;
         axis.done = 0;
         axis.side = axis.taken;
         axis.extreme = at[i];
@@ -139,7 +138,6 @@ inline void Backlash::advance(Axis& axis, std::int64_t way, bool begins) noexcep
 {
     const bool goes_on = begins || way != axis.way;
     axis.way = way;
-    axis.before = axis.at;
     if (axis.done == 0) {
         if (axis.at == axis.to || !goes_on) {
             return;
@@ -184,20 +182,6 @@ void Backlash::stop() noexcept
         axis.side = axis.taken;
     }
     busy_.store(false, std::memory_order_release);
-}
-
-Position Backlash::cut(Position way) noexcept
-{
-    Position motors = way;
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-        Axis& axis = axes_[i];
-        axis.at = axis.before;
-        axis.way = way[i];
-        axis.extreme = way[i];
-        motors[i] += axis.at;
-    }
-    stop();
-    return motors;
 }
 
 }  // namespace cusp::machine

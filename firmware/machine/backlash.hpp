@@ -18,7 +18,7 @@
 
 namespace cusp::machine {
 
-// Context: configure(), rest() and stop() main loop while no tick calls; follow() and cut() servo tick; idle() any.
+// Context: configure(), rest() and stop() main loop while no tick calls; follow() servo tick; idle() any.
 class Backlash {
 public:
     static constexpr float kShare = 0.25F;
@@ -40,8 +40,6 @@ public:
 
     // The motors' place once the way has come to `way`.
     Position follow(Position way) noexcept;
-    // As stop(), but where they were a tick ago, when the way was at `way`: that place.
-    Position cut(Position way) noexcept;
 
     // Nothing is being taken up.
     bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
@@ -58,7 +56,6 @@ private:
         std::int32_t from{0};     // offset of the motor against the way, nm
         std::int32_t to{0};
         std::int32_t at{0};
-        std::int32_t before{0};   // `at` a tick ago
         std::int8_t side{0};      // that the way pushes: 1 plus, -1 minus, 0 not known
         std::int8_t taken{0};     // that the motor is on, or on its way to
         std::int64_t extreme{0};  // of the way on that side

@@ -9,7 +9,7 @@ void Laser::configure(const Settings& settings) noexcept
 {
     on_ = settings.on(Setting::kLaserMode);
     law_ = DutyLaw{settings};
-    duties_.fill(law_.duty(0));
+    duty_ = law_.duty(0);
     powers_.fill({});
     speed_.store(0, std::memory_order_relaxed);
 }
@@ -32,10 +32,7 @@ void Laser::tick(path::LaserPower power, bool stands, unsigned delay, Position m
     const float velocity = std::sqrt(dot(v, v)) * kMillimetresPerSecond;
     const float speed = powers_[delayed].at(velocity) * override_.load(std::memory_order_relaxed);
     speed_.store(speed, std::memory_order_relaxed);
-    for (unsigned i = kPlayedBehind - 1; i > 0; --i) {
-        duties_[i] = duties_[i - 1];
-    }
-    duties_[0] = law_.duty(speed);
+    duty_ = law_.duty(speed);
 }
 
 }  // namespace cusp::machine

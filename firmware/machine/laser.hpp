@@ -2,7 +2,7 @@
 //
 //   the interpolator is on a move, with its power -> the filters delay the motion, so the power waits
 //   the set point moves                         -> its true speed makes the power of that tick
-//   its pulses play kPlayedBehind ticks later   -> so does the duty cycle
+//   its pulses play from the next tick on       -> so does the duty cycle
 #pragma once
 
 #include <array>
@@ -19,10 +19,6 @@ namespace cusp::machine {
 // Context: servo tick, but for configure() and set_override(): main loop.
 class Laser {
 public:
-    // Ticks from a set point to the begin of its motion at the pins: two frames are in flight, and the
-    // pulses follow one tick behind.
-    static constexpr unsigned kPlayedBehind = 2;
-
     // No tick runs meanwhile.
     void configure(const Settings& settings) noexcept;
     void set_override(unsigned percent) noexcept
@@ -41,10 +37,8 @@ public:
     void tick(path::LaserPower power, bool stands, unsigned delay, Position moved) noexcept;
 
     // Duty cycle, 0 to kFullDuty, and spindle speed, rpm, of the latest set point.
-    std::uint16_t latest_duty() const noexcept { return duties_[0]; }
+    std::uint16_t duty() const noexcept { return duty_; }
     float speed() const noexcept { return speed_.load(std::memory_order_relaxed); }
-    // Before the tick: the duty cycle of the frame that has begun to play.
-    std::uint16_t played_duty() const noexcept { return duties_[kPlayedBehind - 1]; }
 
     static constexpr unsigned kLongestDelay = 127;
 
@@ -53,7 +47,7 @@ private:
     DutyLaw law_{Settings{}};
     std::atomic<float> override_{1};
     std::atomic<float> speed_{0};
-    std::array<std::uint16_t, kPlayedBehind> duties_{};  // the latest first
+    std::uint16_t duty_{0};
     std::array<path::LaserPower, kLongestDelay + 1> powers_{};
     unsigned latest_{0};  // place in powers_
     bool stood_{true};

@@ -86,7 +86,7 @@ public:
     bool cuts_outputs() const noexcept { return motion_.stops().cuts_outputs(); }
     bool cuts_drives() const noexcept { return motion_.stops().cuts_drives(); }
     // The duty cycle of a laser in the frame that has begun to play. Context: servo tick, before tick().
-    std::uint16_t laser_duty() const noexcept { return motion_.laser().played_duty(); }
+    std::uint16_t laser_duty() const noexcept { return motion_.laser().duty(); }
 
     // The start of a slice, before the link is read.
     void begin_slice() noexcept { stop_bytes_ = motion_.stops().bytes(); }

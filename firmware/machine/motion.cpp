@@ -177,8 +177,7 @@ void Motion::lose_frames() noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
     stand_still(true);
-    set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
-    recent_.fill(set_point_);
+    played_ = set_point_;
     put_motors(set_point_);
     pulses_.lose_frames(set_point_);
     halted_.store(true, std::memory_order_release);
@@ -194,7 +193,7 @@ void Motion::relocate(Position at) noexcept
     interpolator_.reset(at);
     put_motors(at);
     set_point_ = at;
-    recent_.fill(at);
+    played_ = at;
     stand_still(false);
     gate_shut_.store(false, std::memory_order_release);
 }
@@ -242,7 +241,7 @@ std::optional<Position> Motion::later_contact() const noexcept
 
 void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
 {
-    bool cuts = false;
+    const Position before = set_point_;
     if (!gate_shut_.load(std::memory_order_acquire)) {
         sample(raw_inputs);
         const bool ends =
@@ -250,29 +249,17 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
         if (!ends) {
             set_point_ = interpolator_.tick();
             motors_ = backlash_.follow(set_point_);
+        } else {
+            backlash_.stop();
         }
-        cuts = ends && !ended_;
-        ended_ = ends;
-    }
-    if (cuts) {
-        // Back to where the steps end that the player has by now.
-        static_assert(pulse::PulseMaker::kDelayTicks == 1, "Backlash keeps the last place");
-        set_point_ = recent_[pulse::PulseMaker::kDelayTicks];
-        recent_.fill(set_point_);
-        motors_ = backlash_.cut(set_point_);
     }
     if (laser_.on()) {
         laser_.tick(interpolator_.power(), interpolator_.speed() <= 0,
-                    interpolator_.smoothing_ticks(), set_point_ - recent_[0]);
+                    interpolator_.smoothing_ticks(), set_point_ - before);
     }
-    for (std::size_t i = kPlayedBehind; i > 0; --i) {
-        recent_[i] = recent_[i - 1];
-    }
-    recent_[0] = set_point_;
+    played_ = before;
     if (stands_still_.load(std::memory_order_acquire)) {
         frame.edges.clear();
-    } else if (cuts) {
-        pulses_.cut(motors_, frame);
     } else {
         pulses_.make_frame(motors_, frame);
     }
@@ -326,7 +313,7 @@ bool Motion::answered(Answer& answer, unsigned inputs) noexcept
         return false;
     }
     if (answer.ticks == 0) {
-        answer.at = recent_[kPlayedBehind];
+        answer.at = played_;
     }
     ++answer.ticks;
     return !watch_filtered_ || answer.ticks > filter_ticks_;

@@ -137,10 +137,9 @@ private:
     Stops stops_;
     Laser laser_;
 
-    // A switch that is read now belongs to the set point of kPlayedBehind ticks ago.
-    static constexpr std::size_t kPlayedBehind = Laser::kPlayedBehind;
-    std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
     Position set_point_{};
+    // A tick ago. At the begin of a tick the frame that plays begins there: two are in flight.
+    Position played_{};
     Position motors_{};  // the set point, and what play has been taken up
     Answer contact_{};
     Answer later_contact_{};
@@ -148,7 +147,6 @@ private:
     std::uint16_t inverted_inputs_{0};
     std::uint16_t used_inputs_{0};
     std::uint8_t filter_ticks_{0};
-    bool ended_{false};  // a limit or a stop has ended motion, and its last steps are made
     bool watch_off_{false};
     bool watch_filtered_{false};
     std::atomic<std::uint16_t> watched_{0};

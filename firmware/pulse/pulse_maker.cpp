@@ -85,7 +85,7 @@ void PulseMaker::reset(Position at) noexcept
 bool PulseMaker::idle() const noexcept
 {
     const auto still = [](const AxisState& axis) {
-        return axis.next == 0 && axis.now == 0;
+        return axis.travels.now == 0;
     };
     return std::all_of(axes_.begin(), axes_.end(), still) && edges_end_ == 0;
 }
@@ -100,27 +100,13 @@ void PulseMaker::make_frame(Position set_point, PulseFrame& frame) noexcept
     if constexpr (kWideCore) {
         PerAxis<AxisTravel> travels{};
         for (unsigned i = 0; i < kAxisCount; ++i) {
-            const std::int64_t before = take_set_point(i, set_point[i]);
-            if (axes_[i].now != 0) {
-                travels[i] = travel(i, before);
-            }
+            travels[i] = travel(i, set_point[i]);
         }
         play_axes(travels);
     } else {
         for (unsigned i = 0; i < kAxisCount; ++i) {
-            play_axis(i, take_set_point(i, set_point[i]));
+            play_axis(i, set_point[i]);
         }
-    }
-    compress(frame);
-}
-
-void PulseMaker::cut(Position at, PulseFrame& frame) noexcept
-{
-    for (unsigned i = 0; i < kAxisCount; ++i) {
-        AxisState& axis = axes_[i];
-        axis.next = 0;
-        axis.now = 0;
-        axis.set_point = at[i] * static_cast<std::int64_t>(settings_.millisteps_per_mm[i]);
     }
     compress(frame);
 }
@@ -136,37 +122,28 @@ void PulseMaker::lose_frames(Position at) noexcept
     }
 }
 
-// Begins the next tick of an axis. Returns its travel in the tick before, 1e-9 steps.
-inline std::int64_t PulseMaker::take_set_point(unsigned index, std::int64_t nanometres) noexcept
+// The path of an axis in the tick to its set point, and its steps, which its state counts.
+inline PulseMaker::AxisTravel PulseMaker::travel(unsigned index, std::int64_t nanometres) noexcept
 {
     AxisState& axis = axes_[index];
-    const std::int64_t before = axis.now;
     const std::int64_t target =
         nanometres * static_cast<std::int64_t>(settings_.millisteps_per_mm[index]);
-    axis.now = axis.next;
-    axis.next = target - axis.set_point;
+    const std::int64_t way = target - axis.set_point;
     axis.set_point = target;
-    return before;
-}
-
-// The path of an axis in the tick, and its steps, which its state counts.
-inline PulseMaker::AxisTravel PulseMaker::travel(unsigned index, std::int64_t before) noexcept
-{
-    AxisState& axis = axes_[index];
-    const Split end = split(axis.remainder + axis.now);
-    const TickCubic cubic = tick_cubic(in_steps(axis.remainder), in_steps(before),
-                                       in_steps(axis.now), in_steps(axis.next));
+    axis.travels.add(in_steps(way));
+    if (way == 0) {
+        return {};
+    }
+    const Split end = split(axis.remainder + way);
+    const TickCubic cubic = axis.travels.cubic_from(in_steps(axis.remainder));
     axis.steps += end.steps;
     axis.remainder = end.remainder;
     return {cubic, end.steps};
 }
 
-void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
+void PulseMaker::play_axis(unsigned index, std::int64_t nanometres) noexcept
 {
-    if (axes_[index].now == 0) {
-        return;
-    }
-    const AxisTravel path = travel(index, before);
+    const AxisTravel path = travel(index, nanometres);
     if (path.steps != 0) {
         add_steps(index, StepTimes{path.cubic, path.steps > 0}, path.steps);
     }

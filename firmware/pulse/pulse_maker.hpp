@@ -49,15 +49,10 @@ public:
     // Sets the position to `at`; makes no edge. Precondition: idle().
     void reset(Position at) noexcept;
 
-    // Takes the set point at the end of the next tick and makes the frame of the tick before it:
-    // the shape of a tick needs the travel of its two neighbours. Edges come kDelayTicks and
-    // delay_us() after their set points.
+    // Takes the set point at the end of the next tick and makes the frame of that tick, which looks
+    // at earlier set points alone. A set point again is a stop at once: the frame has what the one
+    // before left over.
     void make_frame(Position set_point, PulseFrame& frame) noexcept;
-
-    // In place of make_frame(), at a stop that outweighs smoothness: no step follows those of the
-    // frames that were made, and the frame has what these left over. `at`: the last set point but
-    // one, which is where those steps end.
-    void cut(Position at, PulseFrame& frame) noexcept;
 
     // After frames that were made and not played: nothing of them follows, all step lines are low, and what
     // the direction lines say is unknown. The position is `at` from now on.
@@ -66,7 +61,6 @@ public:
     // True if all lines are low and the last set points are played.
     bool idle() const noexcept;
 
-    static constexpr unsigned kDelayTicks = 1;
     // All steps come this much later, so that a direction can be set before the first of a tick.
     std::uint16_t delay_us() const noexcept { return settings_.direction_setup_us; }
 
@@ -75,22 +69,20 @@ public:
 private:
     struct AxisState {
         std::int64_t set_point{};  // the latest, 1e-9 steps
-        std::int64_t next{};       // travel of the tick to come, 1e-9 steps
-        std::int64_t now{};        // travel of the tick whose frame is made
-        std::int32_t remainder{};  // of the position at its start, in [-5e8, 5e8)
+        std::int32_t remainder{};  // of it, in [-5e8, 5e8)
         std::int32_t steps{};
         std::int32_t last_rise{};  // pulse ticks from the start of the frame, <= 0
         bool forward{false};
         bool direction_known{false};
+        TickTravels travels{};
     };
     // The motion of an axis in the tick whose frame is made.
     struct AxisTravel {
         TickCubic cubic;
         std::int32_t steps;
     };
-    std::int64_t take_set_point(unsigned axis, std::int64_t nanometres) noexcept;
-    AxisTravel travel(unsigned axis, std::int64_t before) noexcept;
-    void play_axis(unsigned axis, std::int64_t before) noexcept;
+    AxisTravel travel(unsigned axis, std::int64_t nanometres) noexcept;
+    void play_axis(unsigned axis, std::int64_t nanometres) noexcept;
     void play_axes(const PerAxis<AxisTravel>& travels) noexcept;
     void add_steps(unsigned axis, StepTimes times, std::int32_t steps) noexcept;
     void end_steps(AxisState& axis, std::int32_t last_rise) noexcept

@@ -3,13 +3,6 @@
 
 namespace cusp::pulse {
 
-TickCubic tick_cubic(float start, float before, float now, float after) noexcept
-{
-    const float first = 0.5F * (before + now);
-    const float last = 0.5F * (now + after);
-    return {start, first, 3.0F * now - 2.0F * first - last, first + last - 2.0F * now};
-}
-
 float crossing_time(TickCubic cubic, float level, float from, bool rising) noexcept
 {
     constexpr unsigned kMostSteps = 24;

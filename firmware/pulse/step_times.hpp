@@ -5,8 +5,7 @@
 
 namespace cusp::pulse {
 
-// The position of an axis over a tick, in steps: the cubic through the set points at its ends with
-// the mean slopes of the neighbouring ticks (Catmull and Rom, 1974). Time runs from 0 to 1.
+// The position of an axis over a tick, in steps. Time runs from 0 to 1.
 struct TickCubic {
     float c0, c1, c2, c3;
 
@@ -14,9 +13,35 @@ struct TickCubic {
     float slope_at(float t) const noexcept { return c1 + t * (2.0F * c2 + t * 3.0F * c3); }
 };
 
-// The cubic from `start` steps that travels `before`, `now` and `after` steps in the tick before,
-// this one, and the next.
-TickCubic tick_cubic(float start, float before, float now, float after) noexcept;
+// The travels of the latest ticks, in steps, and the cubic of the last one: through the set points at
+// its ends with the slope that the tick before ended with, so that the speed has no jumps.
+//
+// The slope at the end of a tick is that of the cubic through the last four set points: no later set
+// point is waited for, which would delay all stops by a tick. It is exact at constant jerk; where the
+// jerk changes by j once in four ticks, the place is off by at most 0.03 j tick^3.
+struct TickTravels {
+    float now{0};
+    float before{0};
+    float earlier{0};
+    float start_slope{0};
+    float end_slope{0};
+
+    // A tick with this travel follows.
+    void add(float travel) noexcept
+    {
+        earlier = before;
+        before = now;
+        now = travel;
+        start_slope = end_slope;
+        end_slope = now + (5.0F * (now - before) - 2.0F * (before - earlier)) / 6.0F;
+    }
+    // The last tick's, from `start` steps.
+    TickCubic cubic_from(float start) const noexcept
+    {
+        return {start, start_slope, 3.0F * now - 2.0F * start_slope - end_slope,
+                start_slope + end_slope - 2.0F * now};
+    }
+};
 
 // Times closer than this, in ticks, are the same: a fiftieth of a pulse tick.
 inline constexpr float kCloseTime = 2e-5F;

@@ -1,8 +1,6 @@
 // Collects the measures of a run.
 #include "host_tools/controller/program_run/instruments.hpp"
 
-#include "firmware/pulse/pulse_maker.hpp"
-
 namespace cusp::program_run {
 namespace {
 
@@ -20,8 +18,7 @@ Instruments::Instruments(board_sim::SimulatedController& controller, const RunOp
       statistics_{motion_.position()},
       shadow_{motion_.position(), path_listener()},
       checksum_{start_tick_, player_.levels()},
-      delay_us_{pulse::PulseMaker::kDelayTicks * kPulseTicksPerFrame +
-                controller.machine().settings().steps().direction_setup_us}
+      delay_us_{controller.machine().settings().steps().direction_setup_us}
 {
     if (options_.sums_edges) {
         player_.add_listener(checksum_);
@@ -49,7 +46,7 @@ void Instruments::tick()
         on_path && options_.measures_deviation ? deviation_.add_set_point(at) : 0.0;
     if (options_.set_point) {
         options_.set_point(
-            {time_of_set_point(), at, line, deviation, on_path, motion_.laser().latest_duty()});
+            {time_of_set_point(), at, line, deviation, on_path, motion_.laser().duty()});
     }
     controller_.tick_world();
 }
@@ -103,8 +100,7 @@ double Instruments::seconds() const
     return static_cast<double>(statistics_.ticks()) * kSecondsPerTick;
 }
 
-// Time of the last set point on the clock of the trace: the frame just handed over ends one tick, the delay of the
-// pulse maker, before it.
+// Time of the last set point on the clock of the trace: the end of the frame that was just handed over.
 std::uint64_t Instruments::time_of_set_point() const
 {
     return player_.next_frame_start() - start_tick_ + kPulseTicksPerFrame + delay_us_;

@@ -80,16 +80,16 @@ public:
     // mm/s of the set point whose motion plays in millisecond i.
     double speed(std::size_t i) const
     {
-        if (i < 3) {
+        if (i < 2) {
             return 0;
         }
-        const Position moved = record_[i - 2].at - record_[i - 3].at;
+        const Position moved = record_[i - 1].at - record_[i - 2].at;
         return std::sqrt(
                    static_cast<double>(moved.x * moved.x + moved.y * moved.y + moved.z * moved.z)) *
                1e-3;
     }
     double power(std::size_t i) const { return record_[i].power; }
-    Position at(std::size_t i) const { return i < 2 ? Position{} : record_[i - 2].at; }
+    Position at(std::size_t i) const { return i < 1 ? Position{} : record_[i - 1].at; }
     ControllerBench& bench() { return bench_; }
 
 private:
@@ -102,7 +102,7 @@ private:
 unsigned judge_ratio(const LaserMill& mill, double ratio, double feed)
 {
     unsigned judged = 0;
-    for (std::size_t i = 3; i < mill.record().size(); ++i) {
+    for (std::size_t i = 2; i < mill.record().size(); ++i) {
         const double v = mill.speed(i);
         if (v > 0.05 * feed) {
             DOUBLES_EQUAL(1.0, mill.power(i) / v / ratio, kPerCent);
@@ -164,7 +164,7 @@ TEST(LaserMode, IsOffAtRapidsAndAtRest)
         LaserMill mill;
         mill.finish(std::string{mode} + "S1000F3000\nG0X10\nG1Y10\nG0X20\nG4P0.1\nG1Y5\nG0X0\n");
         double least = 1;
-        for (std::size_t i = 3; i < mill.record().size(); ++i) {
+        for (std::size_t i = 2; i < mill.record().size(); ++i) {
             const Position at = mill.at(i);
             constexpr std::int64_t kNear = 3000;  // nm
             const bool on_rapid = (at.y < kNear && at.x > kNear && at.x < 10'000'000 - kNear) ||
@@ -186,7 +186,7 @@ TEST(LaserMode, IsConstantWithM3WhileItMoves)
     LaserMill mill;
     mill.finish("G61\nM3S250F3000\nG1X10\nY10\nX0\nM5\n");
     unsigned judged = 0;
-    for (std::size_t i = 3; i < mill.record().size(); ++i) {
+    for (std::size_t i = 2; i < mill.record().size(); ++i) {
         if (mill.speed(i) > 0.1) {
             DOUBLES_EQUAL(0.25, mill.power(i), 0.25 * 0.002);
             ++judged;
@@ -207,7 +207,7 @@ TEST(LaserMode, ChangesPowerWithoutAStopAndInItsPlace)
         }
         mill.finish(program + "S0X50\nM5\n");
         unsigned judged = 0;
-        for (std::size_t i = 3; i < mill.record().size(); ++i) {
+        for (std::size_t i = 2; i < mill.record().size(); ++i) {
             const double x = static_cast<double>(mill.at(i).x) * 1e-6;
             const double behind = x - std::floor(x);
             if (x < 5.1 || x > 44.9) {
@@ -233,7 +233,7 @@ TEST(LaserMode, FollowsTheOverrides)
     mill.finish("M4S500F2400\nG1X20\nX0\nM5\n");
     CHECK(judge_ratio(mill, 0.8 * 0.5 / 40.0, 60.0) > 500);
     double fastest = 0;
-    for (std::size_t i = 3; i < mill.record().size(); ++i) {
+    for (std::size_t i = 2; i < mill.record().size(); ++i) {
         fastest = std::max(fastest, mill.speed(i));
     }
     DOUBLES_EQUAL(60.0, fastest, 0.1);

@@ -62,6 +62,52 @@ std::vector<Position> random_walk(std::mt19937_64& random, double fastest, int t
     return walk;
 }
 
+// The cubic from 0 to `way` with these slopes at its ends.
+pulse::TickCubic cubic_of(double first, double way, double last)
+{
+    pulse::TickTravels travels;
+    travels.now = static_cast<float>(way);
+    travels.start_slope = static_cast<float>(first);
+    travels.end_slope = static_cast<float>(last);
+    return travels.cubic_from(0);
+}
+
+// A motion of one axis whose jerk changes at random times, 4 ticks apart at least, in steps and ticks. Closed form.
+struct JerkyMotion {
+    struct Piece {
+        double from, place, speed, acceleration, jerk;
+    };
+    // Wanders about between speeds of this order.
+    JerkyMotion(std::mt19937_64& random, double fastest, double jerk, double ticks)
+    {
+        Piece piece{0, 0, 0, 0, jerk};
+        while (piece.from < ticks) {
+            pieces.push_back(piece);
+            const double t = std::uniform_real_distribution<double>{4, 9}(random);
+            Piece next{piece.from + t, place_in(piece, t),
+                       piece.speed + t * (piece.acceleration + 0.5 * t * piece.jerk),
+                       piece.acceleration + t * piece.jerk, 0};
+            const double wanted = std::uniform_real_distribution<double>{-fastest, fastest}(random);
+            next.jerk = (wanted - next.speed > 12 * next.acceleration ? 1 : -1) * jerk;
+            piece = next;
+        }
+    }
+    static double place_in(const Piece& piece, double t)
+    {
+        return piece.place +
+               t * (piece.speed + t * (0.5 * piece.acceleration + t * piece.jerk / 6));
+    }
+    double at(double time) const
+    {
+        std::size_t k = 0;
+        while (k + 1 < pieces.size() && pieces[k + 1].from <= time) {
+            ++k;
+        }
+        return place_in(pieces[k], time - pieces[k].from);
+    }
+    std::vector<Piece> pieces;
+};
+
 }  // namespace
 
 TEST_GROUP(PulseMaker) { std::mt19937_64 random{3}; };
@@ -117,6 +163,43 @@ TEST(PulseMaker, KeepsPulseWidthLowTimeAndDirectionSetup)
     }
 }
 
+TEST(PulseMaker, EdgesFollowTheMotionBetweenItsSetPoints)
+{
+    constexpr double kJerk = 0.5;  // steps a tick^3: 6e5 mm/s^3 at 800 steps/mm
+    constexpr double kNanometres = 1e9 / 800e3;
+    constexpr double kSetup = 5;
+    double worst = 0;
+    for (int round = 0; round < 100; ++round) {
+        const JerkyMotion motion{random, 50, kJerk, 120};
+        Player player{{}};
+        for (int tick = 1; tick <= 120; ++tick) {
+            player.play(
+                {static_cast<std::int64_t>(std::floor(motion.at(tick) * kNanometres + 0.5)), 0, 0});
+        }
+        double place = 0;
+        bool forward = false;
+        for (const Edge& edge : player.edges) {
+            forward = (edge.raise & direction_line(0)) != 0 ||
+                      (forward && (edge.lower & direction_line(0)) == 0);
+            if ((edge.raise & step_line(0)) == 0) {
+                continue;
+            }
+            const double middle = place + (forward ? 0.5 : -0.5);
+            place += forward ? 1 : -1;
+            const double time = (static_cast<double>(edge.time) - kSetup) / kPulseTicksPerFrame;
+            // Half a pulse tick on both sides is rounding.
+            constexpr double kHalf = 0.5 / kPulseTicksPerFrame;
+            const double early = motion.at(time - kHalf) - middle;
+            const double late = motion.at(time + kHalf) - middle;
+            if (early * late > 0) {
+                worst = std::max(worst, std::min(std::fabs(early), std::fabs(late)));
+            }
+        }
+    }
+    CHECK_COMPARE(worst, <, 0.03 * 2 * kJerk);
+    CHECK_COMPARE(worst, >, 0);
+}
+
 TEST(PulseMaker, CountsEveryEdgeIntoThePosition)
 {
     Player player{{}};
@@ -149,10 +232,9 @@ TEST(StepTimes, AreWithinAFifthOfAMicrosecondOfTheCubic)
     std::uniform_real_distribution<double> travel{0.02, 240};
     for (int i = 0; i < 20000; ++i) {
         const double now = travel(random);
-        const double before = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
-        const double after = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
-        const pulse::TickCubic cubic = pulse::tick_cubic(
-            0, static_cast<float>(before), static_cast<float>(now), static_cast<float>(after));
+        const double first = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
+        const double last = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
+        const pulse::TickCubic cubic = cubic_of(first, now, last);
         const double level = now * std::uniform_real_distribution<double>{0, 1}(random);
         const double time =
             static_cast<double>(pulse::crossing_time(cubic, static_cast<float>(level), 0.0F, true));
@@ -160,8 +242,6 @@ TEST(StepTimes, AreWithinAFifthOfAMicrosecondOfTheCubic)
         double high = 1;
         for (int k = 0; k < 60; ++k) {
             const double t = 0.5 * (low + high);
-            const double first = 0.5 * (before + now);
-            const double last = 0.5 * (now + after);
             const double at =
                 t * (first + t * (3 * now - 2 * first - last + t * (first + last - 2 * now)));
             (at < level ? low : high) = t;
@@ -177,13 +257,10 @@ TEST(StepTimes, AreAllCrossingsOfATickInOrder)
         const double now = std::uniform_real_distribution<double>{1, 250}(random);
         const double spread = i % 2 == 0 ? 0.02 : 1.0;
         std::uniform_real_distribution<double> change{1 - spread, 1 + spread};
-        const auto travel = static_cast<float>(now);
-        const auto before = static_cast<float>(now * change(random));
-        const auto after = static_cast<float>(now * change(random));
         const bool rising = i % 3 != 0;
         const float sign = rising ? 1.0F : -1.0F;
-        const pulse::TickCubic cubic =
-            pulse::tick_cubic(0.0F, sign * before, sign * travel, sign * after);
+        const double way = rising ? now : -now;
+        const pulse::TickCubic cubic = cubic_of(way * change(random), way, way * change(random));
         pulse::StepTimes times{cubic, rising};
         steady_ticks += times.steady() ? 1U : 0U;
         const int count = static_cast<int>(now + 0.5);
@@ -204,6 +281,6 @@ TEST(StepTimes, AreAllCrossingsOfATickInOrder)
 
 TEST(StepTimes, AtTheEndOfATickIsTheEnd)
 {
-    const pulse::TickCubic cubic = pulse::tick_cubic(-0.5F, 20, 20, 20);
+    const pulse::TickCubic cubic{-0.5F, 20, 0, 0};
     DOUBLES_EQUAL(1, pulse::crossing_time(cubic, 19.5F, 0.9F, true), 1e-5);
 }

@@ -64,9 +64,8 @@ TEST(SteadyLanes, AreTheStepsOfEachAxis)
             // Whole steps, so that no rounding bends an even speed.
             const float travel = sign * (even ? std::floor(between(10, 200)) : between(10, 200));
             const float bend = even ? 0.0F : between(-1e-3, 1e-3);
-            times[axis] = StepTimes{
-                pulse::tick_cubic(between(-0.5, 0.5), travel - bend, travel, travel + 2 * bend),
-                sign > 0};
+            const pulse::TickTravels travels{travel, 0, 0, travel - bend, travel + 2 * bend};
+            times[axis] = StepTimes{travels.cubic_from(between(-0.5, 0.5)), sign > 0};
             static_cast<void>(times[axis].next());
             all_steady = all_steady && times[axis].steady();
             lanes.put(axis, times[axis]);
