@@ -27,9 +27,9 @@ COLUMNS = ("last edge", "door brakes", "reset byte", "outputs off")
 OBSTACLES = ("nothing", "mute", "flood", "hang", "unplugged")
 # ms from the input to the last edge, where that is possible, and to the outputs' end.
 WITHIN = 10.0
-# ms from the input until braking at the limits begins. The goal is 2: up to one to the tick that samples it, one
-# of the frame that plays. One more goes by since a frame needs the set point after it.
-BEGINS_WITHIN = 3.1
+# ms from the input until braking at the limits begins: up to one to the tick that samples it, one of the frame
+# that plays.
+BEGINS_WITHIN = 2.0
 # An edge is late that is more than the grain of the pulse clock behind that of the undisturbed run, s: by
 # rounding alone both may differ by one.
 GRAIN = 1e-6
