@@ -360,6 +360,7 @@ void CoreModel::enter(unsigned exception)
     set_register(UC_ARM_REG_XPSR, 1U << 24U);
     set_register(UC_ARM_REG_PC, word_at(vtor_ + exception * 4));
 
+    amid_tick_[exception] += nested && active_.back().exception == kPendSv ? 1U : 0U;
     active_.push_back({exception, instructions_, 0});
     circuit_.nmi = circuit_.nmi && exception != kNmi;
     pend_sv_ = pend_sv_ && exception != kPendSv;

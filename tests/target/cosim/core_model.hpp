@@ -60,6 +60,8 @@ public:
     std::uint32_t lowest_stack() const { return lowest_stack_; }
     // Instructions from the entry of an exception to its end, the most so far and those of it alone.
     std::uint64_t longest(unsigned exception) const { return longest_[exception]; }
+    // How often an exception came amid the servo tick, which is PendSV here.
+    std::uint64_t amid_tick(unsigned exception) const { return amid_tick_[exception]; }
 
 private:
     static void on_block(uc_engine*, std::uint64_t address, std::uint32_t size, void* self);
@@ -106,7 +108,7 @@ private:
         std::uint64_t inside;  // instructions of exceptions that came between
     };
     std::vector<Active> active_;
-    std::array<std::uint64_t, 128> longest_{};
+    std::array<std::uint64_t, 128> longest_{}, amid_tick_{};
     std::array<bool, 96> enabled_{};
     std::array<std::uint8_t, 96> priorities_{};
     bool pend_sv_{false};

@@ -14,6 +14,7 @@ from usb import Stalled, Usb
 
 options = None
 SETTINGS = "$0=2\n$100=800.000\n$110=9000.000\n$120=5000.000\n$800=1000000.000\n"
+USB_EXCEPTIONS = {"rp2350": 16 + 14}  # elsewhere OTG FS of the STM32F4
 SPEED, RATE = 150.0, 800  # mm/s, steps/mm
 WITHIN = 10.0  # ms from a stop to the last edge, to the outputs' end
 
@@ -28,6 +29,14 @@ class Plugged(Chip):
         self.usb.plug_in()
         if opened:
             self.usb.open()
+
+    def check(self):
+        """Besides: whatever USB does waits for the servo tick, however long it takes."""
+        super().check()
+        usb = f"amid_tick_{USB_EXCEPTIONS.get(CHIPS[options.board][0], 16 + 67)}"
+        state = self.state()
+        assert usb in state, f"no USB interrupt ended: {state}"
+        assert state[usb] == 0, f"USB interrupted the servo tick {state[usb]} times"
 
 
 def move(machine, settings=SETTINGS):
