@@ -303,13 +303,27 @@ private:
         const Vec2d place = in_plan(at) - into_material() * out;
         const double known = faults_.stock ? faults_.stock->thickness : q_.allowed;
         const auto found = moves.nearest(place, !on_curves_, known);
-        if (found.thickness <= known || found.cut == nullptr || !q_.stock.is_over(place, stands) ||
+        const double thickness = std::min(found.cut == nullptr ? kUnbounded : found.thickness,
+                                          most_that_stays(found.cut == nullptr));
+        if (thickness <= known || !q_.stock.is_over(place, stands) ||
             (!over_tabs && operation_.prismatic->tabs &&
              q_.is_open(place + tool.radius * out, 2 * tool.radius))) {
             return;
         }
-        faults_.stock = {found.thickness,
-                         {{place.x, place.y, at.z}, found.cut->line, found.cut->tool.number}};
+        faults_.stock = {thickness, {{place.x, place.y, at.z}, 0, tool.number}};
+        if (found.cut != nullptr) {
+            faults_.stock->at.line = found.cut->line;
+            faults_.stock->at.tool = found.cut->tool.number;
+        }
+    }
+
+    // mm: an edge keeps its chamfer at most. Stock beside other walls, where no move comes near, stands on a floor,
+    // which is judged by its points.
+    double most_that_stays(bool uncut) const
+    {
+        return operation_.cuts(job::Region::kEdges) ? operation_.prismatic->width
+               : uncut                              ? 0.0
+                                                    : kThickest;
     }
 
     // mm square to the wall, for the tool's axis where it cuts the wall's places.

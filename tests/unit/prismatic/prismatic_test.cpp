@@ -337,6 +337,16 @@ TEST(Prismatic, TheVerifierFindsWhatIsSpoiled)
         "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2";
     STRCMP_CONTAINS("wall_gouge_max_mm", broken(holes, "X5 ", "X5.1 ").c_str());
     STRCMP_CONTAINS("left ", broken(holes, "Z-4\n", "Z-3\n").c_str());
+    // an edge that is passed in the air; nothing else comes near it
+    for (const char* width : {"0.4", "1.3"}) {
+        const std::string edge =
+            "strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\n"
+            "tool = 3\nwidth = " +
+            std::string{width};
+        const std::string found = broken(edge, "G1 Z-", "G1 Z");
+        STRCMP_CONTAINS(("wall_stock_max_mm " + std::string{width} + " at x").c_str(),
+                        found.c_str());
+    }
 }
 
 TEST(Prismatic, ACarvingIsAsDeepAsHalfOfItsWidthAllows)
