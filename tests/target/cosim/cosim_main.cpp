@@ -329,7 +329,8 @@ void Console::tell_state() const
     for (unsigned exception = 1; exception < 100; ++exception) {
         if (chip_.core().longest(exception) != 0) {
             std::cout << "longest_" << exception << " " << chip_.core().longest(exception) << "\n"
-                      << "amid_tick_" << exception << " " << chip_.core().amid_tick(exception) << "\n";
+                      << "amid_tick_" << exception << " " << chip_.core().amid_tick(exception)
+                      << "\n";
         }
     }
     for (const std::string& violation : chip_.circuit().violations.list()) {
