@@ -8,14 +8,17 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/motion_rig.hpp"
+#include "tests/support/property_cases.hpp"
 
 namespace cusp::test {
 
-// CUSP_MOTION_PROGRAMS sets how many random programs each test runs.
-inline std::uint64_t motion_program_count(std::uint64_t usual = 300)
+// CUSP_MOTION_PROGRAMS sets how many random programs each test runs; else it is the share of the `usual`.
+inline std::uint64_t motion_program_count(int usual = 300)
 {
-    const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : usual;
+    if (const char* const text = std::getenv("CUSP_MOTION_PROGRAMS")) {
+        return std::strtoull(text, nullptr, 10);
+    }
+    return static_cast<std::uint64_t>(share_of(usual));
 }
 
 // CUSP_MOTION_SEED sets the seed of the first of them.

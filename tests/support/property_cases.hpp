@@ -8,14 +8,18 @@
 
 namespace cusp::test {
 
-// CUSP_PROPERTY_CASES, or the share CUSP_PROPERTY_SHARE (0 to 1, default 1) of `usual`, rounded up.
-inline int property_cases(int usual)
+// The share CUSP_PROPERTY_SHARE (0 to 1, default 1) of `usual`, rounded up.
+inline int share_of(int usual)
 {
-    if (const char* const cases = std::getenv("CUSP_PROPERTY_CASES")) {
-        return std::atoi(cases);
-    }
     const char* const share = std::getenv("CUSP_PROPERTY_SHARE");
     return share != nullptr ? static_cast<int>(std::ceil(std::atof(share) * usual)) : usual;
+}
+
+// CUSP_PROPERTY_CASES, or the share of `usual`.
+inline int property_cases(int usual)
+{
+    const char* const cases = std::getenv("CUSP_PROPERTY_CASES");
+    return cases != nullptr ? std::atoi(cases) : share_of(usual);
 }
 
 // CUSP_PROPERTY_FIRST, or `usual`, the first seed for CI.

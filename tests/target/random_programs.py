@@ -20,6 +20,9 @@ import tempfile
 import golden
 from qemu import RunFailed
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from property_cases import property_cases  # noqa: E402
+
 PLANES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
 AXES, OFFSETS = "XYZ", "IJK"
 FARTHEST = 12.0  # mm from zero
@@ -260,7 +263,7 @@ def main():
     parser.add_argument("--pins", metavar="PLUGIN")
     parser.add_argument("--seed", type=int, default=1, help="of the first program")
     parser.add_argument("--programs", type=int,
-                        default=int(os.environ.get("CUSP_TARGET_PROGRAMS", "12")))
+                        default=int(os.environ.get("CUSP_TARGET_PROGRAMS", property_cases(12))))
     parser.add_argument("--keep", help="folder for programs that differ")
     parser.add_argument("--seconds", type=int, default=60)
     options = parser.parse_args()

@@ -17,10 +17,11 @@ import sys
 import tempfile
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+sys.path[0:0] = [str(pathlib.Path(__file__).resolve().parents[1]), str(pathlib.Path(__file__).resolve().parents[2] / "support")]
 import golden  # noqa: E402
 import random_programs  # noqa: E402
 from chip import Chip, CosimFailed  # noqa: E402
+from property_cases import property_cases  # noqa: E402
 from qemu import RunFailed  # noqa: E402
 from usb import Usb  # noqa: E402
 
@@ -134,9 +135,9 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 equal = compare(options, pathlib.Path(folder))
         else:
-            seeds = range(options.seed, options.seed + options.programs)
+            seeds = range(options.seed, options.seed + property_cases(options.programs))
             wrong = [seed for seed in seeds if not run_random(options, seed)]
-            print(f"{options.programs} programs from seed {options.seed} on; "
+            print(f"{len(seeds)} programs from seed {options.seed} on; "
                   f"different: {wrong or 'none'}")
             equal = not wrong
     except (OSError, RunFailed, CosimFailed) as error:
