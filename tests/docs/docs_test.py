@@ -29,6 +29,7 @@ REASONS = {
     "source": "builds cusp or runs all tests: this test is one of them",
     "port": "needs a machine on a serial port",
     "server": "serves until its page is closed",
+    "demo": "cusp demo plans it",
 }
 FENCE = re.compile(r"^```(\w*) ?(.*)$")
 TIMEOUT_S = 600
