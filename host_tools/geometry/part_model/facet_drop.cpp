@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/geometry/part_model/bracketed_zero.hpp"
 
 namespace cusp::part_model {
 
@@ -48,40 +49,12 @@ std::optional<FacetContact> drop_ball_on_side(Vec3d a, Vec3d b, double x, double
     return FacetContact{a.z + rise, a + d * share};
 }
 
-// The highest contact along a side: rise() of the height has one zero. False position, with the weight
-// of an end that stays halved (Illinois algorithm); every fourth step bisects.
+// The highest contact along a side: rise() of the height has one zero.
 template <class Rise>
 double highest_place(double low, double high, double near, const Rise& rise)
 {
-    double at_low = rise(low);
-    double at_high = rise(high);
-    if (at_low <= 0) {
-        return low;
-    }
-    if (at_high >= 0) {
-        return high;
-    }
-    int stayed = 0;
-    for (int k = 0; k < kRounds && high - low > near; ++k) {
-        const double share = k % 4 == 3 ? 0.5 : at_low / (at_low - at_high);
-        const double place = low + share * (high - low);
-        const double here = rise(place);
-        if (here == 0) {
-            return place;
-        }
-        if (here > 0) {
-            low = place;
-            at_low = here;
-            at_high *= stayed > 0 ? 0.5 : 1;
-            stayed = 1;
-        } else {
-            high = place;
-            at_high = here;
-            at_low *= stayed < 0 ? 0.5 : 1;
-            stayed = -1;
-        }
-    }
-    return 0.5 * (low + high);
+    const Bracket top = bracketed_zero({low, high}, near, kRounds, rise);
+    return 0.5 * (top.low + top.high);
 }
 
 std::optional<FacetContact> drop_on_side(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/geometry/part_model/bracketed_zero.hpp"
 
 namespace cusp::part_model {
 
@@ -74,47 +75,17 @@ double oriented_distance(const ToolCore& core, const BezierCell& cell)
     return std::sqrt(square);
 }
 
-// The squared distance from the core is convex along the edge: its slope has one zero. False position,
-// with the weight of an end that stays halved (Illinois algorithm); every fourth step bisects.
+// The squared distance from the core is convex along the edge: its slope has one zero.
 double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
 {
     if (core.is_point()) {
         return ball_edge_distance(core, edge, place);
     }
     const Vec3d d = edge[1] - edge[0];
-    const auto slope_at = [&](double share) {
-        return dot(core.reach(edge[0] + d * share), d);
-    };
-    double from = 0;
-    double to = 1;
-    double at_from = slope_at(from);
-    double at_to = slope_at(to);
-    if (at_from >= 0) {
-        to = from;
-    } else if (at_to <= 0) {
-        from = to;
-    }
-    int stayed = 0;
-    for (int k = 0; k < kEdgeSteps && to - from > kExactShare; ++k) {
-        const double share = k % 4 == 3 ? 0.5 : at_from / (at_from - at_to);
-        const double middle = from + share * (to - from);
-        const double slope = slope_at(middle);
-        if (slope > 0) {
-            to = middle;
-            at_to = slope;
-            at_from *= stayed > 0 ? 0.5 : 1;
-            stayed = 1;
-        } else {
-            from = middle;
-            at_from = slope;
-            at_to *= stayed < 0 ? 0.5 : 1;
-            stayed = -1;
-        }
-        if (slope == 0) {
-            to = from = middle;
-        }
-    }
-    place = edge[0] + d * from;
+    const Bracket nearest = bracketed_zero({0, 1}, kExactShare, kEdgeSteps, [&](double share) {
+        return -dot(core.reach(edge[0] + d * share), d);
+    });
+    place = edge[0] + d * nearest.low;
     return norm(core.reach(place));
 }
 
