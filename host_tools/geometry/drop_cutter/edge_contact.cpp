@@ -4,49 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/geometry/part_model/bracketed_zero.hpp"
+
 namespace cusp::drop_cutter {
 
 using toolpath::Tool;
 
 namespace {
 
-// An interval, and the slope of the height at its ends: positive at `a`, negative at `b`.
-struct Bracket {
-    double a;
-    double b;
-    double rise_a;
-    double rise_b;
-};
-
-// Narrows the bracket to a zero of rise(y) by false position; the weight of an end that stays is
-// halved (Illinois algorithm). An error of 1e-5 radii in y changes the height at the maximum by its
-// square only, so that is found to nanometres.
-template <class Rise>
-void narrow(Bracket& bracket, const Tool& tool, const Rise& rise)
+// An error of 1e-5 radii in y changes the height at the maximum by its square only, so that is found to
+// nanometres.
+part_model::ZeroSearch search_for(const Tool& tool)
 {
     constexpr int kRounds = 40;
-    const double near = 1e-5 * tool.radius;
-    auto& [a, b, rise_a, rise_b] = bracket;
-    int stayed = 0;
-    for (int i = 0; i < kRounds && b - a > near; ++i) {
-        // Every eighth step bisects: that converges for every shape of tool.
-        const double share = i % 8 == 7 ? 0.5 : rise_a / (rise_a - rise_b);
-        const double y = a + share * (b - a);
-        const double here = rise(y);
-        if (std::abs(here) < 1e-6 * tool.corner_radius * tool.radius) {
-            a = b = y;
-        } else if (here > 0.0) {
-            a = y;
-            rise_a = here;
-            rise_b *= stayed > 0 ? 0.5 : 1.0;
-            stayed = 1;
-        } else {
-            b = y;
-            rise_b = here;
-            rise_a *= stayed < 0 ? 0.5 : 1.0;
-            stayed = -1;
-        }
-    }
+    constexpr int kBisectEvery = 8;
+    return {1e-5 * tool.radius, kRounds, kBisectEvery, 1e-6 * tool.corner_radius * tool.radius};
 }
 
 }  // namespace
@@ -91,12 +63,8 @@ std::optional<EdgeContact> drop_on_edge(const Tool& tool, const EdgeBeside& edge
         const double out = std::max(0.0, d - (r - c));
         return slope * d * std::sqrt(std::max(c * c - out * out, 0.0)) - out * y;
     };
-    Bracket bracket{low, high, rise(low), rise(high)};
-    if (bracket.rise_a <= 0.0 || bracket.rise_b >= 0.0) {
-        return higher(contact_at(low), contact_at(high));
-    }
-    narrow(bracket, tool, rise);
-    return higher(higher(contact_at(bracket.a), contact_at(bracket.b)),
+    const auto top = part_model::bracketed_zero({low, high}, search_for(tool), rise);
+    return higher(higher(contact_at(top.low), contact_at(top.high)),
                   higher(contact_at(low), contact_at(high)));
 }
 

@@ -1,7 +1,9 @@
 // The zero of a falling function between two places.
 //
-//     const Bracket zero = bracketed_zero({0, 1}, 1e-13, 80, [&](double share) { return slope(share); });
+//     const Bracket zero = bracketed_zero({0, 1}, {1e-13, 80}, [&](double share) { return slope(share); });
 #pragma once
+
+#include <cmath>
 
 namespace cusp::part_model {
 
@@ -10,11 +12,17 @@ struct Bracket {
     double high;
 };
 
-// A bracket at most `near` wide, or what `rounds` steps have left of it; both ends are one place where the
-// function is zero there, or where it has one sign from end to end. False position, with the weight of an
-// end that stays halved (Illinois algorithm); every fourth step bisects.
+struct ZeroSearch {
+    double near;          // width of a bracket that is narrow enough
+    int rounds;           // at most
+    int bisect_every{4};  // so many steps: converges for every function
+    double zero{0};       // a value as small as that is none
+};
+
+// The narrowed bracket. Both ends are one place where the function is zero there, or where it has one sign
+// from end to end. False position, with the weight of an end that stays halved (Illinois algorithm).
 template <class Falling>
-Bracket bracketed_zero(Bracket within, double near, int rounds, const Falling& at)
+Bracket bracketed_zero(Bracket within, const ZeroSearch& search, const Falling& at)
 {
     auto [low, high] = within;
     double at_low = at(low);
@@ -26,11 +34,12 @@ Bracket bracketed_zero(Bracket within, double near, int rounds, const Falling& a
         return {high, high};
     }
     int stayed = 0;
-    for (int k = 0; k < rounds && high - low > near; ++k) {
-        const double share = k % 4 == 3 ? 0.5 : at_low / (at_low - at_high);
+    for (int k = 0; k < search.rounds && high - low > search.near; ++k) {
+        const bool bisects = (k + 1) % search.bisect_every == 0;
+        const double share = bisects ? 0.5 : at_low / (at_low - at_high);
         const double place = low + share * (high - low);
         const double here = at(place);
-        if (here == 0) {
+        if (std::abs(here) <= search.zero) {
             return {place, place};
         }
         if (here > 0) {

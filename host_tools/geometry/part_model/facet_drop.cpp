@@ -53,7 +53,7 @@ std::optional<FacetContact> drop_ball_on_side(Vec3d a, Vec3d b, double x, double
 template <class Rise>
 double highest_place(double low, double high, double near, const Rise& rise)
 {
-    const Bracket top = bracketed_zero({low, high}, near, kRounds, rise);
+    const Bracket top = bracketed_zero({low, high}, {near, kRounds}, rise);
     return 0.5 * (top.low + top.high);
 }
 

@@ -82,7 +82,7 @@ double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec
         return ball_edge_distance(core, edge, place);
     }
     const Vec3d d = edge[1] - edge[0];
-    const Bracket nearest = bracketed_zero({0, 1}, kExactShare, kEdgeSteps, [&](double share) {
+    const Bracket nearest = bracketed_zero({0, 1}, {kExactShare, kEdgeSteps}, [&](double share) {
         return -dot(core.reach(edge[0] + d * share), d);
     });
     place = edge[0] + d * nearest.low;
