@@ -2,7 +2,6 @@
 #include "host_tools/cam/contour_pocket/adaptive_pocket.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "firmware/base/math.hpp"
@@ -11,7 +10,6 @@
 #include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
 #include "host_tools/cam/contour_pocket/open_sides.hpp"
 #include "host_tools/cam/contour_pocket/pocket_report.hpp"
-#include "host_tools/cam/contour_pocket/pocket_task.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/toolpath/toolpath_writer.hpp"
@@ -25,6 +23,7 @@ using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
 using adaptive_clearing::EngagementReport;
 using drop_cutter::DropCutter;
+using job::CutLevels;
 using job::EntryKind;
 using job::Job;
 using job::level_floor;
@@ -42,68 +41,57 @@ namespace {
 constexpr double kDegrees = kPi / 180.0;
 constexpr double kLevel = 1e-6;  // mm: layers that differ by less are one
 
-std::vector<double> heights_of(const Job& job, const Operation& operation, double floor)
+std::vector<double> heights_of(const Pocket& pocket)
 {
-    const double deep = job.stock_top - floor;
+    const CutLevels& levels = pocket.operation.levels;
+    const double floor = level_floor(pocket.operation).value();
+    const double top = pocket.job.stock_top;
+    const double deep = top - floor;
     std::vector<double> heights;
-    for (const double below : operation.levels.layers) {
+    for (const double below : levels.layers) {
         if (below < deep - kLevel) {
-            heights.push_back(job.stock_top - below);
+            heights.push_back(top - below);
         }
     }
-    const int n = operation.levels.layers.empty() && operation.levels.max_depth && deep > 0.0
-                      ? layer_count(job, operation, deep, *operation.levels.max_depth)
+    const int n = levels.layers.empty() && levels.max_depth && deep > 0.0
+                      ? layer_count(pocket, deep, *levels.max_depth)
                       : 1;
     for (int i = 1; i < n; ++i) {
-        heights.push_back(job.stock_top - deep * i / n);
+        heights.push_back(top - deep * i / n);
     }
     heights.push_back(floor);
     return heights;
 }
 
 // mm: of chords in place of arcs. The bound of SweptArea has room for this share of the radius.
-double chord_tolerance(const Operation& operation, const ToleranceSplit& tolerances)
+double chord_tolerance(const Pocket& pocket)
 {
-    return std::min(tolerances.plan_tolerance, 0.005 * operation.tool.radius);
+    return std::min(pocket.tolerances.plan_tolerance, 0.005 * pocket.operation.tool.radius);
 }
 
-AdaptivePath passes_of(const Job& job,
-                       const Operation& operation,
-                       const Region2d& region,
-                       const std::optional<OpenSides>& open,
-                       const ToleranceSplit& tolerances)
+AdaptivePath passes_of(const Pocket& pocket, const std::optional<OpenSides>& open)
 {
+    const Operation& operation = pocket.operation;
     AdaptiveSettings settings;
     settings.tool_radius = operation.tool.radius;
-    settings.wall_clearance = tolerances.wall_clearance;
+    settings.wall_clearance = pocket.tolerances.wall_clearance;
     settings.max_engagement = *operation.passes.max_engagement * kDegrees;
-    settings.tolerance = chord_tolerance(operation, tolerances);
-    settings.corner = tolerances.plan_tolerance;
+    settings.tolerance = chord_tolerance(pocket);
+    settings.corner = pocket.tolerances.plan_tolerance;
     settings.direction = operation.passes.direction_of_cut;
     if (open) {
         settings.open.push_back(open->starts);
     }
     settings.progress = [&](double share) {
-        job.report_progress(share);
+        pocket.job.report_progress(share);
     };
-    AdaptivePath path = clear_adaptively(region, settings);
+    AdaptivePath path = clear_adaptively(pocket.region, settings);
     if (path.runs.empty()) {
         throw PocketRefusal(operation.outline.boundary_file + ": the tool of radius " +
                             number_text(operation.tool.radius) +
                             " mm fits nowhere into the pocket");
     }
     return path;
-}
-
-void warn_beside_stock(const Job& job,
-                       const Operation& operation,
-                       const Region2d& pocket,
-                       OperationStats& stats)
-{
-    if (lies_beside_stock(job, pocket)) {
-        stats.warnings.push_back(operation.outline.boundary_file +
-                                 ": the pocket lies beside the stock: the program cuts none");
-    }
 }
 
 }  // namespace
@@ -126,30 +114,32 @@ void check_adaptive_size(const Operation& operation, const Region2d& region)
 }
 
 // Over 60 lines: the steps of one plan, in order, share its settings.
-std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operation& operation)
+std::vector<PlannedOperation> plan_adaptive_pocket(Pocket pocket)
 {
-    const auto begin = std::chrono::steady_clock::now();
-    const ToleranceSplit tolerances = split_tolerances(job, operation);
-    const Region2d pocket = make_region(operation, tolerances.fit);
+    const Job& job = pocket.job;
+    const Operation& operation = pocket.operation;
     const std::optional<OpenSides> open =
-        open_sides(job, operation, pocket, tolerances.wall_clearance);
-    const Region2d& region = open ? open->region : pocket;
-    check_work(job, operation, region, tolerances);
-    check_adaptive_size(operation, region);
-    const DropCutter floor{operation.part.floor, operation.tool, tolerances.accuracy};
-    check_coverage(operation, open ? open->in_stock : pocket, floor);
-    const std::vector<double> heights = heights_of(job, operation, level_floor(operation).value());
-    const AdaptivePath path = passes_of(job, operation, region, open, tolerances);
+        open_sides(job, operation, pocket.region, pocket.tolerances.wall_clearance);
+    const bool beside_stock = lies_beside_stock(job, pocket.region);
+    const DropCutter floor{operation.part.floor, operation.tool, pocket.tolerances.accuracy};
+    const Region2d in_stock = open ? open->in_stock : pocket.region;
+    if (open) {
+        pocket.region = open->region;
+    }
+    check_work(pocket);
+    check_adaptive_size(operation, pocket.region);
+    check_coverage(operation, in_stock, floor);
+    const std::vector<double> heights = heights_of(pocket);
+    const AdaptivePath path = passes_of(pocket, open);
 
     PlannedOperation result;
     set_tool(result.path, job, operation.tool);
     ToolpathWriter writer{
         result.path.moves,
         {job.stock_top + job.clearance, operation.passes.entry, operation.tool.radius}};
-    AdaptivePathWriter cutter{
-        writer,
-        {operation.output != OutputForm::kLines, chord_tolerance(operation, tolerances),
-         operation.passes.entry == EntryKind::kPlunge}};
+    AdaptivePathWriter cutter{writer,
+                              {operation.output != OutputForm::kLines, chord_tolerance(pocket),
+                               operation.passes.entry == EntryKind::kPlunge}};
     double above = job.stock_top;
     for (const double z : heights) {
         cutter.write(path, above, z);
@@ -175,15 +165,14 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     }
     report_plunges(cutter.plunges(), stats);
     report_air(result.path.moves, job.stock_top, stats);
-    warn_beside_stock(job, operation, pocket, stats);
-    const RegionOffset walls{region};
-    report_uncut({job, operation, region, walls, floor, tolerances.wall_clearance, false,
-                  open ? open->air : Region2d{}},
+    if (beside_stock) {
+        stats.warnings.push_back(operation.outline.boundary_file +
+                                 ": the pocket lies beside the stock: the program cuts none");
+    }
+    report_uncut(pocket, RegionOffset{pocket.region}, floor, false, open ? open->air : Region2d{},
                  stats);
     result.path.comments = {"contour_pocket: adaptive clearing, engagement at most " +
                             number_text(path.engagement_bound / kDegrees) + " degrees"};
-    stats.planning_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return {std::move(result)};
 }
 

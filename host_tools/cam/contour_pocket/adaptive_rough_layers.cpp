@@ -66,14 +66,15 @@ double scallop_height(const Operation& rough)
 
 class LevelPlanner {
 public:
-    LevelPlanner(const Job& job, const Operation& rough, const Region2d& region, double clearance)
-        : job_{job},
-          rough_{rough},
-          room_{RegionOffset{region}.at(clearance - kFirst)},
-          scallops_{scallop_height(rough)},
-          model_{rough.part.floor},
-          slices_{model_, rough.tool, slice_settings()},
-          highest_{model_.box_high().z + rough.passes.allowance + kRounded + slices_.max_excess()}
+    // clearance  mm: of the tool's centre from the walls
+    LevelPlanner(const Pocket& pocket, double clearance)
+        : job_{pocket.job},
+          rough_{pocket.operation},
+          room_{RegionOffset{pocket.region}.at(clearance - kFirst)},
+          scallops_{scallop_height(rough_)},
+          model_{rough_.part.floor},
+          slices_{model_, rough_.tool, slice_settings()},
+          highest_{model_.box_high().z + rough_.passes.allowance + kRounded + slices_.max_excess()}
     {
     }
 
@@ -224,15 +225,12 @@ private:
 
 }  // namespace
 
-void rough_adaptively(const Job& job,
-                      const Operation& rough,
-                      const Region2d& region,
-                      double clearance,
-                      double step,
-                      RoughResult& result)
+void rough_adaptively(const Pocket& pocket, double step, RoughResult& result)
 {
-    check_adaptive_size(rough, region);
-    LevelPlanner planner{job, rough, region, clearance};
+    const Job& job = pocket.job;
+    const Operation& rough = pocket.operation;
+    check_adaptive_size(rough, pocket.region);
+    LevelPlanner planner{pocket, result.wall_clearance};
     const auto levels = planner.plan(result.heights, step);
     job.report_progress(kRoughingDone);
     Toolpath& path = result.operation.path;

@@ -9,16 +9,10 @@ namespace cusp::contour_pocket {
 // ground beside it that is too high for the layer, in steps of a fifth of its depth. Each step is cut
 // from its side, at most as deep as the layer. Fills the operation, and `left`: the steps' height too.
 //
-// rough      the operation, with the tool that roughs
-// clearance  mm: of that tool's centre from the walls
-// step       mm: of steps, where the layers are deep enough for several
+// pocket  its operation has the tool that roughs
+// step    mm: of steps, where the layers are deep enough for several
 //
 // Errors: InputError if the region is too large for the tool (check_adaptive_size()).
-void rough_adaptively(const job::Job& job,
-                      const job::Operation& rough,
-                      const offset::Region2d& region,
-                      double clearance,
-                      double step,
-                      RoughResult& result);
+void rough_adaptively(const Pocket& pocket, double step, RoughResult& result);
 
 }  // namespace cusp::contour_pocket

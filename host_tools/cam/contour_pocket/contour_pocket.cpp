@@ -87,25 +87,19 @@ bool is_one_whole_surface(const Operation& operation)
 
 class FinishPlanner {
 public:
-    FinishPlanner(const Job& job,
-                  const Operation& operation,
-                  const Region2d& region,
-                  const ToleranceSplit& tolerances,
-                  AxialDepthTracker* depth)
-        : job_{job},
-          operation_{operation},
-          region_{region},
-          tolerances_{tolerances},
-          walls_{region},
-          floor_{operation.part.floor, operation.tool, tolerances.accuracy},
-          loop_scallop_{floor_, operation.part.floor, tolerances_},
-          moves_{job.stock_top + job.clearance},
+    FinishPlanner(const Pocket& pocket, AxialDepthTracker* depth)
+        : pocket_{pocket},
+          operation_{pocket.operation},
+          walls_{pocket.region},
+          floor_{operation_.part.floor, operation_.tool, pocket.tolerances.accuracy},
+          loop_scallop_{floor_, operation_.part.floor, pocket.tolerances},
+          moves_{pocket.job.stock_top + pocket.job.clearance},
           depth_{depth},
-          begun_{is_roughed(operation) ? kRoughingDone : 0.0},
-          levels_done_{is_roughed(operation) ? 0.0 : kLevelsDone}
+          begun_{is_roughed(operation_) ? kRoughingDone : 0.0},
+          levels_done_{is_roughed(operation_) ? 0.0 : kLevelsDone}
     {
-        if (!tolerances.one_sided) {
-            floor_.check_edge_gouges(operation.tolerance.floor);
+        if (!pocket.tolerances.one_sided) {
+            floor_.check_edge_gouges(operation_.tolerance.floor);
         }
     }
 
@@ -131,11 +125,12 @@ public:
         const bool last_layer = finish_is_last_layer(operation_);
         if ((rough == nullptr || last_layer) && cleared.saved > 0.0) {
             put_in_partial_loops(cleared);
-            pencils = add_pencil_detours(cleared, pencils, walls_,
-                                         tolerances_.wall_clearance - tolerances_.plan_tolerance,
-                                         operation_.tool.radius);
+            pencils = add_pencil_detours(
+                cleared, pencils, walls_,
+                pocket_.tolerances.wall_clearance - pocket_.tolerances.plan_tolerance,
+                operation_.tool.radius);
         }
-        add_pencil_passes(cleared, pencils, reach_of(walls_, tolerances_.wall_clearance));
+        add_pencil_passes(cleared, pencils, reach_of(walls_, pocket_.tolerances.wall_clearance));
         PocketPathWriter cutter{operation_, floor_, walls_, moves_, depth_};
         if (depth_ != nullptr) {
             depth_->begin(operation_.tool);
@@ -144,7 +139,7 @@ public:
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         settings.repeated = pencil_settings(cleared);
         if (last_layer) {
-            const double above = rough != nullptr ? rough->heights.back() : job_.stock_top;
+            const double above = rough != nullptr ? rough->heights.back() : pocket_.job.stock_top;
             settings.depth_share = 1.0;
             settings.entry_heights = [above](double pass) {
                 return heights_over(std::max(above, pass));
@@ -159,8 +154,8 @@ public:
                                     operation_.passes.max_engagement ||
                                     rough->operation.path.tool.number != operation_.tool.number;
             if (stock_left) {
-                settings.stock_beside = {stock_beside(cleared, settings.repeated), job_.stock_top,
-                                         depths_beside(cleared, *rough)};
+                settings.stock_beside = {stock_beside(cleared, settings.repeated),
+                                         pocket_.job.stock_top, depths_beside(cleared, *rough)};
             }
         }
         settings.retracts = cleared.leaves + static_cast<int>(operation_.outline.islands.size());
@@ -177,12 +172,12 @@ public:
     }
 
 private:
-    void report(double share) const { job_.report_progress(share, begun_); }
+    void report(double share) const { pocket_.job.report_progress(share, begun_); }
 
     ClearedRegion passes()
     {
         ClearingSettings settings;
-        settings.wall_clearance = tolerances_.wall_clearance;
+        settings.wall_clearance = pocket_.tolerances.wall_clearance;
         const double widest = finish_is_last_layer(operation_)
                                   ? rough_stepover(operation_)
                                   : operation_.passes.step_over.value_or(kUnbounded);
@@ -191,8 +186,8 @@ private:
         settings.cover_corners = *operation_.tolerance.scallop > operation_.tolerance.floor;
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
-        LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
-        settings.stepover_from = [&, whole_area = area(region_)](const Region2d& ring) {
+        LoopSpacing interval{floor_, pocket_.tolerances, corners && !whole, !corners || !whole};
+        settings.stepover_from = [&, whole_area = area(pocket_.region)](const Region2d& ring) {
             if (levels_done_ > 0.0) {
                 report(levels_done_ * (1.0 - area(ring) / whole_area));
             }
@@ -213,11 +208,12 @@ private:
                 return loops_in_strip(strip, loop_scallop_, operation_.tool.radius, max_length);
             };
         }
-        ClearedRegion cleared = clear_region(region_, settings);
+        ClearedRegion cleared = clear_region(pocket_.region, settings);
         if (cleared.saved > 0.0 && cleared.saved < kDoubtful * length(cleared)) {
             settings.partial_stepover = nullptr;
-            ClearedRegion by_loops = clear_region(region_, settings);
-            const double slope = (job_.stock_top - lowest_tip(by_loops, floor_)) / kEntrySlope;
+            ClearedRegion by_loops = clear_region(pocket_.region, settings);
+            const double slope =
+                (pocket_.job.stock_top - lowest_tip(by_loops, floor_)) / kEntrySlope;
             const auto cost = [&](const ClearedRegion& c) {
                 return length(c) + slope * c.leaves;
             };
@@ -231,7 +227,7 @@ private:
                                 " mm fits nowhere into the pocket");
         }
         if (cleared.rings >= kMaxRings) {
-            throw InputError(operation_text(job_, operation_) + "scallop " +
+            throw InputError(operation_text(pocket_.job, operation_) + "scallop " +
                              number_text(*operation_.tolerance.scallop) + " mm makes " +
                              number_text(cleared.rings) + " levels of loops, the limit is " +
                              number_text(kMaxRings - 1));
@@ -247,13 +243,14 @@ private:
         ClearedRegion all = cleared;
         put_in_partial_loops(all);
         PencilSettings settings;
-        settings.wall_clearance = tolerances_.wall_clearance;
-        settings.max_uncut = tolerances_.scallop_height;
+        settings.wall_clearance = pocket_.tolerances.wall_clearance;
+        settings.max_uncut = pocket_.tolerances.scallop_height;
         settings.path_settings = cutting(std::nullopt).path_settings;
-        settings.path_settings.plan_tolerance = repeated_plan_tolerance(tolerances_.plan_tolerance);
-        settings.distance = settings.path_settings.plan_tolerance + tolerances_.accuracy;
+        settings.path_settings.plan_tolerance =
+            repeated_plan_tolerance(pocket_.tolerances.plan_tolerance);
+        settings.distance = settings.path_settings.plan_tolerance + pocket_.tolerances.accuracy;
         settings.fragments = cleared.saved == 0.0;
-        return pencil_passes(region_, floor_, all, settings);
+        return pencil_passes(pocket_.region, floor_, all, settings);
     }
 
     static std::vector<bool> pencil_settings(const ClearedRegion& cleared)
@@ -283,7 +280,7 @@ private:
         const Tool& tool = rough.operation.path.tool;
         const double larger = tool.radius - radius;
         const EdgeTree centres{edges_of(walls_.at(rough.wall_clearance))};
-        const DropCutter roughed_floor{operation_.part.floor, tool, tolerances_.accuracy};
+        const DropCutter roughed_floor{operation_.part.floor, tool, pocket_.tolerances.accuracy};
         const double depth = layer_depth(operation_);
         const double higher = rough.left + highest_over(tool, operation_.tool);
         const double max_error = 0.02 * radius;
@@ -293,7 +290,7 @@ private:
             }
             return larger > 0.0 && centres.any_nearer(p, larger);
         };
-        const double bottom = rough.heights.empty() ? job_.stock_top : rough.heights.back();
+        const double bottom = rough.heights.empty() ? pocket_.job.stock_top : rough.heights.back();
         const auto roughed = [&](Vec2d p) {
             const double left = std::max(roughed_floor.tip_height(p, max_error), bottom) + higher;
             return fits(p) && left < floor_.tip_height(p, max_error) + depth;
@@ -332,8 +329,8 @@ private:
         std::vector<double> heights = rough.heights;
         const double depth = layer_depth(operation_);
         const double bottom = lowest_tip(cleared, floor_);
-        double above = heights.empty() ? job_.stock_top : heights.back();
-        const int n = layer_count(job_, operation_, above - bottom, depth);
+        double above = heights.empty() ? pocket_.job.stock_top : heights.back();
+        const int n = layer_count(pocket_, above - bottom, depth);
         const double step = (above - bottom) / n;
         for (int i = 1; i < n; ++i) {
             above -= step;
@@ -358,22 +355,22 @@ private:
     {
         const double radius = operation_.tool.radius;
         CutSettings settings;
-        settings.path_settings.plan_tolerance = tolerances_.plan_tolerance;
-        settings.path_settings.height_tolerance = tolerances_.height_tolerance;
-        settings.path_settings.one_sided = tolerances_.one_sided;
-        settings.path_settings.clearance_reserve = tolerances_.accuracy;
+        settings.path_settings.plan_tolerance = pocket_.tolerances.plan_tolerance;
+        settings.path_settings.height_tolerance = pocket_.tolerances.height_tolerance;
+        settings.path_settings.one_sided = pocket_.tolerances.one_sided;
+        settings.path_settings.clearance_reserve = pocket_.tolerances.accuracy;
         settings.path_settings.spacing = std::clamp(
-            std::sqrt(3.0 * radius * tolerances_.height_tolerance), 0.05 * radius, radius);
+            std::sqrt(3.0 * radius * pocket_.tolerances.height_tolerance), 0.05 * radius, radius);
         // The accuracy of lookups.
         settings.path_settings.lookup_spacing =
-            loop_scallop_.lookup_spacing(region_, 0.5 * tolerances_.accuracy);
+            loop_scallop_.lookup_spacing(pocket_.region, 0.5 * pocket_.tolerances.accuracy);
         settings.path_settings.arcs = operation_.output != OutputForm::kLines;
         settings.path_settings.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.passes.entry;
-        settings.wall_clearance = tolerances_.wall_clearance;
+        settings.wall_clearance = pocket_.tolerances.wall_clearance;
         // Between its loops on a slope, roughing leaves the deepest stock where it is narrowest.
         settings.depth_share = 0.7;
-        const double top = job_.stock_top;
+        const double top = pocket_.job.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
             const double highest = std::max(top, pass);
             // Stock left by roughing is entered at the plunge feed: beside walls it has full
@@ -392,7 +389,7 @@ private:
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -clearance);
-        stats.scallop_bound_mm = tolerances_.scallop_height + operation_.tolerance.floor;
+        stats.scallop_bound_mm = pocket_.tolerances.scallop_height + operation_.tolerance.floor;
         stats.counts = {{"loops", static_cast<double>(loops_)},
                         {"leaves", static_cast<double>(cleared.leaves)},
                         {"islands", static_cast<double>(operation_.outline.islands.size())}};
@@ -403,18 +400,17 @@ private:
             stats.counts.emplace_back("cliff_passes", static_cast<double>(pencil_passes_));
         }
         report_plunges(moves_.steep_plunges(), stats);
-        report_air(moves_.moves(), job_.stock_top, stats);
+        report_air(moves_.moves(), pocket_.job.stock_top, stats);
         if (depth_ != nullptr) {
             report_depth(*depth_, stats);
         }
-        report_uncut({job_, operation_, region_, walls_, floor_, tolerances_.wall_clearance,
-                      !loop_scallop_.reaches_floor(region_)},
+        report_uncut(pocket_, walls_, floor_, !loop_scallop_.reaches_floor(pocket_.region), {},
                      stats);
     }
 
     void describe(Toolpath& path, const OperationStats& stats) const
     {
-        set_tool(path, job_, operation_.tool);
+        set_tool(path, pocket_.job, operation_.tool);
         path.comments = {"contour_pocket: Suh and Lee 1990, " + number_text(stats.levels) +
                              (stats.levels == 1 ? " level, " : " levels, ") +
                              number_text(stats.passes) + (stats.passes == 1 ? " loop" : " loops"),
@@ -422,10 +418,8 @@ private:
                              " mm, gouge at most " + number_text(stats.gouge_bound_mm) + " mm"};
     }
 
-    const Job& job_;
-    const Operation& operation_;
-    const Region2d& region_;
-    const ToleranceSplit& tolerances_;
+    const Pocket& pocket_;
+    const Operation& operation_;  // of the pocket
     RegionOffset walls_;
     DropCutter floor_;
     LoopScallop loop_scallop_;
@@ -441,48 +435,60 @@ private:
     int pencil_passes_{0};
 };
 
-}  // namespace
-
-std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
+AxialDepthTracker depth_over(const Pocket& pocket)
 {
-    if (operation.passes.max_engagement && level_floor(operation)) {
-        return plan_adaptive_pocket(job, operation);
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    const ToleranceSplit tolerances = split_tolerances(job, operation);
-    const Region2d region = make_region(operation, tolerances.fit);
-    check_work(job, operation, region, tolerances);
+    const Operation& operation = pocket.operation;
+    const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
+    const bool finer = rougher.radius < operation.tool.radius;
+    return {box_of(pocket.region), finer ? rougher : operation.tool, pocket.job.stock_top,
+            operation.levels.max_depth, kStockPitch};
+}
+
+// Roughing in layers where the operation asks for it, and a finish by loops.
+std::vector<PlannedOperation> plan_loops(const Pocket& pocket)
+{
+    check_work(pocket);
+    const Operation& operation = pocket.operation;
     std::optional<AxialDepthTracker> depth;
     // Entries beside cliffs of the floor and beside stock left by roughing depend on the stock
     // height.
     if (is_roughed(operation) || !is_one_whole_surface(operation)) {
-        const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
-        const bool finer = rougher.radius < operation.tool.radius;
-        depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
-                      operation.levels.max_depth, kStockPitch);
+        depth.emplace(depth_over(pocket));
     }
     AxialDepthTracker* const cut_depth = depth ? &*depth : nullptr;
-    const RoughAndFinish shared = split_between_rough_and_finish(operation, tolerances);
-    FinishPlanner finish{job, operation, region, shared.finish, cut_depth};
-    check_coverage(operation, region, finish.floor());
-    std::vector<PlannedOperation> result;
+    const RoughAndFinish shared = split_between_rough_and_finish(pocket);
+    FinishPlanner finish{shared.finish, cut_depth};
+    check_coverage(operation, pocket.region, finish.floor());
     std::optional<RoughResult> rough;
-    parallel::both(
-        [&] { rough = plan_rough_layers(job, operation, region, shared.rough, cut_depth); },
-        [&] { finish.find_passes(); });
-    if (rough && !rough->operation.path.moves.empty()) {
+    parallel::both([&] { rough = plan_rough_layers(shared.rough, cut_depth); },
+                   [&] { finish.find_passes(); });
+    std::vector<PlannedOperation> result;
+    const bool nothing_roughed = rough && rough->operation.path.moves.empty();
+    if (rough && !nothing_roughed) {
         result.push_back(rough->operation);
     }
     result.push_back(finish.plan(rough ? &*rough : nullptr));
-    limit_plunge_feed(result, job, box_of(region));
-    if (rough && rough->operation.path.moves.empty()) {
+    limit_plunge_feed(result, pocket.job, box_of(pocket.region));
+    if (nothing_roughed) {
         const Tool& tool = rough->operation.path.tool;
         result.back().stats.warnings.push_back(
             "tool " + number_text(tool.number) + " of radius " + number_text(tool.radius) +
             " mm fits nowhere, or the stock is no higher than the allowance, " +
             number_text(operation.passes.allowance) + " mm: nothing is roughed");
     }
-    const double roughing_s = rough ? rough->operation.stats.planning_s : 0.0;
+    return result;
+}
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const Pocket pocket{job, operation};
+    std::vector<PlannedOperation> result = operation.passes.max_engagement && level_floor(operation)
+                                               ? plan_adaptive_pocket(pocket)
+                                               : plan_loops(pocket);
+    const double roughing_s = result.size() > 1 ? result.front().stats.planning_s : 0.0;
     const auto end = std::chrono::steady_clock::now();
     result.back().stats.planning_s =
         std::chrono::duration<double>(end - begin).count() - roughing_s;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <string>
 
-#include "host_tools/cam/contour_pocket/pocket_task.hpp"
 #include "host_tools/cam/contour_pocket/uncut_regions.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 
 namespace cusp::contour_pocket {
 
 using clearing::AxialDepthTracker;
+using drop_cutter::DropCutter;
 using offset::area;
 using offset::Region2d;
 using offset::RegionOffset;
@@ -61,26 +61,32 @@ void report_depth(const AxialDepthTracker& depth, OperationStats& stats)
     }
 }
 
-void report_uncut(const FinishedPocket& pocket, OperationStats& stats)
+void report_uncut(const Pocket& pocket,
+                  const RegionOffset& walls,
+                  const DropCutter& floor,
+                  bool valleys,
+                  const Region2d& air,
+                  OperationStats& stats)
 {
     constexpr std::size_t kNamed = 5;
-    const Region2d centres = pocket.walls.at(pocket.wall_clearance);
+    const double clearance = pocket.tolerances.wall_clearance;
+    const Region2d centres = walls.at(clearance);
     const double least =
         std::max(*pocket.operation.tolerance.scallop, 0.02 * pocket.operation.tool.radius);
-    const std::vector<UncutRegion> places = uncut_regions(
-        pocket.walls, centres, pocket.operation.part.floor, pocket.floor,
-        {pocket.wall_clearance, pocket.job.stock_top, least, pocket.valleys, pocket.air});
+    const std::vector<UncutRegion> places =
+        uncut_regions(walls, centres, pocket.operation.part.floor, floor,
+                      {clearance, pocket.job.stock_top, least, valleys, air});
     double volume = 0.0;
     double height = 0.0;
     for (const UncutRegion& place : places) {
         volume += place.volume;
         height = std::max(height, place.height);
     }
-    double rest = unswept_area(pocket.region, centres, pocket.wall_clearance);
-    if (!pocket.air.contours.empty()) {
+    double rest = unswept_area(pocket.region, centres, clearance);
+    if (!air.contours.empty()) {
         // Corners between the stock's side and the end of the air.
-        const Region2d room = RegionOffset{pocket.air}.at(pocket.wall_clearance);
-        rest = std::max(0.0, rest - unswept_area(pocket.air, room, pocket.wall_clearance));
+        const Region2d room = RegionOffset{air}.at(clearance);
+        rest = std::max(0.0, rest - unswept_area(air, room, clearance));
     }
     stats.counts.emplace_back("rest_area_mm2", rest);
     stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "host_tools/cam/clearing/axial_depth_tracker.hpp"
+#include "host_tools/cam/contour_pocket/pocket_task.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/toolpath/toolpath.hpp"
-#include "host_tools/job/job/job.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -19,19 +19,17 @@ void report_air(const std::vector<toolpath::ToolMove>& moves,
 // Adds the deepest cut if the depth is limited, and warns if it exceeds the limit.
 void report_depth(const clearing::AxialDepthTracker& depth, toolpath::OperationStats& stats);
 
-struct FinishedPocket {
-    const job::Job& job;
-    const job::Operation& operation;
-    const offset::Region2d& region;
-    const offset::RegionOffset& walls;  // of the region
-    const drop_cutter::DropCutter& floor;
-    double wall_clearance;   // mm: of the tool's axis
-    bool valleys;            // false if the tool reaches all of the floor
-    offset::Region2d air{};  // part of the region beside the stock: nothing stays there
-};
-
 // Adds area, number, volume and height of the regions that the tool does not reach, and names the
 // largest.
-void report_uncut(const FinishedPocket& pocket, toolpath::OperationStats& stats);
+//
+// walls    of the region
+// valleys  false if the tool reaches all of the floor
+// air      part of the region beside the stock: nothing stays there
+void report_uncut(const Pocket& pocket,
+                  const offset::RegionOffset& walls,
+                  const drop_cutter::DropCutter& floor,
+                  bool valleys,
+                  const offset::Region2d& air,
+                  toolpath::OperationStats& stats);
 
 }  // namespace cusp::contour_pocket

@@ -16,6 +16,7 @@ namespace cusp::contour_pocket {
 using cl_path::kWrittenStep;
 using cl_path::nurbs_fit_available;
 using drop_cutter::DropCutter;
+using job::CutLevels;
 using job::Job;
 using job::Loop;
 using job::Operation;
@@ -153,22 +154,25 @@ ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
     return tolerances;
 }
 
-RoughAndFinish split_between_rough_and_finish(const Operation& operation,
-                                              const ToleranceSplit& tolerances)
+RoughAndFinish split_between_rough_and_finish(const Pocket& pocket)
 {
+    const Operation& operation = pocket.operation;
+    const ToleranceSplit& tolerances = pocket.tolerances;
     constexpr double kNear = 0.2;  // of the room: with less, fits of curves need more moves
     const bool roughs = operation.levels.max_depth || !operation.levels.layers.empty();
     const double near = std::max(kNear * tolerances.plan_tolerance, kWrittenStep);
     const double apart = 2.0 * kWrittenStep;  // ends are rounded to whole steps
     const double rest = tolerances.plan_tolerance - near - apart;
-    RoughAndFinish shared{tolerances, tolerances};
+    RoughAndFinish shared{pocket, pocket};
     if (!roughs || operation.passes.allowance > 0.0 || rest < near) {
         return shared;
     }
-    shared.rough.wall_clearance = tolerances.wall_clearance - tolerances.plan_tolerance + near;
-    shared.rough.plan_tolerance = near;
-    shared.finish.wall_clearance = tolerances.wall_clearance + tolerances.plan_tolerance - rest;
-    shared.finish.plan_tolerance = rest;
+    shared.rough.tolerances.wall_clearance =
+        tolerances.wall_clearance - tolerances.plan_tolerance + near;
+    shared.rough.tolerances.plan_tolerance = near;
+    shared.finish.tolerances.wall_clearance =
+        tolerances.wall_clearance + tolerances.plan_tolerance - rest;
+    shared.finish.tolerances.plan_tolerance = rest;
     return shared;
 }
 
@@ -190,35 +194,34 @@ Region2d make_region(const Operation& operation, double tolerance)
     return region;
 }
 
-void check_work(const Job& job,
-                const Operation& operation,
-                const Region2d& region,
-                const ToleranceSplit& tolerances)
+void check_work(const Pocket& pocket)
 {
+    const Operation& operation = pocket.operation;
     const Tool& tool = operation.tool;
-    double lowest = job.stock_top;
+    const double top = pocket.job.stock_top;
+    double lowest = top;
     for (const Surface& surface : operation.part.floor) {
         for (const Vec3d p : surface.points) {
             lowest = std::min(lowest, p.z);
         }
     }
     const std::string radius = number_text(tool.radius) + " mm";
-    if (job.stock_top - lowest > kMostDepth * tool.radius) {
+    if (top - lowest > kMostDepth * tool.radius) {
         const std::string file =
             operation.part.floor_files.empty() ? "floor" : operation.part.floor_files.front();
-        throw InputError(file + ": the floor lies " + number_text(job.stock_top - lowest) +
+        throw InputError(file + ": the floor lies " + number_text(top - lowest) +
                          " mm below stock.top, the limit is " +
                          number_text(kMostDepth * tool.radius) + " mm for the tool of radius " +
                          radius);
     }
     double room = 0.0;
-    for (const Contour& contour : region.contours) {
+    for (const Contour& contour : pocket.region.contours) {
         room += area(contour);
     }
     const double round = 2.0 * tool.corner_radius;
+    const double scallop = pocket.tolerances.scallop_height;
     const double across = 2.0 * (tool.radius - tool.corner_radius) +
-                          2.0 * std::sqrt(std::max(0.0, tolerances.scallop_height *
-                                                            (round - tolerances.scallop_height)));
+                          2.0 * std::sqrt(std::max(0.0, scallop * (round - scallop)));
     const double way = room / std::min(across, 2.0 * tool.radius);
     if (way > kMaxPassLength * tool.radius) {
         throw InputError(operation.outline.boundary_file + ": the pocket of " + number_text(room) +
@@ -228,16 +231,16 @@ void check_work(const Job& job,
     }
 }
 
-int layer_count(const Job& job, const Operation& operation, double whole_depth, double max_depth)
+int layer_count(const Pocket& pocket, double whole_depth, double max_depth)
 {
+    const CutLevels& levels = pocket.operation.levels;
     const double count = std::ceil(whole_depth / max_depth - 1e-9);
     if (count > kMostLayers) {
-        const std::string key = operation.levels.max_depth ? "max_depth " : "layers of ";
-        throw InputError(operation_text(job, operation) + key +
-                         number_text(operation.levels.max_depth.value_or(max_depth)) +
-                         " mm makes " + number_text(count) + " layers of " +
-                         number_text(whole_depth) + " mm, the limit is " +
-                         number_text(kMostLayers));
+        const std::string key = levels.max_depth ? "max_depth " : "layers of ";
+        throw InputError(operation_text(pocket.job, pocket.operation) + key +
+                         number_text(levels.max_depth.value_or(max_depth)) + " mm makes " +
+                         number_text(count) + " layers of " + number_text(whole_depth) +
+                         " mm, the limit is " + number_text(kMostLayers));
     }
     return std::max(1, static_cast<int>(count));
 }

@@ -1,4 +1,7 @@
-// Checks of a pocket's operation: tolerances of each step, region in plan, floor.
+// A pocket as its planners see it: what is asked, the tolerances of each step, the region in plan.
+//
+//     const Pocket pocket{job, operation};  // reads the operation once: its planners take the pocket
+//     check_work(pocket);
 #pragma once
 
 #include <string>
@@ -23,33 +26,34 @@ struct ToleranceSplit {
 // Errors: InputError for a value that is missing or out of range.
 ToleranceSplit split_tolerances(const job::Job& job, const job::Operation& operation);
 
-// The plan tolerance of an operation that roughs is shared between both steps.
-struct RoughAndFinish {
-    ToleranceSplit rough;
-    ToleranceSplit finish;
-};
-
-// Without an allowance both follow the walls as near as the tolerance allows, roughing nearer: else
-// finishing would cut slivers off them at full height.
-RoughAndFinish split_between_rough_and_finish(const job::Operation& operation,
-                                              const ToleranceSplit& tolerances);
-
 // The pocket in plan; free-form curves are fitted within `tolerance` (mm). Errors: InputError for
 // crossing loops.
 offset::Region2d make_region(const job::Operation& operation, double tolerance);
 
+// Errors: those of split_tolerances() and make_region().
+struct Pocket {
+    const job::Job& job;
+    const job::Operation& operation;
+    ToleranceSplit tolerances = split_tolerances(job, operation);
+    offset::Region2d region = make_region(operation, tolerances.fit);  // in plan
+};
+
+// The plan tolerance of an operation that roughs is shared between both steps.
+struct RoughAndFinish {
+    Pocket rough;
+    Pocket finish;
+};
+
+// Without an allowance both follow the walls as near as the tolerance allows, roughing nearer: else
+// finishing would cut slivers off them at full height.
+RoughAndFinish split_between_rough_and_finish(const Pocket& pocket);
+
 // Errors: InputError if the pocket is too deep, or needs too many passes, for the tool's size.
-void check_work(const job::Job& job,
-                const job::Operation& operation,
-                const offset::Region2d& region,
-                const ToleranceSplit& tolerances);
+void check_work(const Pocket& pocket);
 
 // Number of layers, at least one, of at most `max_depth` each over the whole depth (mm). Errors:
 // InputError if there are too many.
-int layer_count(const job::Job& job,
-                const job::Operation& operation,
-                double whole_depth,
-                double max_depth);
+int layer_count(const Pocket& pocket, double whole_depth, double max_depth);
 
 // Errors: InputError if a point of the boundary or of an island has no floor. With several surfaces
 // or trims inner points are checked too, every quarter of the tool's radius (coarser in pockets of

@@ -17,12 +17,12 @@ using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
 using drop_cutter::DropCutter;
+using job::CutLevels;
 using job::Job;
 using job::kRoughingDone;
 using job::Operation;
 using job::OutputForm;
 using offset::Edge;
-using offset::Region2d;
 using offset::RegionOffset;
 using toolpath::OperationStats;
 using toolpath::Tool;
@@ -48,28 +48,25 @@ RoughStep rough_step(const Tool& tool, double depth)
     return {std::max(flat, std::min(round, c)), flat > round ? 0.0 : scallop_height};
 }
 
-std::vector<double> layer_heights(const Job& job,
-                                  const Operation& operation,
-                                  double bottom,
-                                  double depth)
+std::vector<double> layer_heights(const Pocket& pocket, double bottom, double depth)
 {
+    const CutLevels& levels = pocket.operation.levels;
+    const double top = pocket.job.stock_top;
     std::vector<double> heights;
-    for (const double below : operation.levels.layers) {
-        heights.push_back(job.stock_top - below);
+    for (const double below : levels.layers) {
+        heights.push_back(top - below);
     }
     if (heights.empty()) {
-        const double deep = job.stock_top - bottom;
-        const auto count = [&](double of) {
-            return layer_count(job, operation, deep, of);
-        };
-        int n = count(depth);
-        if (const double least = operation.levels.min_depth.value_or(0.0); deep < n * least) {
+        const double deep = top - bottom;
+        int n = layer_count(pocket, deep, depth);
+        if (const double least = levels.min_depth.value_or(0.0); deep < n * least) {
             // Fewer layers, as far as max_depth allows: passes that become too deep over scallops
             // of the layer above are cut twice.
-            n = std::max(count(*operation.levels.max_depth), static_cast<int>(deep / least + 1e-9));
+            n = std::max(layer_count(pocket, deep, *levels.max_depth),
+                         static_cast<int>(deep / least + 1e-9));
         }
         for (int i = 1; i <= n; ++i) {
-            heights.push_back(job.stock_top - deep * i / n);
+            heights.push_back(top - deep * i / n);
         }
     }
     std::sort(heights.begin(), heights.end(), [](double a, double b) { return a > b; });
@@ -77,22 +74,22 @@ std::vector<double> layer_heights(const Job& job,
 }
 
 // max_depth has priority over min_depth.
-void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult& result)
+void warn_of_thin_layers(const Pocket& pocket, RoughResult& result)
 {
-    const double deep = result.heights.empty() ? 0.0 : job.stock_top - result.heights.front();
-    if (deep < operation.levels.min_depth.value_or(0.0) - 1e-6) {
+    const double deep =
+        result.heights.empty() ? 0.0 : pocket.job.stock_top - result.heights.front();
+    const double least = pocket.operation.levels.min_depth.value_or(0.0);
+    if (deep < least - 1e-6) {
         result.operation.stats.warnings.push_back(
             "layers are " + number_text(deep) + " mm deep, less than min_depth, " +
-            number_text(*operation.levels.min_depth) +
-            " mm: max_depth and the depth of the pocket allow no others");
+            number_text(least) + " mm: max_depth and the depth of the pocket allow no others");
     }
 }
 
-CutSettings rough_settings(const Operation& operation,
-                           const Tool& tool,
-                           const ToleranceSplit& tolerances,
-                           double wall_clearance)
+CutSettings rough_settings(const Pocket& pocket, double wall_clearance)
 {
+    const Operation& operation = pocket.operation;
+    const ToleranceSplit& tolerances = pocket.tolerances;
     CutSettings settings;
     settings.entry = operation.passes.entry;
     settings.wall_clearance = wall_clearance;
@@ -101,7 +98,7 @@ CutSettings rough_settings(const Operation& operation,
         std::max(tolerances.height_tolerance, 0.1 * operation.passes.allowance);
     settings.path_settings.clearance_reserve = tolerances.accuracy;
     settings.path_settings.allowance = operation.passes.allowance;
-    settings.path_settings.spacing = 0.2 * tool.radius;
+    settings.path_settings.spacing = 0.2 * operation.tool.radius;
     settings.path_settings.arcs = operation.output != OutputForm::kLines;
     return settings;
 }
@@ -134,18 +131,14 @@ void fill_operation(const Operation& operation,
 }
 
 // Layers of bounded engagement, for all that lies above `bottom` (z of the tip) by more than half a step.
-void fill_adaptively(const Job& job,
-                     const Operation& rough,
-                     const Region2d& region,
-                     double bottom,
-                     RoughResult& result)
+void fill_adaptively(const Pocket& pocket, double bottom, RoughResult& result)
 {
-    const double depth = layer_depth(rough);
+    const double depth = layer_depth(pocket.operation);
     const double step = kStepOfDepth * depth;
-    const double scallops = kStepOfDepth * std::min(depth, rough.tool.corner_radius);
-    result.heights = layer_heights(job, rough, std::min(bottom + 0.5 * step, job.stock_top),
+    const double scallops = kStepOfDepth * std::min(depth, pocket.operation.tool.corner_radius);
+    result.heights = layer_heights(pocket, std::min(bottom + 0.5 * step, pocket.job.stock_top),
                                    std::max(0.1 * depth, depth - scallops));
-    rough_adaptively(job, rough, region, result.wall_clearance, step, result);
+    rough_adaptively(pocket, step, result);
 }
 
 // Cuts the loops at every height.
@@ -224,18 +217,18 @@ double lowest_tip(const ClearedRegion& cleared, const DropCutter& floor)
 }
 
 // Over 60 lines: the steps of one plan, in order, share its settings.
-std::optional<RoughResult> plan_rough_layers(const Job& job,
-                                             const Operation& operation,
-                                             const Region2d& region,
-                                             const ToleranceSplit& tolerances,
-                                             AxialDepthTracker* cut_depth)
+std::optional<RoughResult> plan_rough_layers(const Pocket& pocket, AxialDepthTracker* cut_depth)
 {
+    const Job& job = pocket.job;
+    const Operation& operation = pocket.operation;
+    const ToleranceSplit& tolerances = pocket.tolerances;
     if (!is_roughed(operation)) {
         return std::nullopt;
     }
     const auto begin = std::chrono::steady_clock::now();
     Operation rough = operation;
     rough.tool = operation.tools.empty() ? operation.tool : operation.tools.front();
+    const Pocket roughed{job, rough, tolerances, pocket.region};
     const double depth = operation.levels.max_depth.value_or(rough.tool.radius);
     const RoughStep step = rough_step(rough.tool, depth);
     DropCutter floor{operation.part.floor, rough.tool, tolerances.accuracy};
@@ -247,7 +240,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
                               rough.tool.radius + operation.passes.allowance;
     clearing.stepover = rough_stepover(operation);
     clearing.direction = operation.passes.direction_of_cut;
-    ClearedRegion cleared = clear_region(region, clearing);
+    ClearedRegion cleared = clear_region(pocket.region, clearing);
     RoughResult result;
     result.wall_clearance = clearing.wall_clearance;
     result.left = operation.passes.allowance + step.scallop_height;
@@ -255,8 +248,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cleared.passes.empty()) {
         return result;
     }
-    CutSettings settings =
-        rough_settings(operation, rough.tool, tolerances, clearing.wall_clearance);
+    CutSettings settings = rough_settings(roughed, clearing.wall_clearance);
     for (ClearingPass& pass : cleared.passes) {
         pass.path = flattened(pass.path, settings.path_settings.plan_tolerance,
                               settings.path_settings.spacing, settings.path_settings.arcs);
@@ -266,26 +258,26 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         return result;
     }
     if (operation.passes.max_engagement) {
-        fill_adaptively(job, rough, region, bottom, result);
+        fill_adaptively(roughed, bottom, result);
         if (cut_depth != nullptr) {
             cut_depth->begin(rough.tool);
             cut_depth->track(result.operation.path.moves);
         }
-        warn_of_thin_layers(job, operation, result);
+        warn_of_thin_layers(pocket, result);
         result.operation.stats.planning_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         return result;
     }
     settings.repeated.assign(cleared.passes.size(), true);
     ClPathWriter moves{job.stock_top + job.clearance};
-    const RegionOffset walls{region};
+    const RegionOffset walls{pocket.region};
     PocketPathWriter cutter{rough, floor, walls, moves, cut_depth};
     if (cut_depth != nullptr) {
         cut_depth->begin(rough.tool);
     }
     const int each = cleared.leaves + static_cast<int>(operation.outline.islands.size());
     result.heights =
-        layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
+        layer_heights(pocket, bottom, std::max(0.1 * depth, depth - step.scallop_height));
     if (finish_is_last_layer(operation)) {
         result.heights.pop_back();
         if (result.heights.empty()) {
@@ -294,7 +286,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     cut_layers(job, cleared, result.heights, each, std::move(settings), cutter);
     cutter.end();
-    warn_of_thin_layers(job, operation, result);
+    warn_of_thin_layers(pocket, result);
     fill_operation(operation, cleared, moves, result);
     result.operation.stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
     result.operation.stats.planning_s =

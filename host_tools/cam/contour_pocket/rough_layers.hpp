@@ -36,10 +36,7 @@ double lowest_tip(const clearing::ClearedRegion& cleared, const drop_cutter::Dro
 // operation.max_depth each; none if neither is given, or where the finish alone is deep enough.
 //
 // cut_depth  see PocketPathWriter
-std::optional<RoughResult> plan_rough_layers(const job::Job& job,
-                                             const job::Operation& operation,
-                                             const offset::Region2d& region,
-                                             const ToleranceSplit& tolerances,
+std::optional<RoughResult> plan_rough_layers(const Pocket& pocket,
                                              clearing::AxialDepthTracker* cut_depth);
 
 }  // namespace cusp::contour_pocket

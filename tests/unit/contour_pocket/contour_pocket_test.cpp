@@ -189,8 +189,12 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
         Operation operation = pocket();
         operation.tolerance.side = side;
         operation.levels.max_depth = 3.0;
-        const ToleranceSplit whole = split_tolerances(job(), operation);
-        const auto [rough, finish] = split_between_rough_and_finish(operation, whole);
+        const Job around = job();
+        const Pocket pocket{around, operation};
+        const auto [roughed, finished] = split_between_rough_and_finish(pocket);
+        const ToleranceSplit& whole = pocket.tolerances;
+        const ToleranceSplit& rough = roughed.tolerances;
+        const ToleranceSplit& finish = finished.tolerances;
         CHECK(rough.plan_tolerance > 1e-4);
         CHECK(rough.wall_clearance + rough.plan_tolerance <
               finish.wall_clearance - finish.plan_tolerance);
