@@ -25,7 +25,7 @@ import random_job
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TIMES = {"planning_s", "wall_s"}
-PROGRESS = re.compile(rb"(planning|timing|cutting|engagement) \d+ %\n")
+PROGRESS = re.compile(rb"(planning|timing|cutting|engagement|running) \d+ %\n")
 TIME_WORDS = re.compile(rb"(planned|simulated) in [0-9.]+ s")
 VERSION = re.compile(rb"cusp \d+\.\d+\.\d+")
 WHOLE = 600  # s: longer than any correct call takes
