@@ -327,10 +327,9 @@ void Console::tell_state() const
               << "unsent " << chip_.line().waiting() << "\n"
               << "lowest_stack " << chip_.core().lowest_stack() << "\n";
     for (unsigned exception = 1; exception < 100; ++exception) {
-        if (chip_.core().longest(exception) != 0) {
-            std::cout << "longest_" << exception << " " << chip_.core().longest(exception) << "\n"
-                      << "amid_tick_" << exception << " " << chip_.core().amid_tick(exception)
-                      << "\n";
+        if (const auto longest = chip_.core().longest(exception); longest != 0) {
+            std::cout << "longest_" << exception << " " << longest << "\namid_tick_" << exception
+                      << " " << chip_.core().amid_tick(exception) << "\n";
         }
     }
     for (const std::string& violation : chip_.circuit().violations.list()) {
