@@ -17,8 +17,8 @@ test_packages="$host_packages $cad_packages $image_packages cpputest fonts-dejav
 wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
 # Builds the planners in WebAssembly (preset wasm-engine): ten minutes of emscripten, before a release and not in CI.
 engine_packages="emscripten libfast-float-dev libeigen3-dev"
-# Reads our programs as LinuxCNC does: before a release.
-release_packages="linuxcnc-uspace"
+# Reads our programs as LinuxCNC does, and opens our USB as Linux does: before a release.
+release_packages="linuxcnc-uspace qemu-system-x86 linux-image-amd64 busybox-static"
 # Runs the demo and the packages in a bare root.
 fresh_packages="mmdebstrap"
 

@@ -19,6 +19,16 @@ std::vector<std::uint8_t> bytes_of(const std::string& hex)
     return bytes;
 }
 
+void tell(const UsbHost::Result& result)
+{
+    std::cout << "stage " << result.stage << " " << std::flush;
+    for (const std::uint8_t byte : result.data) {
+        std::printf("%02x", unsigned{byte});
+    }
+    std::fflush(stdout);
+    std::cout << "\n";
+}
+
 UsbHost::Request request_of(std::istream& words)
 {
     std::string setup;
@@ -57,14 +67,13 @@ void command_usb(ChipUnderTest& chip, std::istream& words)
     } else if (what == "begin") {
         host.begin_only(request_of(words));
     } else if (what == "control") {
-        const UsbHost::Result result =
-            host.control(request_of(words), [&chip](Picoseconds time) { chip.run(time); });
-        std::cout << "stage " << result.stage << " " << std::flush;
-        for (const std::uint8_t byte : result.data) {
-            std::printf("%02x", unsigned{byte});
-        }
-        std::fflush(stdout);
-        std::cout << "\n";
+        tell(host.control(request_of(words), [&chip](Picoseconds time) { chip.run(time); }));
+    } else if (what == "give" || what == "fetch") {
+        unsigned endpoint = 0;
+        std::string data;
+        words >> endpoint >> data;
+        tell(what == "fetch" ? host.fetch(endpoint)
+                             : UsbHost::Result{host.give(endpoint, bytes_of(data)), {}});
     } else {
         throw std::runtime_error{"no such command: usb " + what};
     }

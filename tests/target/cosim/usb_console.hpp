@@ -12,6 +12,7 @@ namespace cusp::cosim {
 //   usb address N                of the tokens that follow
 //   usb control SETUP [DATA]     in hexadecimal; answers "stage ack|stall|late|none DATA"
 //   usb begin SETUP              the SETUP packet alone
+//   usb give ENDPOINT DATA | fetch ENDPOINT   one packet, "stage ack|late|stall|none DATA"
 void command_usb(ChipUnderTest& chip, std::istream& words);
 
 }  // namespace cusp::cosim

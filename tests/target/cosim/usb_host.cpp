@@ -118,6 +118,30 @@ void UsbHost::happen()
     plan();
 }
 
+std::string UsbHost::give(unsigned endpoint, const std::vector<std::uint8_t>& packet)
+{
+    bool& data_one = out_one_.at(endpoint);
+    const Handshake answer = device_.out(address_, endpoint, packet, data_one);
+    data_one = data_one != (answer == Handshake::kAck);
+    return name_of(answer);
+}
+
+auto UsbHost::fetch(unsigned endpoint) -> Result
+{
+    Result result;
+    bool data_one = false;
+    const Handshake answer = device_.in(address_, endpoint, result.data, data_one);
+    result.stage = name_of(answer);
+    if (answer == Handshake::kAck) {
+        bool& expected = in_one_.at(endpoint);
+        if (data_one != expected) {
+            circuit_.violate("USB: a packet with the wrong toggle");
+        }
+        expected = !data_one;
+    }
+    return result;
+}
+
 bool UsbHost::send_packet()
 {
     if (outgoing_.empty()) {
@@ -125,28 +149,21 @@ bool UsbHost::send_packet()
     }
     const auto size = static_cast<std::ptrdiff_t>(std::min(kPacket, outgoing_.size()));
     const std::vector<std::uint8_t> packet{outgoing_.begin(), outgoing_.begin() + size};
-    if (device_.out(address_, kBulk, packet, out_one_) != Handshake::kAck) {
+    if (give(kBulk, packet) != "ack") {
         return false;
     }
-    out_one_ = !out_one_;
     outgoing_.erase(outgoing_.begin(), outgoing_.begin() + size);
     return true;
 }
 
 bool UsbHost::fetch_packet()
 {
-    std::vector<std::uint8_t> packet;
-    bool data_one = false;
-    if (mute_ || device_.in(address_, kBulk, packet, data_one) != Handshake::kAck) {
+    const Result packet = mute_ ? Result{} : fetch(kBulk);
+    if (packet.stage != "ack") {
         return false;
     }
-    if (data_one != in_one_) {
-        circuit_.violate("USB: a packet with the wrong toggle");
-        return true;
-    }
-    in_one_ = !in_one_;
-    buffer_.insert(buffer_.end(), packet.begin(), packet.end());
-    if (packet.size() == kPacket && buffer_.size() < kBuffer) {
+    buffer_.insert(buffer_.end(), packet.data.begin(), packet.data.end());
+    if (packet.data.size() == kPacket && buffer_.size() < kBuffer) {
         return true;
     }
     for (const std::uint8_t byte : buffer_) {
@@ -241,9 +258,10 @@ auto UsbHost::control(const Request& request, const std::function<void(Picosecon
     constexpr std::uint8_t kSetConfiguration = 9;
     constexpr std::uint8_t kClearFeature = 1;
     if (request.setup[0] == 0 && request.setup[1] == kSetConfiguration) {
-        out_one_ = in_one_ = false;
+        out_one_ = in_one_ = {};
     } else if (request.setup[0] == 2 && request.setup[1] == kClearFeature) {
-        (request.setup[4] == kBulk ? out_one_ : in_one_) = false;
+        const unsigned endpoint = request.setup[4];
+        ((endpoint & 0x80U) != 0 ? in_one_ : out_one_).at(endpoint & 3U) = false;
     }
     return {name_of(end), result.data};
 }

@@ -27,6 +27,10 @@ public:
     Result control(const Request& request, const std::function<void(Picoseconds)>& run);
     // The SETUP packet alone: the transfer is given up.
     void begin_only(const Request& request);
+    // One packet of another endpoint than 0, for whoever is the host in this one's place: ack, late where the device
+    // has or takes none now, stall, none.
+    std::string give(unsigned endpoint, const std::vector<std::uint8_t>& packet);
+    Result fetch(unsigned endpoint);
 
     void plug();
     void unplug();
@@ -75,8 +79,8 @@ private:
     std::vector<std::uint8_t> buffer_;
     unsigned address_{0};
     bool plugged_{false}, open_{false}, mute_{false}, asleep_{false}, working_{false};
-    bool out_one_{false}, in_one_{false};
-    bool refused_{false};  // both ways: until the device changes
+    std::array<bool, 4> out_one_{}, in_one_{};  // of each endpoint: the next packet is DATA1
+    bool refused_{false};                       // both ways: until the device changes
     Picoseconds slot_{kSlot};
     Picoseconds last_{0};
     Picoseconds suspend_at_{kNever};

@@ -136,9 +136,10 @@ class Lines(unittest.TestCase):
 
     def test_answers_of_any_length_arrive_at_once(self):
         with Plugged() as machine:
-            for length in range(64):
-                self.assertIn("ok", machine.ask(f"$N0=({'a' * length})"))
-                self.assertIn("ok", machine.ask("$N", 10))
+            for length in range(1, 65):
+                text = "A" * length
+                self.assertIn("ok", machine.ask(f"$I={text}"))
+                self.assertIn(f":{text}]", machine.ask("$I", 10))
 
     def test_a_link_waits_for_the_others_lines_but_its_realtime_bytes_act(self):
         with Plugged() as machine:
