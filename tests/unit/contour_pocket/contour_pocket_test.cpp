@@ -204,9 +204,9 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
                       finish.wall_clearance + finish.plan_tolerance, 1e-12);
         operation.passes.allowance = 0.3;
         DOUBLES_EQUAL(whole.wall_clearance,
-                      split_between_rough_and_finish(operation, whole).rough.wall_clearance, 0);
+                      split_between_rough_and_finish(pocket).rough.tolerances.wall_clearance, 0);
         DOUBLES_EQUAL(whole.plan_tolerance,
-                      split_between_rough_and_finish(operation, whole).finish.plan_tolerance, 0);
+                      split_between_rough_and_finish(pocket).finish.tolerances.plan_tolerance, 0);
     }
 }
 
