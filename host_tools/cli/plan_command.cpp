@@ -39,6 +39,7 @@ struct PlanArguments {
     PlanCall call;
     PlanFiles output;
     double blend{};  // in the job's units: G64 P; 0: the exact path
+    bool estimates_times{false};
     Resources resources;
     bool list_posts{};
     bool schema{false};
@@ -150,6 +151,7 @@ int run_plan(PlanArguments& options)
         PlanOptions common;
         common.title = (call.is_one_line() ? "" : "job ") + call.job_name();
         common.blend = options.blend;
+        common.runs_program = !options.estimates_times;
         plan_files(setups, common, options.output);
     }
     return kDone;
@@ -196,6 +198,10 @@ void add_controller_options(CLI::App& command, PlanArguments& options)
                     "let the controller round corners by this much, in the job's units (G64 P); "
                     "default: the exact path (G61)")
         ->check(CLI::NonNegativeNumber);
+    command.add_flag(
+        "--estimate-times", options.estimates_times,
+        "quicker: times are estimates by feeds and accelerations, not those of the program "
+        "run through the controller's core");
 }
 
 }  // namespace

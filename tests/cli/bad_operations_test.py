@@ -83,7 +83,7 @@ class BadOperations(unittest.TestCase):
     def said(self, status, operations, head=HEAD, post=""):
         (self.folder / "p.ngc").unlink(missing_ok=True)
         self.write("job.toml", head + operations)
-        call = [CUSP, "plan", "job.toml", "-o", "p.ngc"] + (["--post", post] if post else [])
+        call = [CUSP, "plan", "--estimate-times", "job.toml", "-o", "p.ngc"] + (["--post", post] if post else [])
         result = subprocess.run(call, cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT)
         self.assertEqual(status, result.returncode, f"{operations}: {result.stdout}")

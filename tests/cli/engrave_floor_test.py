@@ -81,7 +81,7 @@ class EngraveFloor(CuspCase):
     def judge(self, floor, height, tool, r, shifts=(), tolerance=0.004):
         self.write("floor.json", json.dumps(floor))
         self.write("job.toml", JOB + f"tool = {tool}\n")
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
         planned = json.loads((self.folder / "p.json").read_text())["operations"][0]
         self.assertAlmostEqual(0.004, planned["gouge_bound_mm"], delta=2e-4)  # and the rounding of positions
         moves = self.places()
@@ -118,7 +118,7 @@ class EngraveFloor(CuspCase):
     def test_a_ball_ended_taper_cuts_its_profile_on_a_level(self):
         level = JOB.replace('floor = ["floor.json"]\n', "top = 0\n").replace("bottom = -20", "top = 0")
         self.write("job.toml", level)
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc")
         self.assertIn("(tool 1 taper diameter 6 mm ball radius 0.5 mm tip angle 30)", (self.folder / "p.ngc").read_text())
         self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "p.ngc"))
         # the volume of 0.4 mm depth under a ball of 0.5 mm: its segment's area by the length

@@ -44,7 +44,7 @@ class LineCuts(CuspCase):
         self.write("lines.dxf", "0\nSECTION\n2\nENTITIES\n" + "".join(entities) + "0\nENDSEC\n0\nEOF\n")
         self.write("job.toml", HEAD.format(diameter=diameter) +
                    "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items()))
-        return self.cusp(status, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        return self.cusp(status, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
 
     def holds(self):
         self.cusp(0, "verify", "job.toml", "p.ngc")

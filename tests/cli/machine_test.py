@@ -54,9 +54,10 @@ class Machines(CuspCase):
         self.write("job.toml", JOB.format(tool=tool, feed=feed, cutting=cutting, length=length, operation=operation))
 
     def plan(self, status=0, *options):
-        return self.cusp(status, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json", *options)
+        return self.cusp(status, "plan", "job.toml", "-o", "p.ngc", *options)
 
     def seconds(self):
+        self.plan(0, "--stats", "p.json")
         return json.loads((self.folder / "p.json").read_text())["estimated_s"]
 
     def test_the_post_is_the_default(self):
@@ -138,13 +139,23 @@ class Machines(CuspCase):
 
     def test_times_are_those_of_the_machine(self):
         self.job(feed=3000, machine='name = "any"\n')
-        self.plan()
         usual = self.seconds()
         self.job(feed=3000, machine="acceleration = [20, 20, 20]\n")
-        self.plan()
-        self.assertGreater(self.seconds(), 1.3 * usual)
+        slow = self.seconds()
+        self.assertGreater(slow, 1.3 * usual)
         self.write("slow.settings", "".join(f"$12{k}=20\n" for k in range(3)))
-        self.assertAlmostEqual(self.sim_seconds("slow.settings"), self.seconds(), delta=0.02 * self.seconds())
+        self.assertAlmostEqual(self.sim_seconds("slow.settings"), slow, delta=0.02 * slow)
+
+    def test_estimated_times_are_near_those_of_the_controller_and_change_no_move(self):
+        self.job(feed=3000, machine='name = "any"\n')
+        run = self.seconds()
+        program = (self.folder / "p.ngc").read_text()
+        self.plan(0, "--stats", "p.json", "--estimate-times")
+        estimate = json.loads((self.folder / "p.json").read_text())
+        self.assertEqual(program, (self.folder / "p.ngc").read_text())
+        self.assertNotEqual(run, estimate["estimated_s"])
+        self.assertAlmostEqual(run, estimate["estimated_s"], delta=0.15 * run)
+        self.assertNotIn("air_s", estimate)
 
     def sim_seconds(self, settings):
         self.cusp(0, "sim", "p.ngc", "--settings", settings, "--stats", "sim.json")

@@ -64,7 +64,7 @@ class OneLine(unittest.TestCase):
         (self.folder / name).write_text(text)
 
     def plan(self, *arguments):
-        return subprocess.run([CUSP, "plan", *map(str, arguments)], cwd=self.folder, text=True,
+        return subprocess.run([CUSP, "plan", "--estimate-times", *map(str, arguments)], cwd=self.folder, text=True,
                               timeout=300, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def program(self, *arguments):

@@ -47,7 +47,7 @@ class OpenSides(CuspCase):
         drawing = "".join(polyline(name, points) for name, points in LAYERS.items())
         self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{drawing}0\nENDSEC\n0\nEOF\n")
         self.write("job.toml", JOB.format(layer=layer, keys=keys))
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
         self.cusp(0, "verify", "job.toml", "p.ngc", "--stats", "v.json")
         plan, verified = (json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json"))
         return plan["operations"][-1], verified

@@ -128,7 +128,7 @@ class SolidFeatures(unittest.TestCase):
     def plan(self, block, tools, *options):
         """The messages of planning a block, and its program, which cusp verifies by the printed job."""
         (self.folder / "part.step").write_text(block.step())
-        arguments = ("plan", "part.step", "--tool", *tools.words(), "--post", "linuxcnc", *options)
+        arguments = ("plan", "--estimate-times", "part.step", "--tool", *tools.words(), "--post", "linuxcnc", *options)
         done = self.run_cusp(*arguments, "-o", "p.ngc")
         (self.folder / "job.toml").write_text(self.run_cusp(*arguments, "--print-job").stdout)
         self.assertIn("all bounds hold", self.run_cusp("verify", "job.toml", "p.ngc").stdout)

@@ -58,7 +58,7 @@ class Solids(unittest.TestCase):
     def one_line(self, *arguments):
         """Plans a part without a job, verifies it by the printed job; what is said, and the program."""
         arguments = (*arguments, "--post", "linuxcnc")
-        said = self.run_cusp("plan", *arguments, "-o", "p.ngc")
+        said = self.run_cusp("plan", "--estimate-times", *arguments, "-o", "p.ngc")
         printed = subprocess.run([CUSP, "plan", *map(str, arguments), "--print-job"], cwd=self.folder, text=True,
                                  timeout=300, capture_output=True, check=True)
         (self.folder / "job.toml").write_text(printed.stdout)

@@ -72,7 +72,7 @@ class StockOutline(CuspCase):
 
     def planned(self, outline, layer, keys=ADAPTIVE):
         self.job(f'outline = "plate.dxf#{outline}"', layer, keys)
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
         self.cusp(0, "verify", "job.toml", "p.ngc", "--stats", "v.json")
         plan, verified = (json.loads((self.folder / f).read_text()) for f in ("p.json", "v.json"))
         return plan["operations"][-1], verified
@@ -107,7 +107,7 @@ class StockOutline(CuspCase):
         self.planned("bar", "flat")
         program = (self.folder / "p.ngc").read_text()
         self.job("x = [-40, 40]\ny = [-40, 40]", "flat")
-        self.cusp(0, "plan", "job.toml", "-o", "box.ngc", "--stats", "b.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "box.ngc", "--stats", "b.json")
         self.assertNotEqual(program, (self.folder / "box.ngc").read_text())
         # in the corners of the box the program of the bar goes down into stock, and leaves some
         self.assertIn("left", self.cusp(1, "verify", "job.toml", "p.ngc", "--stats", "v.json"))
@@ -122,7 +122,7 @@ class StockOutline(CuspCase):
         job = (self.folder / "job.toml").read_text()
         front = POCKET.format(layer="corner", keys=ADAPTIVE, depth=3)
         self.write("job.toml", job + front + '[[setup]]\nname = "front"\n[[setup]]\nname = "back"\nflip = "x"\n')
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
         area = None
         for name, depth in (("front", 3), ("back", 8)):
             plan = json.loads((self.folder / f"p-{name}.json").read_text())["operations"][-1]
@@ -152,7 +152,7 @@ class StockOutline(CuspCase):
                 ('outline = "plate.dxf#bar"\nmargin = 1', "inside", "stock: outline: is given beside margin")):
             with self.subTest(stock):
                 self.job(stock, layer)
-                said = self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
+                said = self.cusp(2, "plan", "--estimate-times", "job.toml", "-o", "p.ngc")
                 self.assertIn(words.format("plate.dxf"), said)
                 self.assertIn("job.toml:", said)
 

@@ -70,7 +70,7 @@ class Tours(CuspCase):
         """Where rapid moves end over what is cut next, in order, after the origin."""
         self.write("l.dxf", drawing(entities))
         self.write("job.toml", HEAD + f'[[operation]]\nstrategy = "{strategy}"\nboundary = "l.dxf#l"\ndepth = 1\n')
-        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.cusp(0, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--stats", "p.json")
         at, places, self.cuts = {"X": 0.0, "Y": 0.0}, [(0.0, 0.0)], []
         for line in (self.folder / "p.ngc").read_text().splitlines():
             words = re.findall(r"([XY])(-?[\d.]+)", re.sub(r"\(.*?\)", "", line))

@@ -55,7 +55,8 @@ struct PlanOptions {
     std::string name{"program"};
     double blend{};  // in the job's units: G64 P; 0: the exact path
     bool measures_engagement{
-        true};  // of operations that bound it: air, volume, time over the bound
+        true};                // of operations that bound it: air, volume, time over the bound
+    bool runs_program{true};  // for its times, by the controller's core; else they are estimates
 };
 
 // s of an operation.

@@ -54,7 +54,7 @@ void put_times(Planning& planning)
     for (const PathMeasure& measure : program.measures) {
         measured += measure.estimated_s;
     }
-    if (measured > kLongest) {
+    if (measured > kLongest || !planning.options.runs_program) {
         return;
     }
     planning.begin("timing the program");

@@ -48,7 +48,7 @@ def run(arguments):
 def judged(cusp, folder):
     """Plans the job and cuts it in memory. Returns the fault, or None, and the figures of `cusp verify`."""
     program = folder / "out.ngc"
-    planned = run([cusp, "plan", folder / "job.toml", "-o", program, "--stats", folder / "plan.json"])
+    planned = run([cusp, "plan", "--estimate-times", folder / "job.toml", "-o", program, "--stats", folder / "plan.json"])
     if planned.returncode:
         return "plan failed: " + planned.stdout[-2000:], {}
     verdict = run([cusp, "verify", folder / "job.toml", program, "--stats", folder / "verify.json"])

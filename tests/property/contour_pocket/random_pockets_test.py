@@ -37,7 +37,7 @@ def limit(job, key):
 def fault(cusp, job, folder):
     """The fault of the planned pocket; "" if there is none, None if the pocket is refused."""
     program, figures = folder / "pocket.ngc", folder / "verify.json"
-    planned = call(cusp, "plan", job, "-o", program, "--stats", folder / "plan.json")
+    planned = call(cusp, "plan", "--estimate-times", job, "-o", program, "--stats", folder / "plan.json")
     if planned.returncode == 2 and any(word in planned.stderr for word in REFUSALS):
         return None
     if planned.returncode != 0:

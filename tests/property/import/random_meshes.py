@@ -339,7 +339,7 @@ scallop = {scallop}
 floor_tolerance = {tolerance}
 """)
     begin = time.time()
-    run = subprocess.run([cusp, "plan", folder / "job.toml", "-o", folder / "part.ngc", "--stats", folder / "stats.json"],
+    run = subprocess.run([cusp, "plan", "--estimate-times", folder / "job.toml", "-o", folder / "part.ngc", "--stats", folder / "stats.json"],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     seconds = time.time() - begin
     if run.returncode != 0:

@@ -62,7 +62,7 @@ def judge(cusp, maker, seed, kind, folder):
     (folder / "part.toml").write_text(JOB.format(floor="part.step", **words))
     (folder / "mesh.toml").write_text(JOB.format(floor="mesh.stl", **words))
     begin = time.time()
-    plan = run(cusp, "plan", folder / "part.toml", "-o", folder / "part.ngc", "--stats", folder / "plan.json")
+    plan = run(cusp, "plan", "--estimate-times", folder / "part.toml", "-o", folder / "part.ngc", "--stats", folder / "plan.json")
     seconds = time.time() - begin
     if plan.returncode != 0:
         print(f"{what}: {plan.stdout.strip()}  BROKEN")

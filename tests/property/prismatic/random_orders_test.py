@@ -91,7 +91,7 @@ class RandomOrder:
 
 def fault(folder, two):
     """None of a job that is refused as it should be, "" of one that is planned soundly."""
-    done = subprocess.run([str(CUSP), "plan", "job.toml", "-o", "p.ngc"], cwd=folder, capture_output=True, text=True,
+    done = subprocess.run([str(CUSP), "plan", "--estimate-times", "job.toml", "-o", "p.ngc"], cwd=folder, capture_output=True, text=True,
                           timeout=600, check=False)
     if done.returncode == 2:
         named = re.search(r"operation \d|\[\[operation\]\]|boundary", done.stderr)

@@ -60,7 +60,7 @@ def planned(wall, folder):
               'h"\nstrategy = "drill"\ntop = -4\ndepth = 3\ntool = 2'),
              box("a", wall, wall.thick / 2, wall.thick / 2 + 11) + box("b", wall, -wall.thick / 2 - 11, -wall.thick / 2) +
              entity("CIRCLE", "h", (10, hole[0]), (20, hole[1]), (40, drill / 2)))
-    done = run(folder, "plan", "job.toml", "-o", "p.ngc")
+    done = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc")
     refused = "of stock that stands by then" in done.stderr and drill < 3  # it would begin 3 mm below the wall's top
     if done.returncode and not refused:
         return done.stderr[-300:]

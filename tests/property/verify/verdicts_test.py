@@ -130,7 +130,7 @@ def verify(folder, program):
 
 def sound(job, folder, seed):
     post = POSTS[seed % len(POSTS)]
-    planned = run(folder, "plan", "job.toml", "-o", "p.ngc", "--post", post)
+    planned = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--post", post)
     if planned.returncode == 2 and any(text in planned.stderr + planned.stdout for text in ("no room", "has no G2 and G3")):
         return None
     if planned.returncode:
@@ -293,7 +293,7 @@ class Plant:
 def planted(job, folder):
     job.folder = folder
     original = (folder / "job.toml").read_text()
-    done = run(folder, "plan", "job.toml", "-o", "p.ngc")
+    done = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc")
     if done.returncode:
         return f"plan: {done.stderr[-300:]}"
     lines = (folder / "p.ngc").read_text().splitlines()

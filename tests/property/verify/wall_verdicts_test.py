@@ -312,7 +312,7 @@ def main():
         folder = pathlib.Path(tempfile.mkdtemp(prefix=f"walls-{seed}-"))
         job = Job(seed)
         job.write(folder)
-        done = run(folder, "plan", "job.toml", "-o", "p.ngc", "--post", job.post)
+        done = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--post", job.post)
         found, count = "", 0
         if done.returncode:
             found = "" if done.returncode == 2 and re.search("no room|fits nowhere", done.stderr) else done.stderr[-400:]
