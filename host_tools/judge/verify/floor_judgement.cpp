@@ -240,6 +240,7 @@ void find_thickest(const FloorQuestion& q,
 
 struct Sums {
     std::size_t part{};
+    std::size_t owed{};
     std::size_t unreachable{};
     std::size_t uncovered{};
     double total{};
@@ -322,8 +323,10 @@ void fill_figures(const FloorQuestion& q,
     };
     figures.cells = cells;
     figures.unreachable_share = share(sums.unreachable, sums.part);
-    figures.uncut_share = cells > 0 ? 1 - share(sums.seen.size(), cells) : 1.0;
-    figures.uncovered_share = cells > 0 ? share(sums.uncovered, cells) : 1.0;
+    // Slopes and heights may leave nothing that is owed; ground that is owed and can't be judged is open.
+    const double without_cells = sums.part > 0 && sums.owed == 0 ? 0.0 : 1.0;
+    figures.uncut_share = cells > 0 ? 1 - share(sums.seen.size(), cells) : without_cells;
+    figures.uncovered_share = cells > 0 ? share(sums.uncovered, cells) : without_cells;
     if (sums.seen.empty()) {
         return;
     }
@@ -395,7 +398,9 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         }
         const bool reached = clear[k] >= radius;
         sums.unreachable += reached && ideal.unfit[k] != 0 ? 1U : 0U;
-        if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0) || !is_owed(q, part, k)) {
+        const bool owed = is_owed(q, part, k);
+        sums.owed += owed ? 1U : 0U;
+        if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0) || !owed) {
             continue;
         }
         // uncut stock within the bound needs no cut

@@ -162,6 +162,17 @@ TEST(Verify, MeasuresThePathThatIsTooLow)
     CHECK(!result.broken.empty());
 }
 
+TEST(Verify, MissesNothingWhereNoGroundIsOwed)
+{
+    const std::string high = passes(-4.5, 1);
+    const Verification steep = verdict(high, "slopes = [60, 90]\n");
+    LONGS_EQUAL(0, steep.figures.cells);
+    LONGS_EQUAL(0, steep.broken.size());
+    LONGS_EQUAL(0, verdict(high, "heights = [-4, -1]\n").broken.size());
+    DOUBLES_EQUAL(1, verdict(high, "slopes = [0, 60]\n").figures.uncovered_share, 1e-6);
+    DOUBLES_EQUAL(1, verdict(high, "heights = [-6, -1]\n").figures.uncovered_share, 1e-6);
+}
+
 // With so many points some remain undecided.
 TEST(Verify, TellsAProgramThatLeavesMuchEverywhere)
 {
