@@ -241,6 +241,7 @@ void find_thickest(const FloorQuestion& q,
 struct Sums {
     std::size_t part{};
     std::size_t owed{};
+    std::size_t cells{};  // that are judged
     std::size_t unreachable{};
     std::size_t uncovered{};
     double total{};
@@ -315,12 +316,12 @@ void fill_figures(const FloorQuestion& q,
                   const Ideal& ideal,
                   const std::vector<double>& left,
                   const Sums& sums,
-                  std::size_t cells,
                   VerifyFigures& figures)
 {
     const auto share = [](std::size_t part, std::size_t whole) {
         return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
     };
+    const std::size_t cells = sums.cells;
     figures.cells = cells;
     figures.unreachable_share = share(sums.unreachable, sums.part);
     // Slopes and heights may leave nothing that is owed; ground that is owed and can't be judged is open.
@@ -383,7 +384,6 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         settle_doubts(q, part, clear, ideal);
     }
     Sums sums;
-    std::size_t cells = 0;
     double wall_left = -kInfinite;
     for (std::size_t k = 0; k < q.grid.size(); ++k) {
         if (!std::isfinite(part.z[k]) || std::isnan(q.cut[k])) {
@@ -411,7 +411,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
             wall_left = std::max(wall_left, left[k]);
             continue;
         }
-        ++cells;
+        ++sums.cells;
         sums.uncovered += left[k] <= bound ? 0U : 1U;
         if (done) {
             sums.seen.push_back(k);
@@ -427,7 +427,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     if (q.scallop) {
         find_thickest(q, ideal, clear, left, figures);
     }
-    fill_figures(q, part.z, ideal, left, sums, cells, figures);
+    fill_figures(q, part.z, ideal, left, sums, figures);
     fill_beyond_walls(q, clear, part);
     return {std::move(left), std::move(gouge), std::move(part.z)};
 }
