@@ -132,6 +132,11 @@ class BadOperations(unittest.TestCase):
         # in a job with other operations, too
         self.refused("fits nowhere", operation("pocket", "pocket", depth=2) + operation("pocket", "slot", depth=2))
 
+    def test_a_scallop_that_hulls_do_not_bound(self):
+        hulls = {"floor": '["plane.json"]', "max_depth": 2}
+        self.refused("scallop", operation("hull_rough", **hulls, scallop=0.1))
+        self.said(0, operation("hull_rough", **hulls))
+
     def test_a_corner_that_no_tool_enters(self):
         self.warned(r"tool 1 .*does not reach .* x [\d.]+ y [\d.]+", operation("profile", "notched", depth=2))
 
