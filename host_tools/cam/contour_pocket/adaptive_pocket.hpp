@@ -8,8 +8,9 @@
 
 namespace cusp::contour_pocket {
 
-// Plans a pocket with clearing = "adaptive"; where it is open its region grows by the air beside the stock. All layers have the same passes; the last one is
-// on the floor, and nothing is left for a finish.
+// Plans a pocket with clearing = "adaptive"; where it is open its region grows by the air beside the
+// stock. All layers have the same passes; the last one is on the floor, and nothing is left for a
+// finish.
 //
 // Precondition: the floor is level (job/level_floor.hpp).
 //

@@ -2,6 +2,7 @@
 #include "host_tools/job/import/geometry_json.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
@@ -183,7 +184,9 @@ Json parsed(const std::string& file)
     try {
         return Json::parse(files::text_of_file(file));
     } catch (const Json::exception& error) {
-        throw InputError(fmt::format("{}: not JSON: {}", file, error.what()));
+        // After "[json.exception.parse_error.101] ".
+        const std::string_view said = error.what();
+        throw InputError(fmt::format("{}: not JSON: {}", file, said.substr(said.find("] ") + 2)));
     }
 }
 
