@@ -128,6 +128,7 @@ TEST(PartInfo, WhatIsNoPartIsRefused)
     STRCMP_CONTAINS("can't be read",
                     refusal([&] { inspected(folder.file("gone.stl"), millimetres); }).c_str());
     STRCMP_CONTAINS("no STL", refusal([&] { of("a.stl", ""); }).c_str());
-    STRCMP_CONTAINS("a.json: not JSON: parse error at line 1", refusal([&] { of("a.json", "{"); }).c_str());
+    STRCMP_CONTAINS("a.json: not JSON: parse error at line 1",
+                    refusal([&] { of("a.json", "{"); }).c_str());
     STRCMP_CONTAINS("holds no curve", refusal([&] { of("a.dxf", drawing("")); }).c_str());
 }
