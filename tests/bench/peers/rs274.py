@@ -4,8 +4,9 @@
 usage: rs274.py CUSP [--seeds N] [--first SEED] [--folder DIR] [--keep DIR] [--plant]
 
 Random programs (--seeds, one each) have lines, arcs by centre and radius in all planes, full circles, cycles
-with all their words, both units, G90 G91 G90.1, offsets (G10, G52, G92, G54 to G59.3, G43, G43.1), G28, G30,
-G53, comments and line numbers; now and then a line that must be refused. --folder takes the *.ngc of a folder
+with all their words, both units, G90 G91 G90.1, G93, offsets (G10, G52, G92, G54 to G59.3, G43, G43.1), G28, G30,
+G53, G4, M and T words, comments of any bytes, line numbers and `%`, numbers as people write them; now and then a
+line that must be refused. --folder takes the *.ngc of a folder
 and of those in it. Compared are the machine's end, the length of the way, and the first refused line: cusp
 stops at one, as rs274 does. What differs on purpose (docs/gcode.md, LinuxCNC) the random programs leave out.
 Debian: apt-get install --no-install-recommends linuxcnc-uspace.
@@ -46,12 +47,14 @@ class RandomProgram:
         self.at = [1.0, 2.0, 12.0]
         steps = (self.rapid, self.line, self.line, self.arc, self.arc, self.circle, self.cycle, self.cycle,
                  self.unit, self.distance, self.centres, self.select_plane, self.offset, self.home, self.machine_line,
-                 self.comment, self.feed)
+                 self.comment, self.feed, self.inverse_time, self.auxiliary)
         for _ in range(self.chance.randint(4, 22)):
             self.chance.choice(steps)()
         if self.chance.random() < 0.15:
             self.add(self.chance.choice(self.REFUSED))
         self.lines.append(self.chance.choice(("M2", "M30")))
+        if self.chance.random() < 0.15:
+            self.lines = ["%", *self.lines, "%", "G0 X77"]  # which neither reads
 
     REFUSED = ("G1 X1 X2", "G80 X5", "G17 G2 X5 R0.1", "G0 G1 X1", "G81 X1 Z-1 R1 L0", "G83 X1 Z-1 R1", "G17 G2 X3",
                "G17 G18", "G1 X1 Q3", "G80 G82 X1 Z-1 R1", "G93 G1 X2", "G89 X1 Z-1 R1", "G73 X1 Z-1 R2", "G17 G2 R5",
@@ -63,7 +66,10 @@ class RandomProgram:
             self.number += self.chance.randint(1, 10)
             words.insert(0, f"N{self.number}" + self.chance.choice(("", "", ".5")))
         if self.chance.random() < 0.1:
-            words.insert(self.chance.randint(1, len(words)), "(of X9 or G0)")
+            words.insert(self.chance.randint(1, len(words)), self.chance.choice((
+                "(of X9 or G0)", "(\xd8 6 \xb1 0.1 %, \x7f;G1 X9)", "()", "(90\xb0 ! ~ ? M30)")))
+        if self.chance.random() < 0.05:
+            words.append("; M30 \xb5 (X9")
         text = self.chance.choice((" ", " ", "")).join(words)
         self.lines.append(text.lower() if self.chance.random() < 0.1 else text)
 
@@ -71,7 +77,17 @@ class RandomProgram:
         return mm / 25.4 if self.inches else mm
 
     def text(self, value):
-        return f"{value:.{5 if self.inches else 4}f}"
+        text = f"{value:.{5 if self.inches else 4}f}"
+        way = self.chance.random()
+        if way < 0.1:
+            text = text.rstrip("0")
+        elif way < 0.15 and value > 0:
+            text = "+" + text
+        elif way < 0.2:
+            text = text.replace("0.", ".", 1) if abs(value) < 1 else "-00" + text[1:] if value < 0 else "0" + text
+        elif way < 0.23:
+            text = " " + text[:2] + " " + text[2:]
+        return text
 
     def words(self, place):
         """Words that lead to {axis: program coordinate}."""
@@ -79,7 +95,8 @@ class RandomProgram:
         for axis, value in place.items():
             shown = self.text(value - self.at[axis] if self.incremental else value)
             words.append(AXES[axis] + shown)
-            self.at[axis] = self.at[axis] + float(shown) if self.incremental else float(shown)
+            shown = float(shown.replace(" ", ""))
+            self.at[axis] = self.at[axis] + shown if self.incremental else shown
         return words
 
     def somewhere(self):
@@ -94,6 +111,21 @@ class RandomProgram:
 
     def feed(self):
         self.add(f"F{self.length(self.chance.uniform(300, 3000)):.1f}")
+
+    def inverse_time(self):
+        """G93, F in each line that feeds."""
+        lines = [f"G1 {' '.join(self.words(self.somewhere()))} F{self.chance.uniform(5, 60):.2f}"
+                 for _ in range(self.chance.randint(1, 3))]
+        self.add("G93", lines[0])
+        for line in lines[1:]:
+            self.add(line)
+        self.add("G94", f"F{self.length(900):.1f}")
+
+    def auxiliary(self):
+        self.add(self.chance.choice(("M7", "M8", "M9", "M7 M8", "M4 S500", "S2000 M3", "M5", "G4 P0.1", "T1", "G40", "G97",
+                                     "G80", "G64", "G61 M9", "M1", "M3 S100 G4 P0", "T1 S300 F500")))
+        if "M5" in self.lines[-1].upper():
+            self.add("M3 S900")  # G86 needs it
 
     def comment(self):
         self.add("(a comment with G1 X99)")
@@ -158,7 +190,7 @@ class RandomProgram:
                     heights.append("Q" + self.text(self.length(self.chance.uniform(0.5, 4))))
                 if name in ("G82", "G86", "G89"):
                     heights.append(self.chance.choice(("P0", "P0.1")))
-            steps = {axis: float(self.text(value - self.at[axis])) for axis, value in place.items()}
+            steps = {axis: round(value - self.at[axis], 5 if self.inches else 4) for axis, value in place.items()}
             out = [f"L{repeats}"] if repeats else []
             spoken = self.words(place)
             if repeats and self.incremental:
