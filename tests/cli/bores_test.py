@@ -110,6 +110,17 @@ class Bores(CuspCase):
             self.write("job.toml", text)
             self.assertIn("broken", self.cusp(1, "verify", "job.toml", "p.ngc"), name)
 
+    def test_a_wall_within_another_hole_is_none(self):
+        draw = random.Random(256)
+        for _ in range(8):
+            wide, apart, turn = draw.uniform(6.2, 11), draw.uniform(2, 5), draw.uniform(0, 2 * math.pi)
+            self.job([(50, 50, 8), (50 + apart * math.cos(turn), 50 + apart * math.sin(turn), wide)], {"depth": 4})
+            self.planned()
+            self.holds()
+        sound = self.program()
+        self.write("p.ngc", re.sub(r"(?m)^G0", "G10 L2 P1 X0.3\nG0", sound, count=1))
+        self.assertIn("wall_gouge_max_mm 0.3", self.cusp(1, "verify", "job.toml", "p.ngc"))
+
     def test_holes_without_room_are_left_out_or_refused(self):
         self.job([(20, 20, 6), (60, 60, 9), (80, 80, 3)], {"depth": 6})
         self.assertEqual(2, self.planned().count("is narrower than tool 1"))

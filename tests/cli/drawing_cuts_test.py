@@ -154,6 +154,22 @@ class DrawingCuts(CuspCase):
         self.assertIn("G0 Z-3\n", program)  # 1 mm over the level before, without a descent through air
         self.holds()
 
+    def test_an_arm_hardly_wider_than_the_tool_is_owed_where_the_tolerance_leaves_room(self):
+        draw = random.Random(48)
+        for _ in range(12):
+            wide, tolerance = 3 + draw.choice((0.01, 0.03, 0.05)), draw.choice((0.02, 0.05))
+            x, y = draw.uniform(-8, 8), draw.uniform(-8, 8)
+            self.write("plate.dxf", drawing(polygon("arm", [
+                (x, y), (x + 16, y), (x + 16, y + 9), (x + wide, y + 9), (x + wide, y + 20), (x, y + 20)])))
+            self.planned(operation("pocket", "arm", depth=1.5, tool="3mm flat", plan_tolerance=tolerance))
+            self.holds()
+        self.write("plate.dxf", drawing(polygon("arm", [(0, 0), (16, 0), (16, 9), (3.2, 9), (3.2, 20), (0, 20)])))
+        self.planned(operation("pocket", "arm", depth=1.5, tool="3mm flat"))
+        self.holds()
+        program = (self.folder / "p.ngc").read_text()
+        self.write("p.ngc", re.sub(r"Y1[3-9]\.?\d*", "Y13", program))
+        self.assertRegex(self.cusp(1, "verify", "job.toml", "p.ngc"), r"(left|wall_stock_max_mm) .* y 1[4-9]")
+
     def test_an_entry_into_a_narrow_hole_is_a_helix_of_arcs(self):
         for strategy in ("pocket", "profile"):
             for layer in ("hole", "wider"):

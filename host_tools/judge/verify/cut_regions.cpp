@@ -9,6 +9,7 @@
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
+#include "host_tools/job/job/chamfer_tip.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 #include "host_tools/job/job/thread.hpp"
@@ -340,6 +341,20 @@ RegionAt CutRegion::hole_at(double x, double y) const
             tip + profile_height(tool, std::clamp(beyond + tool.radius, 0.0, tool.radius))};
 }
 
+// The groove of a cone whose tip runs beside the edge: its inner flank breaks the edge, its outer one rises again.
+RegionAt CutRegion::beside_edge_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    const Tool& tool = operation_->tool;
+    const double slope = 1 / elementary::tan(tool.tip_angle / 2);
+    const double away = tool.tip_radius + job::kChamferTip;
+    const double inward = into_material(x, y);
+    const double from_tip = std::clamp(std::abs(inward + away), 0.0, tool.radius);
+    return {std::min(cut.width - inward, away + tool.radius + inward),
+            cut.top - (cut.width + job::kChamferTip) * slope + profile_height(tool, from_tip), 0.0,
+            operation_->tolerance.plan * slope, 0.0};
+}
+
 // Flanks of the vee rise to the outlines. The tip's flat leaves no more beside the axis than its
 // radius over the slope.
 RegionAt CutRegion::carved_at(double x, double y) const
@@ -401,11 +416,7 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
         return engraved_at(x, y);
     }
     if (operation_->cuts(job::Region::kEdges)) {
-        const double inward = into_material(x, y);
-        const double slope = 1 / elementary::tan(operation_->tool.tip_angle / 2);
-        return {std::min(cut.width - inward, 2 * radius + inward),
-                cut.top - (cut.width - inward) * slope, 0.0, operation_->tolerance.plan * slope,
-                0.0};
+        return beside_edge_at(x, y);
     }
     return {cap_, bottom};  // face
 }

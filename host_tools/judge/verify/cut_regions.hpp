@@ -59,6 +59,7 @@ private:
     RegionAt profile_at(double x, double y) const;
     RegionAt ring_at(double x, double y) const;
     RegionAt hole_at(double x, double y) const;
+    RegionAt beside_edge_at(double x, double y) const;
     RegionAt carved_at(double x, double y) const;
     RegionAt engraved_at(double x, double y) const;
 

@@ -152,9 +152,11 @@ private:
                 room[k] = region.room(x(k), y(k));
             }
         });
+        // Between walls that are wider than the tool by less than twice the tolerance no path need be found.
+        const double sure = radius + operation.tolerance.plan;
         std::vector<char> centres(q_.grid.size());
         for (std::size_t k = 0; k < room.size(); ++k) {
-            centres[k] = room[k] >= radius ? 1 : 0;
+            centres[k] = room[k] >= sure ? 1 : 0;
         }
         const std::vector<double> away = distances_from(centres, q_.grid);
         const double reach = std::max(0.0, flat_radius(operation.tool) - 2 * pitch);
@@ -228,6 +230,7 @@ private:
         std::vector<char> tops(high.size(), 0);
         std::vector<std::size_t> of_tabs;
         const std::ptrdiff_t near = points_between_slivers(region.operation().tool.radius);
+        int standing = 0;
         for (std::size_t k = 0; k < open.size(); ++k) {
             if (open[k] == 0) {
                 continue;
@@ -241,29 +244,54 @@ private:
             }
             if (std::abs(highest - full) <= q_.floor_tolerance &&
                 extent_of(island) >= cut.tabs->width / 2) {
-                ++figures_.tabs_standing;
+                ++standing;
                 for (const std::size_t at : island) {
                     tops[at] = std::abs(q_.cut[at] - full) <= q_.floor_tolerance ? 1 : 0;
                     of_tabs.push_back(at);
                 }
             }
         }
+        const std::vector<double> away = distances_from(tops, q_.grid);
         if (!of_tabs.empty()) {
-            const std::vector<double> away = distances_from(tops, q_.grid);
             const double foot = tab_foot(region.operation());
             for (const std::size_t at : of_tabs) {
                 high[at] = away[at] <= foot ? 0 : high[at];
             }
         }
-        std::vector<char> loops(cut.loops.size(), 0);
+        const int wanted = cut.tabs->count > 0 ? loops_at(region, here) * cut.tabs->count
+                                               : static_cast<int>(cut.tabs->places.size());
+        figures_.tabs_standing += standing;
+        figures_.tabs_wanted += wanted;
+        const bool judged = std::find(here.begin(), here.end(), 1) != here.end();
+        if (standing < wanted && judged && !figures_.lost_tab) {
+            figures_.lost_tab = {
+                region.operation().number, region.operation().name(), {farthest(here, away), 0, 0}};
+        }
+    }
+
+    // Loops of the operation that have points of those.
+    int loops_at(const CutRegion& region, const std::vector<char>& here) const
+    {
+        std::vector<char> loops(region.operation().prismatic->loops.size(), 0);
         for (std::size_t k = 0; k < here.size(); ++k) {
             if (here[k] != 0) {
                 loops[region.nearest_loop(x(k), y(k))] = 1;
             }
         }
-        const auto cut_loops = std::count(loops.begin(), loops.end(), 1);
-        figures_.tabs_wanted += cut.tabs->count > 0 ? static_cast<int>(cut_loops) * cut.tabs->count
-                                                    : static_cast<int>(cut.tabs->places.size());
+        return static_cast<int>(std::count(loops.begin(), loops.end(), 1));
+    }
+
+    // Of the points `here` the place of the one that is farthest away.
+    Vec3d farthest(const std::vector<char>& here, const std::vector<double>& away) const
+    {
+        std::size_t best = 0;
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            if (here[k] != 0 && !std::isnan(q_.cut[k]) &&
+                (here[best] == 0 || away[k] > away[best])) {
+                best = k;
+            }
+        }
+        return {x(best), y(best), q_.cut[best]};
     }
 
     // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.

@@ -11,15 +11,18 @@ using job::Job;
 
 namespace {
 
-std::string words_of(const std::optional<FaultPlace>& at)
+std::string words_of(const FaultPlace& at)
 {
-    if (!at) {
-        return "";
-    }
-    const std::string by = at->line > 0 ? fmt::format(" by tool {}", at->tool) : "";
-    const std::string line = at->line > 0 ? fmt::format(", line {},", at->line) : "";
-    return fmt::format("{} at x {:.3f} y {:.3f} z {:.3f}{}", by, at->place.x, at->place.y,
-                       at->place.z, line);
+    const std::string by = at.line > 0 ? fmt::format(" by tool {}", at.tool) : "";
+    const std::string line = at.line > 0 ? fmt::format(", line {}", at.line) : "";
+    return fmt::format("{} at x {:.3f} y {:.3f} z {:.3f}{}", by, at.place.x, at.place.y, at.place.z,
+                       line);
+}
+
+// Amid a sentence.
+std::string words_between(const std::optional<FaultPlace>& at)
+{
+    return at ? words_of(*at) + (at->line > 0 ? "," : "") : "";
 }
 
 // The move that cuts lowest over a place; the first of those alike.
@@ -72,7 +75,7 @@ void judge(const Job& job, std::optional<double> scallop, Verification& result)
                            const std::optional<FaultPlace>& at = std::nullopt) {
         if (value && !(*value <= limit)) {
             result.broken.push_back(
-                fmt::format("{} {:.4g}{} is over {:.4g}", name, *value, words_of(at), limit));
+                fmt::format("{} {:.4g}{} is over {:.4g}", name, *value, words_between(at), limit));
         }
     };
     bound("gouge_max_mm", f.gouge_max, bounds.floor_tolerance + kJudgement, f.gouge_at);
@@ -102,8 +105,13 @@ void judge(const Job& job, std::optional<double> scallop, Verification& result)
               f.wall_stock->at);
     }
     if (f.tabs_standing != f.tabs_wanted) {
+        const std::string lost =
+            f.lost_tab
+                ? fmt::format(": one of operation {} ({}) is cut away{}", f.lost_tab->operation,
+                              f.lost_tab->strategy, words_of(f.lost_tab->at))
+                : "";
         result.broken.push_back(
-            fmt::format("tabs: {} found, {} expected", f.tabs_standing, f.tabs_wanted));
+            fmt::format("tabs: {} found, {} expected{}", f.tabs_standing, f.tabs_wanted, lost));
     }
     if (scallop) {
         bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
@@ -130,6 +138,9 @@ void find_fault_places(const std::vector<ToolPositions>& runs, Verification& res
     }
     if (f.wall_gouge_at && f.wall_gouge_at->line == 0) {
         f.wall_gouge_at = cut_at(runs, f.wall_gouge_at->place);
+    }
+    if (f.lost_tab) {
+        f.lost_tab->at = cut_at(runs, f.lost_tab->at.place);
     }
 }
 

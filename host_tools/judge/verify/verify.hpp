@@ -49,6 +49,13 @@ struct FaultPlace {
     int tool{};            // its number
 };
 
+// A profile of which a tab is cut away, and where one is missing: as far from those that stand as there is.
+struct LostTab {
+    int operation;
+    std::string strategy;
+    FaultPlace at;
+};
+
 // Stock left beside a wall of a 2.5-D operation, or how far the tool leaves the curve that it has to follow.
 struct WallStock {
     double thickness{};  // mm, square to the wall
@@ -117,6 +124,7 @@ struct VerifyFigures {
     std::optional<WallStock> wall_stock;  // the thickest over the tolerance
     int tabs_standing{};
     int tabs_wanted{};
+    std::optional<LostTab> lost_tab;  // of the first operation that has fewer than it should
     // The thinnest floor over a cut of the other side, of a stock that was turned over.
     std::optional<FloorBetweenSides> between_sides;
     std::optional<EngagementFigures> engagement;  // if requested

@@ -25,7 +25,7 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kSpare = 0.02;    // mm: of the room that a tool needs
+constexpr double kSpare = 0.02;    // mm: of the room that a tool needs, at least
 constexpr double kStep = 0.1;      // mm along the wall
 constexpr double kSquare = 2.0;    // mm: side of a square of moves
 constexpr double kThickest = 1.0;  // mm: stock that is thicker is a pass that is missing
@@ -262,8 +262,10 @@ public:
     {
         const int number = on_curves_ ? operation_.tool.number : 0;
         const bool on_surfaces = on_curves_ && !operation_.part.floor.empty();
+        const double deep_enough = highest_tip(z);
         const MovesBelow moves{q_.cuts, on_surfaces ? kUnbounded : z, [&](const EarlierCut& cut) {
-                                   return number == 0 || cut.tool.number == number;
+                                   return (number == 0 || cut.tool.number == number) &&
+                                          std::min(cut.from.z, cut.to.z) <= deep_enough;
                                }};
         const double stands = on_surfaces ? -kUnbounded / 2 : z - kSpare;
         for_each_place(lines_, [&](Vec2d place, Vec2d left) {
@@ -317,6 +319,13 @@ private:
         }
     }
 
+    // z of the highest tip that counts: what passes at the height of an edge breaks it as little as a facing move.
+    double highest_tip(double z) const
+    {
+        return operation_.cuts(job::Region::kEdges) ? (z + judged_height(operation_, 0)) / 2
+                                                    : kUnbounded;
+    }
+
     // mm: an edge keeps its chamfer at most. Stock beside other walls, where no move comes near, stands on a floor,
     // which is judged by its points.
     double most_that_stays(bool uncut) const
@@ -330,9 +339,10 @@ private:
     double room_needed() const
     {
         const Tool& tool = operation_.tool;
-        return kSpare + (operation_.cuts(job::Region::kValleys) ? tool.tip_radius
-                         : operation_.cuts(job::Region::kEdges) ? tool.tip_radius + job::kChamferTip
-                                                                : tool.radius);
+        return std::max(kSpare, operation_.tolerance.plan) +
+               (operation_.cuts(job::Region::kValleys) ? tool.tip_radius
+                : operation_.cuts(job::Region::kEdges) ? tool.tip_radius + job::kChamferTip
+                                                       : tool.radius);
     }
 
     // mm from the loop to the places that are judged: of a chamfer the upper edge, which no other operation cuts.
@@ -376,6 +386,10 @@ private:
             return;
         }
         const bool is_out = region_.around(place + kSpare * left).inside < 0;
+        if (operation_.cuts(job::Region::kHoles) && !is_out &&
+            region_.around(place - kSpare * left).inside >= 0) {
+            return;  // in another hole of the operation
+        }
         const Vec2d way = (is_out ? reach : -reach) * left;
         const std::vector<const CutRegion*> open = open_at(place, z);
         double depth = 0;
