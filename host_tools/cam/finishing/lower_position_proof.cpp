@@ -1,39 +1,75 @@
-// Directions that no contact blocks are divided. If one stays open, the ball is dropped from
-// there to find the contact that is missing.
+// Directions that no facet blocks are divided. From one that stays open the ball is dropped, to find the
+// facet that is missing.
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "host_tools/geometry/drop_cutter/approach_directions.hpp"
+#include <functional>
 
 namespace cusp::finishing {
 
-using drop_cutter::ApproachDirections;
+using part_model::Facet;
 
 namespace {
 
-constexpr std::size_t kMostParts = 150;  // of the directions; then a search is quicker
-constexpr int kMostDrops = 3;
+constexpr std::size_t kMostParts = 600;  // of the directions; then a search is quicker
+constexpr int kMostDrops = 20;
 constexpr std::size_t kMostBlocks = 100'000;  // 40 MB
 constexpr double kLeastRise = 0.05;           // of a unit vector
+constexpr double kLeastSide = 1e-5;           // rad, of a part
+
+using Triangle = BlockingFacets::Triangle;
+using Direction = BlockingFacets::Direction;
+
+Vec3d unit(Vec3d a) { return a / norm(a); }
 
 // Eight parts, around `towards`, of the half sphere of vectors that do not point down.
-std::array<ApproachDirections::Triangle, 8> fan(Vec3d towards)
+std::vector<Triangle> fan(Vec3d towards)
 {
     constexpr double kEighth = 0.70710678118654752;  // of a turn: its sine and cosine
     const double rise = std::max(towards.z, kLeastRise * norm(towards));
-    const Vec3d raised{towards.x, towards.y, rise};
-    std::array<ApproachDirections::Triangle, 8> out;
-    Vec3d horizontal{1, 0, 0};
-    for (ApproachDirections::Triangle& part : out) {
-        const Vec3d next{kEighth * (horizontal.x - horizontal.y),
-                         kEighth * (horizontal.x + horizontal.y), 0};
-        part = {raised / norm(raised), horizontal, next};
+    const Vec3d raised = unit({towards.x, towards.y, rise});
+    std::vector<Triangle> out;
+    const Vec3d first{1, 0, 0};
+    Vec3d horizontal = first;
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d next = k == 7 ? first
+                                  : Vec3d{kEighth * (horizontal.x - horizontal.y),
+                                          kEighth * (horizontal.x + horizontal.y), 0};
+        out.push_back({Direction{raised}, Direction{horizontal}, Direction{next}});
         horizontal = next;
     }
-    out.back()[2] = out.front()[1];
     return out;
+}
+
+double square(Vec3d a) { return dot(a, a); }
+
+// The longest side, by the corner opposite to it, of those whose ends no facet blocks both; of all if one
+// blocks the ends of each.
+std::size_t side_to_divide(const Triangle& part)
+{
+    std::size_t best = 0;
+    double longest = -1;
+    bool apart = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Direction& a = part[(k + 1) % 3];
+        const Direction& b = part[(k + 2) % 3];
+        const bool is_apart = (a.by & b.by).none();
+        const double length = square(a.along - b.along);
+        if ((is_apart && !apart) || (is_apart == apart && length > longest)) {
+            best = k;
+            longest = length;
+            apart = is_apart;
+        }
+    }
+    return best;
+}
+
+// The order is that of the model's facets.
+void keep_distinct(std::vector<const Facet*>& facets)
+{
+    std::sort(facets.begin(), facets.end(), std::less<>{});
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
 }
 
 }  // namespace
@@ -56,47 +92,49 @@ const LowerPositionProof::Block& LowerPositionProof::block(std::int64_t i, std::
     if (!is_new) {
         return at->second;
     }
-    const auto alike = [](Vec3d a, Vec3d b) {
-        return a.x == b.x && a.y == b.y && a.z == b.z;
-    };
     for (std::int64_t k = 0; k < kSide * kSide; ++k) {
         const auto rest = path_fitter_.model().drop_ball(
             (static_cast<double>(i * kSide + k / kSide) + 0.5) * pitch_,
             (static_cast<double>(j * kSide + k % kSide) + 0.5) * pitch_, contact_radius_);
-        if (rest && std::none_of(at->second.begin(), at->second.end(),
-                                 [&](Vec3d known) { return alike(known, rest->point); })) {
-            at->second.push_back(rest->point);
+        if (rest) {
+            at->second.push_back(rest->facet);
         }
     }
+    keep_distinct(at->second);
     return at->second;
 }
 
-LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d centre)
+LowerPositionProof::Block LowerPositionProof::facets_near(Vec3d point)
 {
     const double side = static_cast<double>(kSide) * pitch_;
     const auto i = static_cast<std::int64_t>(std::floor(point.x / side));
     const auto j = static_cast<std::int64_t>(std::floor(point.y / side));
-    ApproachDirections directions{point, radius_, contact_radius_};
+    Block out;
     for (std::int64_t k = 0; k < 9; ++k) {
-        for (const Vec3d& contact : block(i + k / 3 - 1, j + k % 3 - 1)) {
-            directions.add(contact);
-        }
+        const Block& some = block(i + k / 3 - 1, j + k % 3 - 1);
+        out.insert(out.end(), some.begin(), some.end());
     }
-    const auto whole = fan(centre - point);
-    std::vector<ApproachDirections::Triangle> open{whole.begin(), whole.end()};
+    keep_distinct(out);
+    return out;
+}
+
+LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d centre)
+{
+    BlockingFacets facets{point, radius_, contact_radius_};
+    for (const Facet* facet : facets_near(point)) {
+        facets.add(*facet);
+    }
+    std::vector<Triangle> open = fan(centre - point);
     int drops = 0;
     for (std::size_t parts = 0; !open.empty(); ++parts) {
-        const ApproachDirections::Triangle part = open.back();
+        Triangle part = open.back();
         open.pop_back();
-        if (directions.blocking(part)) {
-            continue;
-        }
-        if (parts > kMostParts) {
-            return Verdict::kUnknown;
-        }
-        const Vec3d middle = ApproachDirections::middle(part);
-        if (!directions.blocking({middle, middle, middle})) {
-            const Vec3d from = directions.centre(middle);
+        for (Direction& corner : part) {
+            facets.ask(corner);
+            if (corner.by.any()) {
+                continue;
+            }
+            const Vec3d from = facets.centre(corner.along);
             const auto rest = path_fitter_.model().drop_ball(from.x, from.y, contact_radius_);
             if (!rest || ++drops > kMostDrops) {
                 return Verdict::kUnknown;
@@ -104,10 +142,22 @@ LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d 
             if (rest->centre.z <= from.z) {
                 return Verdict::kOne;
             }
-            directions.add(rest->point);
+            facets.add(*rest->facet);
+            facets.ask(corner);
         }
-        const auto quarters = ApproachDirections::quarters(part);
-        open.insert(open.end(), quarters.begin(), quarters.end());
+        if (facets.block(part)) {
+            continue;
+        }
+        const std::size_t apex = side_to_divide(part);
+        const Direction& a = part[(apex + 1) % 3];
+        const Direction& b = part[(apex + 2) % 3];
+        if (parts > kMostParts || norm(a.along - b.along) < kLeastSide) {
+            return Verdict::kUnknown;
+        }
+        Direction middle{unit(a.along + b.along)};
+        facets.ask(middle);
+        open.push_back({part[apex], a, middle});
+        open.push_back({part[apex], middle, b});
     }
     return Verdict::kNone;
 }

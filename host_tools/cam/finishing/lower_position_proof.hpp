@@ -7,13 +7,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "host_tools/cam/finishing/blocking_facets.hpp"
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
 
 namespace cusp::finishing {
 
-// Contacts of a ball dropped on a grid, computed when first needed, block directions
-// (`ApproachDirections`). All directions are divided around that of the lowest ball known, because
-// near it a contact blocks hardly more than is necessary.
+// Facets that a ball rests on when dropped on a grid, found when first needed, block directions
+// (`BlockingFacets`). All directions are divided around that of the lowest ball known: near it most of the
+// facets block that block anything, so triangles that have it as a corner need no division towards it.
 //
 // Not for use by two threads at once.
 class LowerPositionProof {
@@ -30,10 +31,11 @@ public:
     Verdict verdict_over(Vec3d point, Vec3d centre);
 
 private:
-    static constexpr std::int64_t kSide = 4;  // grid points in x and in y
-    using Block = std::vector<Vec3d>;         // distinct contacts of its grid points
+    static constexpr std::int64_t kSide = 4;              // grid points in x and in y
+    using Block = std::vector<const part_model::Facet*>;  // that the ball rests on there
 
     const Block& block(std::int64_t i, std::int64_t j);
+    Block facets_near(Vec3d point);
 
     const GougeFreePathFitter& path_fitter_;
     double pitch_;

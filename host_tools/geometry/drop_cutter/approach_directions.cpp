@@ -60,8 +60,14 @@ std::array<ApproachDirections::Triangle, 4> ApproachDirections::quarters(const T
 
 Vec3d ApproachDirections::middle(const Triangle& t) { return unit(t[0] + t[1] + t[2]); }
 
-// The points below the upper half of a ball around the contact form a convex set. The triangle lies
-// in the hull of its corners and of these corners stretched until their plane touches the sphere.
+ApproachDirections::Triangle ApproachDirections::stretched(const Triangle& t)
+{
+    const Vec3d across = cross(t[1] - t[0], t[2] - t[0]);
+    const double stretch = norm(across) / std::abs(dot(across, t[0]));
+    return {t[0] * stretch, t[1] * stretch, t[2] * stretch};
+}
+
+// The points below the upper half of a ball around the contact form a convex set.
 bool ApproachDirections::blocks_shank(const BlockedCap& cap, const Triangle& triangle) const
 {
     const auto under = [&](Vec3d centre) {
@@ -77,10 +83,9 @@ bool ApproachDirections::blocks_shank(const BlockedCap& cap, const Triangle& tri
             return false;
         }
     }
-    const Vec3d across = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    const double stretch = norm(across) / std::abs(dot(across, triangle[0]));
-    return std::all_of(triangle.begin(), triangle.end(),
-                       [&](Vec3d corner) { return under(corner * (radius_ * stretch)); });
+    const Triangle beyond = stretched(triangle);
+    return std::all_of(beyond.begin(), beyond.end(),
+                       [&](Vec3d corner) { return under(corner * radius_); });
 }
 
 bool ApproachDirections::blocks(const BlockedCap& cap, const Triangle& t) const

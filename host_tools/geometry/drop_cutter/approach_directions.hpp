@@ -32,6 +32,9 @@ public:
     static std::array<Triangle, 4> half_sphere();
     static std::array<Triangle, 4> quarters(const Triangle& triangle);
     static Vec3d middle(const Triangle& triangle);
+    // These and the triangle's corners have it in their hull: the corners stretched until their plane
+    // touches the sphere.
+    static Triangle stretched(const Triangle& triangle);
 
     // True if the contact blocks the whole triangle.
     bool blocks(std::size_t contact, const Triangle& triangle) const;

@@ -194,8 +194,8 @@ std::optional<PartModel::DroppedBall> PartModel::drop_ball(double x, double y, d
     if (!found) {
         return std::nullopt;
     }
-    return DroppedBall{
-        {x, y, found->at.centre}, found->at.point, state_->facets[found->facet].normal};
+    const Facet& facet = state_->facets[found->facet];
+    return DroppedBall{{x, y, found->at.centre}, found->at.point, facet.normal, &facet};
 }
 
 std::optional<PartModel::DroppedTool> PartModel::drop_tool(const Tool& tool,

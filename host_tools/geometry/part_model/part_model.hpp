@@ -24,6 +24,7 @@
 
 namespace cusp::part_model {
 
+struct Facet;
 class SurfaceCut;
 
 // The point of the model nearest to a tool.
@@ -161,8 +162,9 @@ public:
     // A ball dropped at (x, y) on a mesh; none where it misses the mesh.
     struct DroppedBall {
         Vec3d centre;
-        Vec3d point;   // the contact
-        Vec3d normal;  // of the facet there, never downward
+        Vec3d point;         // the contact
+        Vec3d normal;        // of the facet there, never downward
+        const Facet* facet;  // of this model
     };
     std::optional<DroppedBall> drop_ball(double x, double y, double radius) const;
 
