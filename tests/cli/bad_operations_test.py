@@ -130,7 +130,8 @@ class BadOperations(unittest.TestCase):
         self.refused("tool 1 of 6 mm fits nowhere inside the loops", operation("profile", "dot", side="inside", depth=2))
         self.refused("fits nowhere", operation("pocket", "slot", depth=2))
         # in a job with other operations, too
-        self.refused("fits nowhere", operation("pocket", "pocket", depth=2) + operation("pocket", "slot", depth=2))
+        self.refused("plate.dxf#slot: operation 2: tool 1 of 6 mm fits nowhere into the pocket",
+                     operation("pocket", "pocket", depth=2) + operation("pocket", "slot", depth=2))
 
     def test_a_scallop_that_hulls_do_not_bound(self):
         hulls = {"floor": '["plane.json"]', "max_depth": 2}

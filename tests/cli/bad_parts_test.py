@@ -216,7 +216,7 @@ POCKETS = (
     (curves(((2, 2), (28, 2)), ((28, 2), (28, 18)), ((28, 18), (2, 2)), ((2, 2), (2, 2))), (), "curve 4 has no length"),
     (polygon((2, 2), (28, 2), (2, 2), (2, 18)), (), "no area"),
     (polygon((2, 2), (38, 2), (38, 18), (2, 18)), (), "does not cover the pocket at"),
-    (polygon((2, 2), (5, 2), (5, 5), (2, 5)), (), "the tool of radius 2 mm fits nowhere"),
+    (polygon((2, 2), (5, 2), (5, 5), (2, 5)), (), "tool 1 of 4 mm fits nowhere"),
     (BOUNDARY, (polygon((20, 8), (35, 8), (35, 12), (20, 12)),), "crosses island0.json at (28, 8)"),
     (BOUNDARY, (polygon((40, 8), (45, 8), (45, 12), (40, 12)),), "lies outside the boundary"),
     (BOUNDARY, (BOUNDARY,), "lies outside the boundary"),

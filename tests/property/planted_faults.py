@@ -65,6 +65,10 @@ FAULTS = {
         "rapid_walls"),
     "verify looks at chamfers on the wall": (
         "host_tools/judge/verify/wall_stock.cpp", "? operation_.prismatic->width : 0.0;", "? 0.0 : 0.0;", "verdicts"),
+    "a facing move breaks the edges at its height": (
+        "host_tools/judge/verify/wall_stock.cpp", "? (z + judged_height(operation_, 0)) / 2", "? kUnbounded", "verdicts"),
+    "holes in holes have walls": (
+        "host_tools/judge/verify/wall_stock.cpp", "region_.around(place - kSpare * left).inside >= 0) {", "false) {", "bores"),
     "verify sees gouges in sound walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "- here.inside;\n    }\n\n    void look_around",
         "- here.inside + 0.1;\n    }\n\n    void look_around", "wall_verdicts"),

@@ -87,9 +87,7 @@ AdaptivePath passes_of(const Pocket& pocket, const std::optional<OpenSides>& ope
     };
     AdaptivePath path = clear_adaptively(pocket.region, settings);
     if (path.runs.empty()) {
-        throw PocketRefusal(operation.outline.boundary_file + ": the tool of radius " +
-                            number_text(operation.tool.radius) +
-                            " mm fits nowhere into the pocket");
+        throw PocketRefusal(no_room_text(operation));
     }
     return path;
 }

@@ -222,9 +222,7 @@ private:
             }
         }
         if (cleared.passes.empty()) {
-            throw PocketRefusal(operation_.outline.boundary_file + ": the tool of radius " +
-                                number_text(operation_.tool.radius) +
-                                " mm fits nowhere into the pocket");
+            throw PocketRefusal(no_room_text(operation_));
         }
         if (cleared.rings >= kMaxRings) {
             throw InputError(operation_text(pocket_.job, operation_) + "scallop " +

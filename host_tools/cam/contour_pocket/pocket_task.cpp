@@ -87,6 +87,13 @@ std::string operation_text(const Job& job, const Operation& operation)
     return job.file + ": operation " + std::to_string(operation.number) + ": contour_pocket: ";
 }
 
+std::string no_room_text(const Operation& operation)
+{
+    return operation.outline.boundary_file + ": operation " + std::to_string(operation.number) +
+           ": tool " + std::to_string(operation.tool.number) + " of " +
+           number_text(2 * operation.tool.radius) + " mm fits nowhere into the pocket";
+}
+
 std::string number_text(double value)
 {
     char text[40];

@@ -70,6 +70,9 @@ void report_plunges(int plunges, toolpath::OperationStats& stats);
 // The operation's name at the start of messages.
 std::string operation_text(const job::Job& job, const job::Operation& operation);
 
+// That its tool has no place in the pocket.
+std::string no_room_text(const job::Operation& operation);
+
 // A number as written in messages and comments.
 std::string number_text(double value);
 
