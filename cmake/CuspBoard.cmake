@@ -35,7 +35,7 @@ function(cusp_board)
   set(page ${PROJECT_BINARY_DIR}/bin/${name}.md)
   set(writer ${CMAKE_CURRENT_BINARY_DIR}/${name}_board_readme)
   add_custom_command(OUTPUT ${page}
-    COMMAND ${CUSP_HOST_COMPILER} -std=c++17 -I${tree} -o ${writer} ${writer}.cpp
+    COMMAND ${CUSP_HOST_COMPILER} -std=c++17 -DCUSP_AXES=${CUSP_AXES} -I${tree} -o ${writer} ${writer}.cpp
     COMMAND ${writer} > ${page}
     DEPENDS ${header} ${writer}.cpp ${tree}/boards/mill3/board_page.hpp
     COMMENT "Writing ${name}.md from the table" VERBATIM)

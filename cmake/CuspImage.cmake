@@ -21,6 +21,10 @@ function(cusp_image)
   target_link_options(${ARG_NAME} PRIVATE
     -nostartfiles -nostdlib -T ${script} -L ${tree}
     -Wl,--gc-sections -Wl,--emit-relocs -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
+  # Places of four numbers take more of it.
+  if(CUSP_AXES EQUAL 4 AND NOT ARG_UF2)
+    target_link_options(${ARG_NAME} PRIVATE -Wl,--defsym=cusp_stack_size=7168)
+  endif()
   add_custom_command(TARGET ${ARG_NAME} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary --gap-fill 0xff $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.hex)

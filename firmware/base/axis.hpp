@@ -6,13 +6,30 @@
 
 namespace cusp {
 
-enum class Axis : std::uint8_t { kX, kY, kZ };
+enum class Axis : std::uint8_t { kX, kY, kZ, kA };
 
-inline constexpr unsigned kAxisCount = 3;
+// X, Y and Z, which are lengths.
+inline constexpr unsigned kLinearAxes = 3;
+
+// With the rotary axis A, in degrees, 4: a constant of the build (CUSP_AXES of CMake).
+inline constexpr unsigned kAxisCount = CUSP_AXES;
+static_assert(kAxisCount == kLinearAxes || kAxisCount == kLinearAxes + 1);
+inline constexpr bool kHasRotaryAxis = kAxisCount > kLinearAxes;
 
 // Indexed by axis number, X first.
 template <class T>
 using PerAxis = std::array<T, kAxisCount>;
+
+// What a function of the axis' number makes.
+template <class F>
+constexpr auto of_axes(F f) noexcept
+{
+    PerAxis<decltype(f(0U))> values{};
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        values[axis] = f(axis);
+    }
+    return values;
+}
 
 // A set of axes: one bit each, X in bit 0.
 struct AxisMask {

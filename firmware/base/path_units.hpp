@@ -22,6 +22,6 @@ inline constexpr std::uint32_t kMaxPathFilter = 250;
 inline constexpr float kPathUnitsPerTick = kPathUnitsPerMillimetre * kServoTick;
 
 // A displacement within a block, in path units.
-using PathOffset = Vec3<std::int32_t>;
+using PathOffset = AxisVec<std::int32_t>;
 
 }  // namespace cusp

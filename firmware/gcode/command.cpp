@@ -297,7 +297,7 @@ Status apply_m(Command& command, Code code) noexcept
 constexpr LetterSet kValueLetters = letter('F') | letter('H') | letter('I') | letter('J') |
                                     letter('K') | letter('L') | letter('N') | letter('P') |
                                     letter('Q') | letter('R') | letter('S') | letter('T') |
-                                    kAxisLetters | kRotaryLetters;
+                                    kLinearLetters | kRotaryLetters;
 constexpr LetterSet kNeverNegative =
     letter('F') | letter('H') | letter('L') | letter('N') | letter('P') | letter('S') | letter('T');
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "firmware/base/axis.hpp"
 #include "firmware/base/result.hpp"
 #include "firmware/gcode/decimal.hpp"
 #include "firmware/gcode/modal_state.hpp"
@@ -42,7 +43,9 @@ constexpr unsigned letter_index(char letter) noexcept
 }
 constexpr LetterSet letter(char upper_case) noexcept { return 1U << letter_index(upper_case); }
 
-inline constexpr LetterSet kAxisLetters = letter('X') | letter('Y') | letter('Z');
+constexpr char axis_letter(unsigned axis) noexcept { return "XYZA"[axis]; }
+
+inline constexpr LetterSet kLinearLetters = letter('X') | letter('Y') | letter('Z');
 inline constexpr LetterSet kRotaryLetters = letter('A') | letter('B') | letter('C');
 
 // The modal groups of G and M words, one bit each: a line names each group at most once.
@@ -72,12 +75,13 @@ struct Command {
     NonModal non_modal{NonModal::kNone};
     ToolLength tool_length{ToolLength::kUnchanged};
     ProgramFlow flow{ProgramFlow::kRunning};
-    Coolant coolant{Coolant::kOff};  // where the line names it
-    bool cancels{false};             // G80
-    bool ends_curve{false};          // G5.3
-    std::uint32_t groups{0};         // one bit a Group
-    LetterSet words{0};              // value words present
-    LetterSet unused{0};             // value words not used yet
+    Coolant coolant{Coolant::kOff};    // where the line names it
+    bool cancels{false};               // G80
+    bool ends_curve{false};            // G5.3
+    unsigned axis_count{kLinearAxes};  // of the machine, X first
+    std::uint32_t groups{0};           // one bit a Group
+    LetterSet words{0};                // value words present
+    LetterSet unused{0};               // value words not used yet
     std::array<Decimal, 26> values{};
 
     bool names(Group group) const noexcept
@@ -85,7 +89,17 @@ struct Command {
         return (groups >> static_cast<unsigned>(group) & 1U) != 0;
     }
     bool has(char upper_case) const noexcept { return (words & letter(upper_case)) != 0; }
-    LetterSet axes() const noexcept { return words & kAxisLetters; }
+    // Letters of axes that the machine has, and of those that it has not.
+    LetterSet axis_letters() const noexcept
+    {
+        return axis_count > kLinearAxes ? kLinearLetters | letter('A') : kLinearLetters;
+    }
+    LetterSet absent_letters() const noexcept { return kRotaryLetters & ~axis_letters(); }
+    LetterSet axes() const noexcept { return words & axis_letters(); }
+    bool names_axis(unsigned axis) const noexcept
+    {
+        return axis < axis_count && has(axis_letter(axis));
+    }
     bool is_blank() const noexcept { return groups == 0 && words == 0; }
     const Decimal& value(char upper_case) const noexcept
     {

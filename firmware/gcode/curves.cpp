@@ -102,6 +102,9 @@ Status Interpreter::check_new_curve(LineContext& line) noexcept
     if (motion != Motion::kUniformNurbs && motion != Motion::kNurbs) {
         return kDone;
     }
+    if ((command.axes() & kRotaryLetters) != 0) {
+        return Error::kGcodeUnsupportedCommand;
+    }
     // Inverse time needs the length of the curve, which is not known when it starts.
     if (command.modal.inverse_time) {
         return Error::kGcodeUndefinedFeedRate;
@@ -150,6 +153,9 @@ Status Interpreter::continue_curve(LineContext& line) noexcept
     if (command.unused == 0 && !names_curve) {
         return kDone;
     }
+    if ((command.axes() & kRotaryLetters) != 0) {
+        return Error::kGcodeUnsupportedCommand;
+    }
     command.axis_use = AxisUse::kMotion;
     if (const Status status = find_target(line); !status) {
         return status;
@@ -181,7 +187,7 @@ Status Interpreter::continue_uniform(LineContext& line) noexcept
         return weight.error();
     }
     command.use('P');
-    if ((command.unused & ~kAxisLetters) != 0) {
+    if ((command.unused & ~kLinearLetters) != 0) {
         return Error::kGcodeUnusedWords;
     }
     curve_.add_point({line.end.rounded(), *weight});
@@ -203,7 +209,7 @@ Status Interpreter::continue_knotted(LineContext& line) noexcept
     if (point) {
         command.use('R');
     }
-    if ((command.unused & ~kAxisLetters) != 0) {
+    if ((command.unused & ~kLinearLetters) != 0) {
         return Error::kGcodeUnusedWords;
     }
     if (point) {

@@ -57,23 +57,17 @@ struct ExactLength {
 };
 
 // Machine coordinates of the program, finer than the machine's own grid.
-struct ExactPosition {
-    ExactLength x;
-    ExactLength y;
-    ExactLength z;
-
-    constexpr ExactLength& operator[](unsigned axis) noexcept
+struct ExactPosition : AxisVec<ExactLength> {
+    constexpr Position rounded() const noexcept
     {
-        return axis == 0 ? x : axis == 1 ? y : z;
+        return mapped(*this, [](const ExactLength& length) { return length.rounded(); });
     }
-    constexpr const ExactLength& operator[](unsigned axis) const noexcept
-    {
-        return axis == 0 ? x : axis == 1 ? y : z;
-    }
-    constexpr Position rounded() const noexcept { return {x.rounded(), y.rounded(), z.rounded()}; }
 };
 
-constexpr ExactPosition to_exact(Position p) noexcept { return {{p.x, 0}, {p.y, 0}, {p.z, 0}}; }
+constexpr ExactPosition to_exact(Position p) noexcept
+{
+    return {mapped(p, [](std::int64_t nm) { return ExactLength{nm, 0}; })};
+}
 
 // Nothing the controller handles is farther from machine zero than this: 100 m.
 inline constexpr std::int64_t kMaxCoordinateNm = 100'000'000'000;

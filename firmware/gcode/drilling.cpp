@@ -91,7 +91,7 @@ void read_holes(LineContext& line, DrillWords& words) noexcept
         return;
     }
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (axis == words.height_axis || !line.command.has(axis_letter(axis))) {
+        if (axis == words.height_axis || !line.command.names_axis(axis)) {
             continue;
         }
         words.step[axis] = *length_of(line.command, axis_letter(axis));

@@ -193,6 +193,7 @@ Status Interpreter::execute(std::string_view text, std::uint32_t number) noexcep
     CUSP_ASSERT(plan_.empty());
     LineContext line = begin(number);
     Status status = read_command(text, modal_, line.command);
+    line.command.axis_count = axes_;
     if (status) {
         status = run(line);
     }
@@ -214,7 +215,7 @@ Status Interpreter::run(LineContext& line) noexcept
     if (const Status status = check_number(line); !status) {
         return status;
     }
-    if ((command.words & kRotaryLetters) != 0) {
+    if ((command.words & command.absent_letters()) != 0) {
         rotary_after_ = rotary_;
         if (const Status status = check_rotary(command, rotary_after_, plan_); !status) {
             return status;
@@ -275,7 +276,7 @@ Status Interpreter::check(LineContext& line) noexcept
         return status;
     }
     if (command.axis_use != AxisUse::kNone) {
-        command.unused &= ~kAxisLetters;
+        command.unused &= ~command.axis_letters();
     }
     return command.unused == 0 ? Status{kDone} : Status{Error::kGcodeUnusedWords};
 }
@@ -313,7 +314,7 @@ void Interpreter::remember_cycle(LineContext& line) noexcept
 
 void Interpreter::commit_rotary(const Command& command) noexcept
 {
-    if ((command.words & kRotaryLetters) != 0) {
+    if ((command.words & command.absent_letters()) != 0) {
         rotary_ = rotary_after_;
     }
 }
@@ -382,6 +383,7 @@ Status Interpreter::execute_jog(std::string_view text, std::uint32_t number) noe
     if (const Status status = read_command(text, modal_, line.command); !status) {
         return status;
     }
+    line.command.axis_count = axes_;
     const Status status = run_jog(line);
     if (!status) {
         plan_.clear();
@@ -395,7 +397,7 @@ Status Interpreter::run_jog(LineContext& line) noexcept
     if (in_curve() || !is_jog_group(command)) {
         return Error::kInvalidJogCommand;
     }
-    if ((command.words & kRotaryLetters) != 0) {
+    if ((command.words & command.absent_letters()) != 0) {
         return Error::kGcodeUnsupportedCommand;
     }
     if (const Status status = check_number(line); !status) {
@@ -411,7 +413,7 @@ Status Interpreter::run_jog(LineContext& line) noexcept
     if (const Status status = check_feed(line, false); !status) {
         return status;
     }
-    command.unused &= ~kAxisLetters;
+    command.unused &= ~command.axis_letters();
     if (command.unused != 0) {
         return Error::kGcodeUnusedWords;
     }

@@ -72,6 +72,9 @@ public:
     // The path tolerance of $11, mm, in force at power-up, after M2 and M30 and with G64 alone.
     void set_default_tolerance(float mm) noexcept { default_tolerance_ = mm; }
 
+    // Axes of the machine, X first: 4 with A.
+    void set_axes(unsigned count) noexcept { axes_ = count; }
+
     // The operator or an alarm has switched them.
     void set_coolant(bool flood, bool mist) noexcept;
     void set_spindle_off() noexcept { modal_.spindle = SpindleMode::kOff; }
@@ -122,6 +125,7 @@ private:
     RotaryAxes rotary_;
     RotaryAxes rotary_after_;  // the line, where it has words of them
     float default_tolerance_{0.010F};
+    unsigned axes_{kLinearAxes};
     ToolChangeRule tool_change_rule_{ToolChangeRule::kFree};
     MotionPlan plan_;
     nurbs::PieceStream curve_;

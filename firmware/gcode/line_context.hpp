@@ -24,7 +24,7 @@ struct DrillMemory {
     double dwell_seconds{0};
 };
 
-// A B C: there is no such axis, so their words may not move one. Before its first word, and before the
+// Those of A B C that the machine does not have: their words may not move one. Before its first word, and before the
 // first feed move, an axis may be anywhere.
 struct RotaryAxes {
     std::array<Decimal, 3> at{};
@@ -45,13 +45,11 @@ struct LineContext {
 // The path tolerance in force, mm.
 float path_tolerance(const ModalState& modal, float default_tolerance) noexcept;
 
-// A length word, in the units of the line.
+// A length word, in the units of the line. A's are degrees.
 inline Result<ExactLength> length_of(const Command& command, char upper_case) noexcept
 {
-    return to_length(command.value(upper_case), command.modal.inches);
+    return to_length(command.value(upper_case), command.modal.inches && upper_case != 'A');
 }
-
-constexpr char axis_letter(unsigned axis) noexcept { return static_cast<char>('X' + axis); }
 
 // Checks the F word, and whether the motion of the line needs one. Errors: kGcodeUndefinedFeedRate,
 // kGcodeMaxValueExceeded.

@@ -88,6 +88,8 @@ inline constexpr std::array<std::string_view, kCoordinateSystems> kCoordinateSys
 // Offsets and stored positions; machine nanometres. The machine keeps all but G92 and the tool length
 // offset through a power cycle; a reset clears those two.
 struct Parameters {
+    static constexpr std::size_t kPositions = kCoordinateSystems + 3;  // they come first
+
     std::array<Position, kCoordinateSystems> work_offsets{};  // G54 to G59.3
     Position home{};                                          // G28
     Position second_home{};                                   // G30

@@ -166,6 +166,9 @@ Status plan_probe(LineContext& line, MotionPlan& plan) noexcept
     if (line.command.axes() == 0) {
         return Error::kGcodeNoAxisWords;
     }
+    if ((line.command.axes() & kRotaryLetters) != 0) {
+        return Error::kGcodeUnsupportedCommand;
+    }
     path::Move move = move_pattern(line.command.modal, line, path::MoveKind::kFixedFeed);
     move.start = line.start.rounded();
     move.end = line.end.rounded();
@@ -189,9 +192,9 @@ void plan_home(LineContext& line, const Position& home, MotionPlan& plan) noexce
     move.start = line.start.rounded();
     move.end = line.end.rounded();
     const Position through = move.end;
-    const bool all = (command.words & (kAxisLetters | kRotaryLetters)) == 0;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (all || command.has(axis_letter(axis))) {
+    const bool all = (command.words & (kLinearLetters | kRotaryLetters)) == 0;
+    for (unsigned axis = 0; axis < command.axis_count; ++axis) {
+        if (all || command.names_axis(axis)) {
             line.end[axis] = {home[axis], 0};
         }
     }
@@ -276,7 +279,7 @@ Status find_target(LineContext& line) noexcept
     const bool machine = command.non_modal == NonModal::kMachineCoordinates;
     line.end = line.start;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (!command.has(axis_letter(axis))) {
+        if (!command.names_axis(axis)) {
             continue;
         }
         const Result<ExactLength> value = length_of(command, axis_letter(axis));
@@ -310,7 +313,7 @@ path::Move move_pattern(const ModalState& modal,
 void set_speed(const ModalState& modal, path::Move& move) noexcept
 {
     if (modal.inverse_time) {
-        move.feed = static_cast<float>(path::length(move)) * modal.feed / kSecondsPerMinute;
+        move.feed = static_cast<float>(path::fed_length(move)) * modal.feed / kSecondsPerMinute;
     }
 }
 

@@ -19,7 +19,7 @@ std::int64_t tool_length(const LineContext& line, unsigned axis) noexcept
 // True if a line names an axis, a rotary one too.
 bool names_axes(const Command& command) noexcept
 {
-    return (command.words & (kAxisLetters | kRotaryLetters)) != 0;
+    return (command.words & (kLinearLetters | kRotaryLetters)) != 0;
 }
 
 bool is_same(Decimal a, Decimal b) noexcept { return to_double(a) == to_double(b); }
@@ -104,7 +104,7 @@ Status set_work_offset(LineContext& line, G10Value how, MotionPlan& plan) noexce
     Position& offset = line.parameters.work_offsets[system];
     const Position here = line.start.rounded();
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (!command.has(axis_letter(axis))) {
+        if (!command.names_axis(axis)) {
             continue;
         }
         const Result<ExactLength> value = length_of(command, axis_letter(axis));
@@ -163,7 +163,7 @@ Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
     const Position here = line.start.rounded();
     const Position& work = line.parameters.work_offsets[command.modal.coordinate_system];
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if (!command.has(axis_letter(axis))) {
+        if (!command.names_axis(axis)) {
             continue;
         }
         const Result<ExactLength> value = length_of(command, axis_letter(axis));
@@ -235,7 +235,7 @@ Status check_rotary(Command& command, RotaryAxes& rotary, MotionPlan& plan) noex
                           command.non_modal == NonModal::kSetLocalOffset;
     for (unsigned i = 0; i < rotary.at.size(); ++i) {
         const char axis = static_cast<char>('A' + i);
-        if (!command.has(axis)) {
+        if (!command.has(axis) || (command.absent_letters() & letter(axis)) == 0) {
             continue;
         }
         const Decimal word = command.value(axis);

@@ -115,6 +115,9 @@ Position Interpolator::tick() noexcept
     position_.x += axis_division_[0].divide(smooth.x);
     position_.y += axis_division_[1].divide(smooth.y);
     position_.z += axis_division_[2].divide(smooth.z);
+    for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+        position_[axis] += axis_division_[axis].divide(smooth[axis]);
+    }
     at_rest_ = (!moves() || time <= 0) && filters_drained();
     return position_;
 }

@@ -95,12 +95,19 @@ OutputLevels output_levels(const Accessories& accessories,
     // A drive that no axis has goes with all of them.
     const std::optional<unsigned> doubled = settings.second_motor_axis();
     const bool second = doubled ? drives.contains(*doubled) : drives.bits == kAxes;
-    constexpr unsigned kSecondDrive = 1U << kAxisCount;
+    constexpr unsigned kSecondDrive = 1U << kLinearAxes;
     levels.drives_on =
         static_cast<std::uint8_t>((drives.bits & kAxes) | (second ? kSecondDrive : 0U));
     const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
     const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
-    levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
+    levels.inverted_lines = static_cast<PulseLines>(steps | directions << kLinearAxes);
+    if (settings.has_rotary()) {
+        constexpr unsigned kRotary = 1U << kLinearAxes;
+        const bool step = (settings.whole(Setting::kStepInvert) & kRotary) != 0;
+        const bool direction = (settings.whole(Setting::kDirectionInvert) & kRotary) != 0;
+        levels.inverted_lines |= static_cast<PulseLines>((step ? kSecondStepLine : 0U) |
+                                                         (direction ? kSecondDirectionLine : 0U));
+    }
     if (const std::optional<unsigned> axis = doubled) {
         const unsigned turned = settings.whole(Setting::kSecondInvert) ^ directions;
         levels.inverted_lines |=

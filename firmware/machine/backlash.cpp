@@ -58,7 +58,7 @@ float take_up_time(float play, float speed, float acceleration, float jerk) noex
 
 }  // namespace
 
-MachineLimits Backlash::left_of(const MachineLimits& limits, const Vec3f& play) noexcept
+MachineLimits Backlash::left_of(const MachineLimits& limits, const AxisVecf& play) noexcept
 {
     MachineLimits left = limits;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -71,7 +71,7 @@ MachineLimits Backlash::left_of(const MachineLimits& limits, const Vec3f& play) 
     return left;
 }
 
-void Backlash::configure(const Vec3f& play, const MachineLimits& limits) noexcept
+void Backlash::configure(const AxisVecf& play, const MachineLimits& limits) noexcept
 {
     any_ = false;
     for (unsigned i = 0; i < kAxisCount; ++i) {

@@ -27,10 +27,10 @@ public:
     static constexpr std::int64_t kTurn = 500;
 
     // The limits less the share of axes with play. play: mm, per axis.
-    static MachineLimits left_of(const MachineLimits& limits, const Vec3f& play) noexcept;
+    static MachineLimits left_of(const MachineLimits& limits, const AxisVecf& play) noexcept;
 
     // `limits`: those of the settings. What is under way is forgotten.
-    void configure(const Vec3f& play, const MachineLimits& limits) noexcept;
+    void configure(const AxisVecf& play, const MachineLimits& limits) noexcept;
 
     // The motors are where the way is from now on, on the side of the play on which they are.
     void rest(Position at) noexcept;

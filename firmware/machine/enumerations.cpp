@@ -41,7 +41,7 @@ constexpr Group axis_group(unsigned axis) noexcept
 {
     return static_cast<Group>(static_cast<unsigned>(Group::kFirstAxis) + axis);
 }
-constexpr std::array<GroupName, 15> kGroups{{
+constexpr std::array<GroupName, 16> kGroups{{
     {Group::kGeneral, Group::kRoot, "General"},
     {Group::kControls, Group::kRoot, "Control signals"},
     {Group::kLimits, Group::kRoot, "Limits"},
@@ -57,6 +57,7 @@ constexpr std::array<GroupName, 15> kGroups{{
     {axis_group(0), Group::kAxis, "X-axis"},
     {axis_group(1), Group::kAxis, "Y-axis"},
     {axis_group(2), Group::kAxis, "Z-axis"},
+    {axis_group(3), Group::kAxis, "A-axis"},
 }};
 
 // grblHAL's numbers of data types.
@@ -156,7 +157,7 @@ constexpr std::array<SettingName, 84> kNames{{
     {791, Group::kGeneral, Type::kInteger, "Hold if the link is silent for", "ms", ""},
     {792, Group::kGeneral, Type::kSwitch, "Hold at an error", "", ""},
     {793, Group::kSecondMotor, Type::kChoice, "Axis with a second motor", "",
-     "None,X-axis,Y-axis,Z-axis"},
+     kHasRotaryAxis ? "None,X-axis,Y-axis,Z-axis,none: it is A" : "None,X-axis,Y-axis,Z-axis"},
     {794, Group::kSecondMotor, Type::kSwitch, "Second motor has a switch", "", ""},
     {795, Group::kControls, Type::kSwitch, "Optional stop", "", ""},
     {796, Group::kGeneral, Type::kSwitch, "Hold if the sender leaves USB", "", ""},
@@ -263,9 +264,21 @@ bool write_code(const std::array<CodeText, N>& texts,
     return true;
 }
 
+// A's are degrees.
+void write_unit(std::string_view unit, unsigned axis, ReplyQueue& out) noexcept
+{
+    constexpr std::string_view kMillimetres = "mm";
+    const std::size_t at = axis < kLinearAxes ? std::string_view::npos : unit.find(kMillimetres);
+    if (at == std::string_view::npos) {
+        (void)out.text(unit);
+        return;
+    }
+    (void)out.text(unit.substr(0, at)).text("deg").text(unit.substr(at + kMillimetres.size()));
+}
+
 }  // namespace
 
-bool write_setting_description(unsigned index, ReplyQueue& out) noexcept
+bool write_setting_description(unsigned index, unsigned axes, ReplyQueue& out) noexcept
 {
     if (index >= kSettingCount) {
         return false;
@@ -274,12 +287,17 @@ bool write_setting_description(unsigned index, ReplyQueue& out) noexcept
     const SettingName& name = name_of(entry.number);
     const bool of_axis = name.group == Group::kAxis;
     const unsigned axis = of_axis ? unsigned{entry.number} - name.number : 0U;
+    if (axis >= axes) {
+        return true;
+    }
     const auto group = static_cast<unsigned>(of_axis ? axis_group(axis) : name.group);
     (void)out.text("[SETTING:").number(entry.number).character('|').number(group).character('|');
     if (of_axis) {
-        (void)out.character("XYZ"[axis]).text("-axis ");
+        (void)out.character("XYZA"[axis]).text("-axis ");
     }
-    (void)out.text(name.name).character('|').text(name.unit).character('|');
+    (void)out.text(name.name).character('|');
+    write_unit(name.unit, axis, out);
+    (void)out.character('|');
     (void)out.number(static_cast<unsigned>(name.type)).character('|');
     const bool has_range = name.type == Type::kInteger || name.type == Type::kDecimal;
     if (!has_range) {
@@ -296,9 +314,9 @@ bool write_setting_description(unsigned index, ReplyQueue& out) noexcept
     return true;
 }
 
-bool write_setting_group(unsigned index, ReplyQueue& out) noexcept
+bool write_setting_group(unsigned index, unsigned axes, ReplyQueue& out) noexcept
 {
-    if (index >= kGroups.size()) {
+    if (index >= kGroups.size() - kLinearAxes - 1 + axes) {
         return false;
     }
     const GroupName& group = kGroups[index];

@@ -6,9 +6,10 @@
 
 namespace cusp::machine {
 
-// Each writes line `index`. Returns false, and writes nothing, behind the last.
-bool write_setting_description(unsigned index, protocol::ReplyQueue& out) noexcept;
-bool write_setting_group(unsigned index, protocol::ReplyQueue& out) noexcept;
+// Each writes line `index`. Returns false, and writes nothing, behind the last. `axes`: of the machine, X first;
+// nothing is written for others.
+bool write_setting_description(unsigned index, unsigned axes, protocol::ReplyQueue& out) noexcept;
+bool write_setting_group(unsigned index, unsigned axes, protocol::ReplyQueue& out) noexcept;
 bool write_error_code(unsigned index, protocol::ReplyQueue& out) noexcept;
 bool write_alarm_code(unsigned index, protocol::ReplyQueue& out) noexcept;
 

@@ -26,10 +26,15 @@ void Laser::tick(path::LaserPower power, bool stands, unsigned delay, Position m
     const unsigned delayed = (latest_ + kPlaces - delay) % kPlaces;
     // nm a tick are um/s.
     constexpr float kMillimetresPerSecond = 1e-3F;
-    const Vec3f v{static_cast<float>(static_cast<std::int32_t>(moved.x)),
-                  static_cast<float>(static_cast<std::int32_t>(moved.y)),
-                  static_cast<float>(static_cast<std::int32_t>(moved.z))};
-    const float velocity = std::sqrt(dot(v, v)) * kMillimetresPerSecond;
+    const auto to_number = [](std::int64_t nm) {
+        return static_cast<float>(static_cast<std::int32_t>(nm));
+    };
+    float travel = norm(mapped(xyz(moved), to_number));
+    // As the feed: A counts where it moves alone.
+    for (unsigned axis = kLinearAxes; axis < kAxisCount && travel == 0; ++axis) {
+        travel = std::fabs(to_number(moved[axis]));
+    }
+    const float velocity = travel * kMillimetresPerSecond;
     const float speed = powers_[delayed].at(velocity) * override_.load(std::memory_order_relaxed);
     speed_.store(speed, std::memory_order_relaxed);
     duty_ = law_.duty(speed);

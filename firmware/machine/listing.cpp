@@ -7,6 +7,7 @@
 namespace cusp::machine {
 namespace {
 
+using protocol::PlaceForm;
 using protocol::ReplyQueue;
 
 bool write_setting(unsigned index, const Settings& settings, ReplyQueue& out) noexcept
@@ -15,65 +16,74 @@ bool write_setting(unsigned index, const Settings& settings, ReplyQueue& out) no
         return false;
     }
     const SettingEntry& entry = setting_entry(index);
+    if (entry.since == kLayoutWithRotary && !settings.has_rotary()) {
+        return true;
+    }
     (void)out.character('$').number(entry.number).character('=');
     (void)out.decimal(protocol::scaled(settings.value_at(index), entry.decimals), entry.decimals);
     (void)out.end_line();
     return true;
 }
 
-void write_named_position(std::string_view name, Position at, bool inches, ReplyQueue& out) noexcept
+void write_named_position(std::string_view name,
+                          Position at,
+                          PlaceForm form,
+                          ReplyQueue& out) noexcept
 {
     (void)out.character('[').text(name).character(':');
-    write_position(out, at, inches);
+    write_position(out, at, form);
     (void)out.character(']').end_line();
 }
 
 // As grblHAL: offsets of the axes, then a radius. Nothing for a tool that was not entered.
-void write_tool(unsigned tool, const gcode::ToolTable& tools, bool inches, ReplyQueue& out) noexcept
+void write_tool(unsigned tool,
+                const gcode::ToolTable& tools,
+                PlaceForm form,
+                ReplyQueue& out) noexcept
 {
     if (!tools.has(tool)) {
         return;
     }
     (void)out.text("[T:").number(tool).character('|');
-    write_position(out, {0, 0, tools.length_nm(tool)}, inches);
+    write_position(out, {0, 0, tools.length_nm(tool)}, form);
     (void)out.character('|');
-    write_length(out, 0, inches);
+    write_length(out, 0, form.inches);
     (void)out.character(']').end_line();
 }
 
 bool write_parameter(unsigned index, const ListingSource& source, ReplyQueue& out) noexcept
 {
     const gcode::Parameters& parameters = source.parameters;
-    const bool inches = source.stored.settings.on(Setting::kReportInches);
+    const PlaceForm form = place_form(source.stored.settings);
     if (index < gcode::kCoordinateSystems) {
         write_named_position(gcode::kCoordinateSystemNames[index], parameters.work_offsets[index],
-                             inches, out);
+                             form, out);
         return true;
     }
     constexpr unsigned kTools = gcode::ToolTable::kTools;
     constexpr unsigned kBeforeTools = 3;
     const unsigned item = index - gcode::kCoordinateSystems;
     if (item >= kBeforeTools && item < kBeforeTools + kTools) {
-        write_tool(item - kBeforeTools + 1, parameters.tools, inches, out);
+        write_tool(item - kBeforeTools + 1, parameters.tools, form, out);
         return true;
     }
     switch (item < kBeforeTools ? item : item - kTools) {
         case 0:
-            write_named_position("G28", parameters.home, inches, out);
+            write_named_position("G28", parameters.home, form, out);
             return true;
         case 1:
-            write_named_position("G30", parameters.second_home, inches, out);
+            write_named_position("G30", parameters.second_home, form, out);
             return true;
         case 2:
-            write_named_position("G92", parameters.coordinate_offset, inches, out);
+            write_named_position("G92", parameters.coordinate_offset, form, out);
             return true;
         case 3:
             (void)out.text("[TLO:");
-            write_length(out, parameters.tool_length_offset_nm, inches);
+            write_length(out, parameters.tool_length_offset_nm, form.inches);
             (void)out.character(']').end_line();
             return true;
         case 4:
-            write_probe(source.probe, inches, out);
+            write_probe(source.probe, form, out);
             return true;
         default:
             return false;
@@ -165,10 +175,10 @@ std::string_view word_of(path::Plane plane) noexcept
 
 }  // namespace
 
-void write_probe(const ProbeResult& probe, bool inches, ReplyQueue& out) noexcept
+void write_probe(const ProbeResult& probe, PlaceForm form, ReplyQueue& out) noexcept
 {
     (void)out.text("[PRB:");
-    write_position(out, probe.at, inches);
+    write_position(out, probe.at, form);
     (void)out.text(probe.found ? ":1]" : ":0]").end_line();
 }
 
@@ -192,9 +202,9 @@ bool write_listing_line(Listing listing,
         case Listing::kBuild:
             return write_build(index, source, out);
         case Listing::kSettingDescriptions:
-            return write_setting_description(index, out);
+            return write_setting_description(index, source.stored.settings.axes(), out);
         case Listing::kSettingGroups:
-            return write_setting_group(index, out);
+            return write_setting_group(index, source.stored.settings.axes(), out);
         case Listing::kErrorCodes:
             return write_error_code(index, out);
         case Listing::kAlarmCodes:

@@ -43,7 +43,9 @@ bool write_listing_line(Listing listing,
                         const ListingSource& source,
                         protocol::ReplyQueue& out) noexcept;
 
-void write_probe(const ProbeResult& probe, bool inches, protocol::ReplyQueue& out) noexcept;
+void write_probe(const ProbeResult& probe,
+                 protocol::PlaceForm form,
+                 protocol::ReplyQueue& out) noexcept;
 
 // `$G`: [GC:G0 G54 ...].
 void write_modal_state(const gcode::ModalState& modal,

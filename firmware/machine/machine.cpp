@@ -31,6 +31,7 @@ void Machine::start(LogState loaded) noexcept
     drives_.restart(motion_.ticks());
     interpreter_.set_parameters(stored_.parameters);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
+    interpreter_.set_axes(stored_.settings.axes());
     interpreter_.reset();
     const bool damaged = mended || loaded == LogState::kDamaged || loaded == LogState::kLost;
     if (damaged || stored_.settings.on(Setting::kHoming)) {

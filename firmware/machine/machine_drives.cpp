@@ -32,7 +32,7 @@ std::string_view text_of(const drives::DriveFault& fault) noexcept
 
 }  // namespace
 
-// A second motor has the settings of its axis.
+// The fourth motor has the settings of A, or of the axis whose second motor it is.
 void Machine::configure_drives() noexcept
 {
     const Settings& settings = stored_.settings;
@@ -40,7 +40,7 @@ void Machine::configure_drives() noexcept
     unsigned motors = 0;
     for (unsigned drive = 0; drive < drives::kMostDrives; ++drive) {
         const std::optional<unsigned> axis =
-            drive < kAxisCount ? std::optional<unsigned>{drive} : settings.second_motor_axis();
+            drive < settings.axes() ? std::optional<unsigned>{drive} : settings.second_motor_axis();
         const bool is_set = axis && (settings.whole(Setting::kSetDrives) >> *axis & 1U) != 0 &&
                             (unsigned{board_.drive_wires} >> drive & 1U) != 0;
         if (!is_set) {
@@ -105,7 +105,8 @@ void Machine::tell_drive_fault(const drives::DriveFault& fault) noexcept
 {
     constexpr std::array<std::string_view, drives::kMostDrives> kNames{"X", "Y", "Z",
                                                                        "of the second motor"};
-    (void)replies_.text("[MSG:Drive ").text(kNames[fault.drive]).character(' ');
+    const bool is_rotary = fault.drive == kLinearAxes && stored_.settings.has_rotary();
+    (void)replies_.text("[MSG:Drive ").text(is_rotary ? "A" : kNames[fault.drive]).character(' ');
     (void)replies_.text(text_of(fault)).text("; then reset]").end_line();
 }
 

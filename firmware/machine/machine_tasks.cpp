@@ -1,5 +1,6 @@
 // The events that a line waits for: room, the end of motion, a dwell, a probe, homing, the store.
 #include "firmware/machine/machine.hpp"
+#include "firmware/machine/report_units.hpp"
 #include "firmware/machine/travel.hpp"
 
 namespace cusp::machine {
@@ -140,7 +141,7 @@ bool Machine::step_probe() noexcept
     if (fails) {
         enter_alarm(Alarm::kProbeContact);
     }
-    write_probe(probe_, stored_.settings.on(Setting::kReportInches), replies_);
+    write_probe(probe_, place_form(stored_.settings), replies_);
     resynchronise();
     finish_line(std::nullopt);
     return true;
@@ -307,6 +308,7 @@ bool Machine::step_configure() noexcept
     configure_drives();
     outputs_.configure();
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
+    interpreter_.set_axes(stored_.settings.axes());
     reporter_.work_offset_changed();
     task_ = Task::kFinish;
     return true;

@@ -9,6 +9,7 @@
 namespace cusp::machine {
 namespace {
 
+constexpr float kAllAxes = (1U << kAxisCount) - 1;  // a mask
 constexpr float kMostAny = 1e7F;
 constexpr float kMostJerk = 1e10F;
 constexpr float kLeastPositive = 0.001F;
@@ -17,7 +18,19 @@ constexpr float kMostVibration = 200.0F;
 constexpr float kMostDamping = 0.99F;
 constexpr float kLongestFilter = 0.250F;  // s: the longest filter of the interpolator
 
-constexpr std::array<SettingEntry, kSettingCount> kTable{{
+// Settings of A: steps/degree, degrees/min, degrees/s^2, its drive, degrees/s^3.
+constexpr std::size_t kRotarySettings = kHasRotaryAxis ? 8 : 0;
+constexpr std::array<SettingEntry, 8> kOfRotary{
+    {{103, 3, 88.889F, kLeastPositive, 10000, kLayoutWithRotary},
+     {113, 3, 3600, kLeastPositive, 120000, kLayoutWithRotary},
+     {123, 3, 500, kLeastPositive, kMostAny, kLayoutWithRotary},
+     {143, 0, 500, 50, 3000, kLayoutWithRotary},
+     {153, 0, 16, 1, 256, kLayoutWithRotary},
+     {213, 0, 50, 5, 100, kLayoutWithRotary},
+     {843, 3, 0, 0, 120000, kLayoutWithRotary},
+     {803, 3, 25000, kLeastPositive, kMostJerk, kLayoutWithRotary}}};
+
+constexpr std::array<SettingEntry, kSettingCount - kRotarySettings> kWithoutRotary{{
     {0, 0, 2, 1, 100},
     {1, 0, 25, 0, 255},
     {2, 0, 0, 0, 255},
@@ -80,7 +93,7 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {210, 0, 50, 5, 100, 8},
     {211, 0, 50, 5, 100, 8},
     {212, 0, 50, 5, 100, 8},
-    {338, 0, 7, 0, 7, 8},
+    {338, 0, 7, 0, kAllAxes, 8},
     {340, 0, 5, 1, 50, 10},
     {341, 0, 0, 0, 4, 2},
     {342, 3, 30, kLeastPositive, 1000, 2},
@@ -108,12 +121,12 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
     {792, 0, 0, 0, 1},
-    {793, 0, 0, 0, 3, 3},
+    {793, 0, 0, 0, kAxisCount, 3},
     {794, 0, 0, 0, 1, 3},
     {795, 0, 0, 0, 1, 5},
     {796, 0, 1, 0, 1, 6},
     {797, 0, 0, 0, 1, 7},
-    {798, 0, 0, 0, 7, 11},
+    {798, 0, 0, 0, kAllAxes, 11},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
@@ -133,6 +146,23 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {851, 3, 0, 0, 1000, 9},
     {852, 3, 0, 0, 1000, 9},
 }};
+
+// Those of A behind those of Z.
+constexpr std::array<SettingEntry, kSettingCount> make_table() noexcept
+{
+    std::array<SettingEntry, kSettingCount> table{};
+    std::size_t count = 0;
+    for (const SettingEntry& entry : kWithoutRotary) {
+        table[count++] = entry;
+        for (std::size_t i = 0; i < kRotarySettings; ++i) {
+            if (entry.number + 1 == kOfRotary[i].number) {
+                table[count++] = kOfRotary[i];
+            }
+        }
+    }
+    return table;
+}
+constexpr std::array<SettingEntry, kSettingCount> kTable = make_table();
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept
 {
@@ -161,7 +191,7 @@ std::size_t settings_in_layout(std::uint8_t layout) noexcept
 {
     std::size_t count = 0;
     for (const SettingEntry& entry : kTable) {
-        count += entry.since <= layout ? 1U : 0U;
+        count += holds(layout, entry) ? 1U : 0U;
     }
     return count;
 }
@@ -222,7 +252,7 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
     const auto most_rate = static_cast<float>(board.most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;
     const float least_spacing = 2.0F * value(Setting::kStepPulse);
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < axes(); ++axis) {
         const auto number = [axis](Setting setting) {
             return kTable[index_of(setting, axis)].number;
         };
@@ -333,17 +363,19 @@ MachineLimits Settings::limits() const noexcept
 {
     MachineLimits limits;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        limits.velocity[axis] = value(Setting::kMaxRate, axis) / kSecondsPerMinute;
-        limits.acceleration[axis] = value(Setting::kAcceleration, axis);
-        limits.jerk[axis] = value(Setting::kJerk, axis);
+        const unsigned from = axis < axes() ? axis : 0;
+        limits.velocity[axis] = value(Setting::kMaxRate, from) / kSecondsPerMinute;
+        limits.acceleration[axis] = value(Setting::kAcceleration, from);
+        limits.jerk[axis] = value(Setting::kJerk, from);
     }
+    limits.set_rotary(has_rotary());
     return limits;
 }
 
-Vec3f Settings::backlash() const noexcept
+AxisVecf Settings::backlash() const noexcept
 {
-    return {value(Setting::kBacklash, 0), value(Setting::kBacklash, 1),
-            value(Setting::kBacklash, 2)};
+    return Vec3f{value(Setting::kBacklash, 0), value(Setting::kBacklash, 1),
+                 value(Setting::kBacklash, 2)};
 }
 
 vfd::VfdSetup Settings::vfd() const noexcept
@@ -378,7 +410,7 @@ std::uint32_t Settings::vfd_baud() const noexcept
 planner::InputShaper Settings::input_shaper() const noexcept
 {
     PerAxis<planner::AxisVibration> axes{};
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         axes[axis] = {static_cast<planner::ShaperType>(
                           static_cast<unsigned>(value(Setting::kShaperType, axis))),
                       value(Setting::kShaperFrequency, axis), value(Setting::kShaperDamping, axis)};
@@ -391,7 +423,7 @@ unsigned Settings::slowest_shaped_axis() const noexcept
 {
     unsigned slowest = 0;
     float least = kMostAny;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         if (value(Setting::kShaperType, axis) != 0 &&
             value(Setting::kShaperFrequency, axis) < least) {
             least = value(Setting::kShaperFrequency, axis);
@@ -408,6 +440,11 @@ pulse::StepSettings Settings::steps() const noexcept
         constexpr float kThousand = 1000.0F;
         steps.millisteps_per_mm[axis] = static_cast<std::uint32_t>(
             value(Setting::kStepsPerMillimetre, axis) * kThousand + 0.5F);
+    }
+    // The fourth motor's lines are another's, or nobody's.
+    for (unsigned axis = axes(); axis < kAxisCount; ++axis) {
+        steps.step_lines[axis] = 0;
+        steps.direction_lines[axis] = 0;
     }
     if (const std::optional<unsigned> axis = second_motor_axis()) {
         steps.step_lines[*axis] |= kSecondStepLine;

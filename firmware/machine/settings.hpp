@@ -21,92 +21,96 @@ namespace cusp::machine {
 
 inline constexpr unsigned kHomingPasses = 3;
 
-// Places in the table. Per-axis settings take three places, X first.
+// Places in the table. Per-axis settings take three places, X first; those that A has too take one more in
+// builds with it.
 enum class Setting : std::uint8_t {
-    kStepPulse,                          // $0 us; also the least low time
-    kIdleLock,                           // $1 ms; 255: drives stay on
-    kStepInvert,                         // $2 mask
-    kDirectionInvert,                    // $3 mask
-    kEnableInvert,                       // $4
-    kLimitInvert,                        // $5
-    kProbeInvert,                        // $6
-    kStatusReport,                       // $10 mask: 1 machine position, 2 buffer state
-    kPathTolerance,                      // $11 mm
-    kArcTolerance,                       // $12 mm; kept for senders, arcs are exact
-    kReportInches,                       // $13
-    kSoftLimits,                         // $20
-    kHardLimits,                         // $21
-    kHoming,                             // $22
-    kHomingDirection,                    // $23 mask: a set bit homes towards minus
-    kHomingFeed,                         // $24 mm/min
-    kHomingSeek,                         // $25 mm/min
-    kHomingDebounce,                     // $26 ms
-    kHomingPullOff,                      // $27 mm
-    kSpindleMaximum,                     // $30 rpm
-    kSpindleMinimum,                     // $31 rpm
-    kLaserMode,                          // $32
-    kStepsPerMillimetre,                 // $100
-    kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
-    kAcceleration = kMaxRate + 3,        // $120 mm/s^2
-    kTravel = kAcceleration + 3,         // $130 mm
-    kSecondInvert = kTravel + 3,  // $8 mask: the second motor turns the other way than $3 says
-    kControlInvert,               // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
-                                  // 64 emergency stop, 256 motor fault
-    kCoolantInvert,               // $15 mask: 1 flood, 2 mist
-    kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
-    kDirectionSetup,              // $29 us
-    kSpindleFrequency,            // $33 Hz, of the spindle's pulses
-    kSpindleOffDuty,              // $34 %: of the time that they are high while it is off
-    kSpindleLeastDuty,            // $35 %: and at $31
-    kSpindleMostDuty,             // $36 %: and at $30
-    kKeepCurrent,                 // $37 mask: axes whose drives stay on, whatever $1 says
-    kHomingPass,                  // $44 to $46 masks: axes that are homed first, second, third
+    kStepPulse,                                   // $0 us; also the least low time
+    kIdleLock,                                    // $1 ms; 255: drives stay on
+    kStepInvert,                                  // $2 mask
+    kDirectionInvert,                             // $3 mask
+    kEnableInvert,                                // $4
+    kLimitInvert,                                 // $5
+    kProbeInvert,                                 // $6
+    kStatusReport,                                // $10 mask: 1 machine position, 2 buffer state
+    kPathTolerance,                               // $11 mm
+    kArcTolerance,                                // $12 mm; kept for senders, arcs are exact
+    kReportInches,                                // $13
+    kSoftLimits,                                  // $20
+    kHardLimits,                                  // $21
+    kHoming,                                      // $22
+    kHomingDirection,                             // $23 mask: a set bit homes towards minus
+    kHomingFeed,                                  // $24 mm/min
+    kHomingSeek,                                  // $25 mm/min
+    kHomingDebounce,                              // $26 ms
+    kHomingPullOff,                               // $27 mm
+    kSpindleMaximum,                              // $30 rpm
+    kSpindleMinimum,                              // $31 rpm
+    kLaserMode,                                   // $32
+    kStepsPerMillimetre,                          // $100
+    kMaxRate = kStepsPerMillimetre + kAxisCount,  // $110 mm/min
+    kAcceleration = kMaxRate + kAxisCount,        // $120 mm/s^2
+    kTravel = kAcceleration + kAxisCount,         // $130 mm
+    kSecondInvert =
+        kTravel + kLinearAxes,  // $8 mask: the second motor turns the other way than $3 says
+    kControlInvert,             // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                                // 64 emergency stop, 256 motor fault
+    kCoolantInvert,             // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,             // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,            // $29 us
+    kSpindleFrequency,          // $33 Hz, of the spindle's pulses
+    kSpindleOffDuty,            // $34 %: of the time that they are high while it is off
+    kSpindleLeastDuty,          // $35 %: and at $31
+    kSpindleMostDuty,           // $36 %: and at $30
+    kKeepCurrent,               // $37 mask: axes whose drives stay on, whatever $1 says
+    kHomingPass,                // $44 to $46 masks: axes that are homed first, second, third
     kMotorCurrent =
-        kHomingPass + kHomingPasses,   // $140 mA rms, of a drive that is set over its wires
-    kMicrosteps = kMotorCurrent + 3,   // $150: of a full step, a power of two
-    kBacklash = kMicrosteps + 3,       // $160 mm: the play of the axis
-    kSquareOffset = kBacklash + 3,     // $170 mm: offset of the second motor towards plus
-    kHoldCurrent = kSquareOffset + 3,  // $210 %: of $140, at rest
-    kSetDrives = kHoldCurrent + 3,     // $338 mask: axes whose drives are set over their wires
-    kSpeedTolerance,                   // $340 %: by which a spindle's drive may be off at speed
-    kToolChangeMode,                   // $341; see ToolChangeMode
-    kToolSearch,                       // $342 mm: the longest way down to the tool setter
-    kToolFeed,                         // $343 mm/min: the slow touch
-    kToolSeek,                         // $344 mm/min: the fast touch
-    kSquarePercent,                    // $347 %: of the travel that one switch may close later, but
-    kSquareLeast,                      // $348 mm: no less
-    kSquareMost,                       // $349 mm: no more
-    kVfdBaud,                          // $374: 0 to 5 for 2400 to 38400 and 115200
-    kVfdTimeout,                       // $375 ms: of an answer of the spindle's drive
-    kSpindleDelay,                     // $394 s: until the spindle is up; 0: see Accessories
-    kSpindleType,                      // $395: 0 outputs, vfd::Protocol otherwise
-    kVfdAddress,                       // $460
-    kVfdRunRegister,                   // $462, of a plain drive
-    kVfdSpeedRegister,                 // $463
-    kVfdReadRegister,                  // $464
-    kVfdClockwise,                     // $465: the word for M3
-    kVfdCounterClockwise,              // $466: for M4
-    kVfdStop,                          // $467: for M5
-    kVfdToMultiplier,                  // $468: a speed is sent as rpm x $468 / $469
-    kVfdToDivisor,                     // $469
-    kVfdFromMultiplier,                // $470: and read as word x $470 / $471
-    kVfdFromDivisor,                   // $471
-    kReportInterval,                   // $481 ms, of status reports that nobody asks for; 0: none
-    kLimitFilter,                      // $790 ms
-    kLinkWatchdog,                     // $791 ms; 0: off
-    kStopOnError,                      // $792
-    kSecondMotor,                      // $793: axis with a second motor, 1 to 3; 0: none
-    kSquaring,                         // $794: the second motor has a switch of its own
-    kOptionalStop,                     // $795: M1 stops
-    kHoldWhenLeft,                     // $796: a sender that leaves while something moves
-    kAtSpeedInput,                     // $797: the spindle's drive says when it is at speed
-    kBusDrives,                        // $798 mask: axes of $338 whose drives are TMC5160
-    kJerk,                             // $800 mm/s^3
-    kShaperType = kJerk + 3,           // $810 planner::ShaperType
+        kHomingPass + kHomingPasses,           // $140 mA rms, of a drive that is set over its wires
+    kMicrosteps = kMotorCurrent + kAxisCount,  // $150: of a full step, a power of two
+    kBacklash = kMicrosteps + kAxisCount,      // $160 mm: the play of the axis
+    kSquareOffset = kBacklash + 3,             // $170 mm: offset of the second motor towards plus
+    kHoldCurrent = kSquareOffset + 3,          // $210 %: of $140, at rest
+    kSetDrives =
+        kHoldCurrent + kAxisCount,  // $338 mask: axes whose drives are set over their wires
+    kSpeedTolerance,                // $340 %: by which a spindle's drive may be off at speed
+    kToolChangeMode,                // $341; see ToolChangeMode
+    kToolSearch,                    // $342 mm: the longest way down to the tool setter
+    kToolFeed,                      // $343 mm/min: the slow touch
+    kToolSeek,                      // $344 mm/min: the fast touch
+    kSquarePercent,                 // $347 %: of the travel that one switch may close later, but
+    kSquareLeast,                   // $348 mm: no less
+    kSquareMost,                    // $349 mm: no more
+    kVfdBaud,                       // $374: 0 to 5 for 2400 to 38400 and 115200
+    kVfdTimeout,                    // $375 ms: of an answer of the spindle's drive
+    kSpindleDelay,                  // $394 s: until the spindle is up; 0: see Accessories
+    kSpindleType,                   // $395: 0 outputs, vfd::Protocol otherwise
+    kVfdAddress,                    // $460
+    kVfdRunRegister,                // $462, of a plain drive
+    kVfdSpeedRegister,              // $463
+    kVfdReadRegister,               // $464
+    kVfdClockwise,                  // $465: the word for M3
+    kVfdCounterClockwise,           // $466: for M4
+    kVfdStop,                       // $467: for M5
+    kVfdToMultiplier,               // $468: a speed is sent as rpm x $468 / $469
+    kVfdToDivisor,                  // $469
+    kVfdFromMultiplier,             // $470: and read as word x $470 / $471
+    kVfdFromDivisor,                // $471
+    kReportInterval,                // $481 ms, of status reports that nobody asks for; 0: none
+    kLimitFilter,                   // $790 ms
+    kLinkWatchdog,                  // $791 ms; 0: off
+    kStopOnError,                   // $792
+    kSecondMotor,  // $793, of the fourth motor: 0 none, 1 to 3 the second one of X, Y or Z, 4 axis A
+    kSquaring,     // $794: the second motor has a switch of its own
+    kOptionalStop,                          // $795: M1 stops
+    kHoldWhenLeft,                          // $796: a sender that leaves while something moves
+    kAtSpeedInput,                          // $797: the spindle's drive says when it is at speed
+    kBusDrives,                             // $798 mask: axes of $338 whose drives are TMC5160
+    kJerk,                                  // $800 mm/s^3
+    kShaperType = kJerk + kAxisCount,       // $810 planner::ShaperType
     kShaperFrequency = kShaperType + 3,     // $820 Hz
     kShaperDamping = kShaperFrequency + 3,  // $830 ratio
     kStealthSpeed = kShaperDamping + 3,  // $840 mm/min: up to which a drive runs silent; 0: never
-    kAxisPullOff = kStealthSpeed + 3,    // $850 mm: of this axis in place of $27; 0: as $27 says
+    kAxisPullOff =
+        kStealthSpeed + kAxisCount,  // $850 mm: of this axis in place of $27; 0: as $27 says
     kCount = kAxisPullOff + 3,
 };
 
@@ -123,12 +127,24 @@ struct SettingEntry {
     float standard;         // the default: a 3-axis mill
     float least;
     float most;
-    std::uint8_t since{1};  // the layout of stored settings that has it first
+    std::uint8_t since{
+        1};  // the layout of stored settings that has it first; kLayoutWithRotary: of A
 };
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of
 // earlier versions are still read, and the new setting keeps its default.
-inline constexpr std::uint8_t kSettingsLayout = 11;
+inline constexpr std::uint8_t kLayoutNumber = 11;
+// Added to it where A has settings and offsets of its own. Builds with A read records without it, too.
+inline constexpr std::uint8_t kLayoutWithRotary = 0x80;
+inline constexpr std::uint8_t kSettingsLayout =
+    kLayoutNumber + (kHasRotaryAxis ? kLayoutWithRotary : std::uint8_t{0});
+// True if a record of a layout has the setting.
+constexpr bool holds(std::uint8_t layout, const SettingEntry& entry) noexcept
+{
+    return entry.since == kLayoutWithRotary
+               ? layout >= kLayoutWithRotary
+               : entry.since <= static_cast<std::uint8_t>(layout & (kLayoutWithRotary - 1U));
+}
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 // The number of settings that a record of this layout holds, in the table's order.
@@ -205,11 +221,18 @@ public:
     // whether there was one.
     bool mend(const Settings& standard, const BoardLimits& board = {}) noexcept;
 
+    // The fourth motor turns A.
+    bool has_rotary() const noexcept
+    {
+        return kHasRotaryAxis && whole(Setting::kSecondMotor) > kLinearAxes;
+    }
+    // Axes of the machine, X first.
+    unsigned axes() const noexcept { return has_rotary() ? kAxisCount : kLinearAxes; }
     // The axis with the second motor.
     std::optional<unsigned> second_motor_axis() const noexcept
     {
         const std::uint32_t axis = whole(Setting::kSecondMotor);
-        return axis > 0 ? std::optional<unsigned>{axis - 1} : std::nullopt;
+        return axis > 0 && axis <= kLinearAxes ? std::optional<unsigned>{axis - 1} : std::nullopt;
     }
     // True if homing squares this axis on two switches.
     bool squares(unsigned axis) const noexcept
@@ -219,7 +242,7 @@ public:
 
     // Limits of the motors.
     MachineLimits limits() const noexcept;
-    Vec3f backlash() const noexcept;  // mm
+    AxisVecf backlash() const noexcept;  // mm
     // How far inside its switch homing leaves an axis, mm.
     float pull_off(unsigned axis) const noexcept
     {

@@ -108,7 +108,8 @@ void write_motion(const StatusFields& status, const Settings& settings, ReplyQue
     const bool inches = settings.on(Setting::kReportInches);
     const bool machine = (mask & kReportMachinePosition) != 0;
     (void)out.text(machine ? "|MPos:" : "|WPos:");
-    write_position(out, machine ? status.position : status.position - status.work_offset, inches);
+    write_position(out, machine ? status.position : status.position - status.work_offset,
+                   place_form(settings));
     if ((mask & kReportBufferState) != 0) {
         (void)out.text("|Bf:").number(status.free_blocks).character(',').number(status.free_bytes);
     }
@@ -141,7 +142,7 @@ void StatusReporter::write(const StatusFields& status,
             until_overrides_ = 1;  // with the next report
         }
         (void)out.text("|WCO:");
-        write_position(out, status.work_offset, settings.on(Setting::kReportInches));
+        write_position(out, status.work_offset, place_form(settings));
     }
     if (until_overrides_ > 0) {
         --until_overrides_;

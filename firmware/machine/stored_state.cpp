@@ -17,6 +17,13 @@ constexpr std::size_t rest_behind(std::size_t settings) noexcept
     constexpr std::size_t kAlign = alignof(gcode::Parameters);
     return (settings * sizeof(float) + kAlign - 1) / kAlign * kAlign;
 }
+// Of a record without the rotary axis, whose positions are of three numbers.
+constexpr std::size_t rest_size(std::uint8_t layout) noexcept
+{
+    const bool lacks_rotary = kHasRotaryAxis && layout < kLayoutWithRotary;
+    return sizeof(StoredState) - kRest -
+           (lacks_rotary ? gcode::Parameters::kPositions * sizeof(std::int64_t) : 0U);
+}
 static_assert(sizeof(Settings) == kSettingCount * sizeof(float));
 static_assert(rest_behind(kSettingCount) == kRest);
 
@@ -46,6 +53,18 @@ Span<const std::uint8_t> StoredState::bytes() const noexcept
     return {reinterpret_cast<const std::uint8_t*>(this), sizeof(StoredState)};
 }
 
+// The positions at the begin of the rest get a rotary axis at 0. From the last on.
+void widen_positions(std::uint8_t* rest, std::size_t size) noexcept
+{
+    constexpr std::size_t kThree = sizeof(Vec3<std::int64_t>);
+    constexpr std::size_t kAll = gcode::Parameters::kPositions;
+    __builtin_memmove(rest + kAll * sizeof(Position), rest + kAll * kThree, size - kAll * kThree);
+    for (std::size_t i = kAll; i-- > 0;) {
+        __builtin_memmove(rest + i * sizeof(Position), rest + i * kThree, kThree);
+        __builtin_memset(rest + i * sizeof(Position) + kThree, 0, sizeof(Position) - kThree);
+    }
+}
+
 // From the last on: nothing is overwritten before it is read.
 void widen(Settings& settings, std::uint8_t layout, const Settings& standard) noexcept
 {
@@ -54,9 +73,9 @@ void widen(Settings& settings, std::uint8_t layout, const Settings& standard) no
     std::size_t held = settings_in_layout(layout);
     for (std::size_t i = kSettingCount; i > 0; --i) {
         const std::size_t place = (i - 1) * sizeof(float);
-        const bool holds = setting_entry(i - 1).since <= layout;
-        held -= holds ? 1U : 0U;
-        __builtin_memmove(bytes + place, holds ? bytes + held * sizeof(float) : defaults + place,
+        const bool is_held = holds(layout, setting_entry(i - 1));
+        held -= is_held ? 1U : 0U;
+        __builtin_memmove(bytes + place, is_held ? bytes + held * sizeof(float) : defaults + place,
                           sizeof(float));
     }
 }
@@ -65,16 +84,19 @@ void StoredState::widen(std::uint8_t layout, const Settings& standard) noexcept
 {
     std::uint8_t* const all = bytes().begin();
     __builtin_memmove(all + kRest, all + rest_behind(settings_in_layout(layout)),
-                      sizeof(StoredState) - kRest);
+                      rest_size(layout));
+    if (rest_size(layout) != sizeof(StoredState) - kRest) {
+        widen_positions(all + kRest, rest_size(layout));
+    }
     machine::widen(settings, layout, standard);
 }
 // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
 
 RecordLayout earlier_layout(std::size_t place) noexcept
 {
-    const auto version = static_cast<std::uint8_t>(kSettingsLayout - 1 - place);
+    const auto version = static_cast<std::uint8_t>(kLatestEarlier - place);
     const std::size_t rest = rest_behind(settings_in_layout(version));
-    return {version, static_cast<std::uint32_t>(rest + sizeof(StoredState) - kRest)};
+    return {version, static_cast<std::uint32_t>(rest + rest_size(version))};
 }
 
 EarlierLayouts earlier_layouts() noexcept

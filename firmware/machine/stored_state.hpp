@@ -46,7 +46,9 @@ static_assert(sizeof(StoredState) % 4 == 0, "the store is written in words");
 // Layouts that differ from the present one by the settings that they lack, the latest first. The
 // first of all had no table of tools either.
 inline constexpr std::uint8_t kOldestLayout = 2;
-using EarlierLayouts = std::array<RecordLayout, kSettingsLayout - kOldestLayout>;
+// A build with the rotary axis reads all of those without it.
+inline constexpr std::uint8_t kLatestEarlier = kHasRotaryAxis ? kLayoutNumber : kLayoutNumber - 1;
+using EarlierLayouts = std::array<RecordLayout, kLatestEarlier - kOldestLayout + 1>;
 EarlierLayouts earlier_layouts() noexcept;
 // One of them. Precondition: place < the size of EarlierLayouts.
 RecordLayout earlier_layout(std::size_t place) noexcept;

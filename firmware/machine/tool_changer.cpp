@@ -28,6 +28,21 @@ std::int64_t bottom_of(const Settings& settings) noexcept
     return -nanometres_of(settings.value(Setting::kTravel, kAxisZ));
 }
 
+// A place at another height.
+Position at_height(Position at, std::int64_t z) noexcept
+{
+    at.z = z;
+    return at;
+}
+
+// Over or below another place, A where it is.
+Position over(Position place, Position at) noexcept
+{
+    at.x = place.x;
+    at.y = place.y;
+    return at;
+}
+
 bool in_travel(Position at, const Settings& settings) noexcept
 {
     path::Move move;
@@ -132,26 +147,26 @@ auto ToolChanger::start_phase(Motion& motion, const Settings& settings) noexcept
             if (change_.mode != ToolChangeMode::kAtTop && !in_travel(change_.place, settings)) {
                 return fail(Alarm::kSoftLimit);
             }
-            return travel(motion, {at.x, at.y, std::max(at.z, top)});
+            return travel(motion, at_height(at, std::max(at.z, top)));
         case Phase::kToPlace:
-            return travel(motion, {change_.place.x, change_.place.y, at.z});
+            return travel(motion, over(change_.place, at));
         case Phase::kLower:
         case Phase::kApproach:
-            return travel(motion, {at.x, at.y, std::min(change_.place.z, top)});
+            return travel(motion, at_height(at, std::min(change_.place.z, top)));
         case Phase::kChange:
             return stepped(Progress::kAtChange);
         case Phase::kSeek:
         case Phase::kLocate:
             return probe(motion, settings);
         case Phase::kBackOff:
-            push(motion, {at.x, at.y, contact_z_ + nanometres_of(kBackOffMillimetres)},
+            push(motion, at_height(at, contact_z_ + nanometres_of(kBackOffMillimetres)),
                  path::MoveKind::kFixedFeed, settings.value(Setting::kToolSeek));
             moving_ = true;
             return Progress::kStepped;
         case Phase::kLiftAgain:
-            return travel(motion, {at.x, at.y, std::max(at.z, top)});
+            return travel(motion, at_height(at, std::max(at.z, top)));
         case Phase::kBack:
-            return travel(motion, {back_.x, back_.y, at.z});
+            return travel(motion, over(back_, at));
         case Phase::kOverPart:
             return stepped(Progress::kOverPart);
         case Phase::kDescend:

@@ -17,7 +17,7 @@ void include(Extent& extent, Position at) noexcept
     }
 }
 
-Vec3d point_at(const path::Arc& arc, double angle) noexcept
+AxisVecd point_at(const path::Arc& arc, double angle) noexcept
 {
     const SinCos<double> turn = sin_cos(angle);
     const double part = angle / arc.sweep;
@@ -47,10 +47,10 @@ void include_turns(Extent& extent, const path::Arc& arc, unsigned axis, Position
 // A control point in float may lie a rounding outside.
 constexpr std::int64_t kRounding = 10;
 
-// True if it lies between -travel and 0, or not beyond `edge`.
+// True if it lies between -travel and 0, or not beyond `edge`. A rotary axis may turn for ever.
 bool holds(const Extent& extent, const Extent& edge, const Settings& settings) noexcept
 {
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         const std::int64_t travel =
             to_nanometres(static_cast<double>(settings.value(Setting::kTravel, axis)));
         const std::int64_t least = std::min(-travel - kRounding, edge.least[axis]);
@@ -69,16 +69,14 @@ Extent extent_of(const path::Move& move) noexcept
     Extent extent{move.start, move.start};
     include(extent, move.end);
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
-        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
             include_turns(extent, *arc, axis, move.start);
         }
     }
     if (const auto* curve = std::get_if<path::BezierPiece>(&move.path)) {
         for (unsigned i = 0; i < curve->order; ++i) {
-            const Vec3f point = curve->points[i];
-            include(extent, move.start + to_position({static_cast<double>(point.x),
-                                                      static_cast<double>(point.y),
-                                                      static_cast<double>(point.z)}));
+            const AxisVecf point = curve->points[i];
+            include(extent, move.start + to_position(to_double(point)));
         }
     }
     return extent;

@@ -9,7 +9,7 @@ namespace {
 
 // Homogeneous point: weight times position, and the weight.
 struct Weighted {
-    Vec3f point;
+    AxisVecf point;
     float weight;
 };
 
@@ -42,7 +42,7 @@ float last_of(const std::array<float, kOrder>& points, float u) noexcept
 
 // point_at() of one order. Weights of 1 change no bit, and are left out.
 template <unsigned kOrder>
-Vec3f point_of_order(const path::BezierPiece& piece, float u) noexcept
+AxisVecf point_of_order(const path::BezierPiece& piece, float u) noexcept
 {
     std::array<float, kOrder> weight;
     bool weighted = false;
@@ -51,9 +51,9 @@ Vec3f point_of_order(const path::BezierPiece& piece, float u) noexcept
         weight[i] = piece.weights[i];
         weighted = weighted || weight[i] != 1.0F;
     }
-    Vec3f point;
-#pragma GCC unroll 3
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    AxisVecf point;
+#pragma GCC unroll 4
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         std::array<float, kOrder> values;
 #pragma GCC unroll 5
         for (unsigned i = 0; i < kOrder; ++i) {
@@ -77,10 +77,10 @@ Net net_of(const path::BezierPiece& piece) noexcept
 
 // Position and derivatives by the parameter.
 struct Derivatives {
-    Vec3f position;
-    Vec3f first;
-    Vec3f second;
-    Vec3f third;
+    AxisVecf position;
+    AxisVecf first;
+    AxisVecf second;
+    AxisVecf third;
 };
 
 // de Casteljau's scheme down to `points` points.
@@ -144,7 +144,7 @@ float speed_at(const path::BezierPiece& piece, float u) noexcept
     reduce(net, piece.order, 2, u);
     const float weight = net[0].weight + u * (net[1].weight - net[0].weight);
     // With A = w P: A' - w' P = (A1 w0 - A0 w1) p / w at the last two points of the scheme.
-    const Vec3f turn = net[1].point * net[0].weight - net[0].point * net[1].weight;
+    const AxisVecf turn = net[1].point * net[0].weight - net[0].point * net[1].weight;
     return static_cast<float>(piece.order - 1U) * norm(turn) / (weight * weight);
 }
 
@@ -240,7 +240,7 @@ CurveState state_at(const path::BezierPiece& piece, float u) noexcept
     }
     // u' = 1/g, u'' = -g_u/g^3, u''' = -g_uu/g^4 + 3 g_u^2/g^5 with g = |dP/du|.
     const float u1 = 1.0F / speed;
-    const Vec3f tangent = d.first * u1;
+    const AxisVecf tangent = d.first * u1;
     const float along = dot(tangent, d.second);  // g_u
     const float change =
         (dot(d.second, d.second) - along * along) * u1 + dot(tangent, d.third);  // g_uu
@@ -314,7 +314,7 @@ float parameter_at(const ArcLengthTable& table, float s, std::uint8_t& interval)
     return a.u + rise(quintic_between(a, b, length), x);
 }
 
-Vec3f point_at(const path::BezierPiece& piece, float u) noexcept
+AxisVecf point_at(const path::BezierPiece& piece, float u) noexcept
 {
     if (u >= 1) {
         return piece.points[piece.order - 1U];

@@ -50,16 +50,16 @@ float parameter_at(const ArcLengthTable& table, float s, std::uint8_t& interval)
 
 // The point at parameter u in [0, 1], mm from the start of the piece; exactly the first and last
 // control points at 0 and 1. Context: servo tick.
-Vec3f point_at(const path::BezierPiece& piece, float u) noexcept;
+AxisVecf point_at(const path::BezierPiece& piece, float u) noexcept;
 
 // A point and the derivatives of the position by arc length.
 struct CurveState {
-    Vec3f position;   // mm from the start of the piece
-    Vec3f tangent;    // unit vector
-    Vec3f curvature;  // d2P/ds2, 1/mm
-    Vec3f change;     // d3P/ds3, 1/mm^2
-    float du;         // du/ds, 1/mm
-    float ddu;        // d2u/ds2, 1/mm^2
+    AxisVecf position;   // mm from the start of the piece
+    AxisVecf tangent;    // unit vector
+    AxisVecf curvature;  // d2P/ds2, 1/mm
+    AxisVecf change;     // d3P/ds3, 1/mm^2
+    float du;            // du/ds, 1/mm
+    float ddu;           // d2u/ds2, 1/mm^2
 };
 
 // At parameter u in [0, 1]. If |dP/du| is below 1e-12 mm all derivatives are zero. Relative

@@ -188,7 +188,7 @@ float greatest_parametric_speed(const ArcLengthTable& table) noexcept
 }
 
 // The straight line to the end, as a curve of the same order.
-void straighten(path::BezierPiece& piece, Vec3d end) noexcept
+void straighten(path::BezierPiece& piece, AxisVecd end) noexcept
 {
     for (unsigned i = 0; i < piece.order; ++i) {
         piece.points[i] = to_float(end * (static_cast<double>(i) / (piece.order - 1U)));
@@ -202,17 +202,17 @@ void straighten(path::BezierPiece& piece, Vec3d end) noexcept
 bool PieceStream::try_piece(double from, double to, Piece& piece) noexcept
 {
     const Net net = part_of_span(from, to);
-    const Vec3d start = to_millimetres(position_ - span_origin_);
+    const AxisVecd start = to_millimetres(position_ - span_origin_);
     double heaviest = 0;
     for (std::uint32_t i = 0; i < order_; ++i) {
         heaviest = std::max(heaviest, net[i].weight);
     }
     piece.bezier = {};
     piece.bezier.order = static_cast<std::uint8_t>(order_);
-    Vec3d last{};
+    AxisVecd last{};
     double polygon = 0;  // a curve is no longer than its control polygon
     for (std::uint32_t i = 0; i < order_; ++i) {
-        const Vec3d at = i == 0 ? Vec3d{} : net[i].point / net[i].weight - start;
+        const AxisVecd at = i == 0 ? AxisVecd{} : net[i].point / net[i].weight - start;
         polygon += norm(at - last);
         piece.bezier.points[i] = to_float(at);
         piece.bezier.weights[i] = static_cast<float>(net[i].weight / heaviest);
@@ -222,7 +222,7 @@ bool PieceStream::try_piece(double from, double to, Piece& piece) noexcept
     if (polygon > kMaxPieceLength) {
         return false;
     }
-    const Vec3d end = to_millimetres(piece.end - position_);
+    const AxisVecd end = to_millimetres(piece.end - position_);
     piece.bezier.points[order_ - 1] = to_float(end);
     ArcLengthTable table;
     const bool made = make_arc_length_table(piece.bezier, table);

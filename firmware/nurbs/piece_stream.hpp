@@ -89,7 +89,7 @@ public:
 private:
     // A control point times its weight, relative to an origin, mm.
     struct Weighted {
-        Vec3d point;
+        AxisVecd point;
         double weight;
     };
     using Net = std::array<Weighted, path::kMaxOrder>;

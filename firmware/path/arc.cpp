@@ -62,7 +62,7 @@ double sweep_between(double x0, double y0, double x1, double y1, bool clockwise)
 
 // A control point times its weight, and the weight.
 struct Homogeneous {
-    Vec3d point;
+    AxisVecd point;
     double weight;
 };
 
@@ -72,10 +72,8 @@ double speed_at(const BezierPiece& piece, double t) noexcept
     std::array<Homogeneous, kMaxOrder> net{};
     for (unsigned i = 0; i <= degree; ++i) {
         const double w = static_cast<double>(piece.weights[i]);
-        const Vec3f p = piece.points[i];
-        net[i] = {
-            Vec3d{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} * w,
-            w};
+        const AxisVecf p = piece.points[i];
+        net[i] = {to_double(p) * w, w};
     }
     for (unsigned level = degree; level > 1; --level) {
         for (unsigned i = 0; i < level; ++i) {
@@ -84,8 +82,8 @@ double speed_at(const BezierPiece& piece, double t) noexcept
         }
     }
     const double weight = net[0].weight * (1 - t) + net[1].weight * t;
-    const Vec3d a = net[0].point / net[0].weight;
-    const Vec3d b = net[1].point / net[1].weight;
+    const AxisVecd a = net[0].point / net[0].weight;
+    const AxisVecd b = net[1].point / net[1].weight;
     // dP/dt = p w0 w1 / w^2 (P1 - P0) of the last two points of de Casteljau's scheme.
     return degree * net[0].weight * net[1].weight / (weight * weight) * norm(b - a);
 }
@@ -156,6 +154,9 @@ Result<Arc> make_arc(const ArcWords& words) noexcept
     arc.v[axes.first] = -turn * arc.u[axes.second];
     arc.v[axes.second] = turn * arc.u[axes.first];
     arc.axial[axes.normal] = millimetres(travel[axes.normal]);
+    for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+        arc.axial[axis] = millimetres(travel[axis]);
+    }
     arc.radius = radius;
     arc.radius_change = end_radius - radius;
     const bool same = travel[axes.first] == 0 && travel[axes.second] == 0;
@@ -191,6 +192,20 @@ Result<ArcWords> with_radius(ArcWords words, std::int64_t radius_nm) noexcept
     words.first_offset_nm = rounded(0.5 * dx - side * dy);
     words.second_offset_nm = rounded(0.5 * dy + side * dx);
     return words;
+}
+
+double fed_length(const Move& move) noexcept
+{
+    if constexpr (kHasRotaryAxis) {
+        Move linear = move;
+        linear.end[kLinearAxes] = move.start[kLinearAxes];
+        if (auto* arc = std::get_if<Arc>(&linear.path)) {
+            arc->axial[kLinearAxes] = 0;
+        }
+        const double part = length(linear);
+        return part > 0 ? part : length(move);
+    }
+    return length(move);
 }
 
 double length(const Move& move) noexcept

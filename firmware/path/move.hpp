@@ -45,4 +45,7 @@ struct Move {
 // Length of the path in mm, within 1e-9 relative for lines and arcs and 1e-6 for Bezier pieces.
 double length(const Move& move) noexcept;
 
+// The part of it that feeds count: without the rotary axis where anything else moves.
+double fed_length(const Move& move) noexcept;
+
 }  // namespace cusp::path

@@ -23,10 +23,10 @@ struct Line {};
 // A circular arc or helix in any plane. With t in [0, 1] the point is
 //   centre + (radius + t radius_change) (cos(t sweep) u + sin(t sweep) v) + t axial.
 struct Arc {
-    Vec3d centre;          // from the start of the move
-    Vec3d u;               // unit vector from the centre to the start
-    Vec3d v;               // unit vector, square to u, towards the motion
-    Vec3d axial;           // travel along the axis of the plane; zero for a flat arc
+    AxisVecd centre;       // from the start of the move
+    AxisVecd u;            // unit vector from the centre to the start
+    AxisVecd v;            // unit vector, square to u, towards the motion
+    AxisVecd axial;        // travel along the axis of the plane; zero for a flat arc
     double radius;         // mm, > 0, at the start
     double radius_change;  // mm, end radius minus start radius: rounding of the program's numbers
     double sweep;          // radians, > 0; over 2 pi for several turns
@@ -38,7 +38,7 @@ inline constexpr std::uint32_t kMaxOrder = 5;
 struct BezierPiece {
     std::uint8_t order;  // 2 to kMaxOrder
     // Control points relative to the start of the move, mm; the first is zero, the last is the end.
-    Vec3f points[kMaxOrder];
+    AxisVecf points[kMaxOrder];
     float weights[kMaxOrder];  // > 0
 };
 
@@ -46,9 +46,9 @@ struct BezierPiece {
 // the point is
 //   x D + x (1 - x) (q0 + q1 x + q2 x^2 + q3 x^3).
 struct Quintic {
-    std::array<Vec3f, 4> bulge;  // q0 to q3, mm
-    float length;                // mm
-    bool is_transition;          // between a line and an arc, or two arcs
+    std::array<AxisVecf, 4> bulge;  // q0 to q3, mm
+    float length;                   // mm
+    bool is_transition;             // between a line and an arc, or two arcs
 };
 
 using Path = std::variant<Line, Arc, BezierPiece, Quintic>;

@@ -22,17 +22,20 @@ float length_mm(const Block& block) noexcept
     return static_cast<float>(block.length) / kPathUnitsPerMillimetre;
 }
 
-Vec3f displacement_mm(const Block& block) noexcept
+AxisVecf displacement_mm(const Block& block) noexcept
 {
-    return Vec3f{static_cast<float>(block.displacement.x), static_cast<float>(block.displacement.y),
-                 static_cast<float>(block.displacement.z)} /
-           kPathUnitsPerMillimetre;
+    return to_float(block.displacement) / kPathUnitsPerMillimetre;
 }
 
 // To the nearest integer. Precondition: |x| < 2^31.
 std::int32_t rounded(float x) noexcept
 {
     return static_cast<std::int32_t>(x + (x < 0 ? -0.5F : 0.5F));
+}
+
+PathOffset rounded(const AxisVecf& v) noexcept
+{
+    return mapped(v, [](float x) { return rounded(x); });
 }
 
 PathOffset arc_position(const ArcBlock& arc, std::uint32_t offset) noexcept
@@ -45,17 +48,16 @@ PathOffset arc_position(const ArcBlock& arc, std::uint32_t offset) noexcept
     const float along = 2.0F * sine * cosine;
     const float inward = 2.0F * sine * sine;
     const float grown = arc.spread * angle;
-    const Vec3f place = arc.tangent * ((arc.radius + grown) * along) +
-                        arc.normal * (arc.radius * inward - grown * (1.0F - inward)) +
-                        arc.axial * angle;
-    return {rounded(place.x * kPathUnitsPerMillimetre), rounded(place.y * kPathUnitsPerMillimetre),
-            rounded(place.z * kPathUnitsPerMillimetre)};
+    const AxisVecf place = arc.tangent * ((arc.radius + grown) * along) +
+                           arc.normal * (arc.radius * inward - grown * (1.0F - inward)) +
+                           arc.axial * angle;
+    return rounded(place * kPathUnitsPerMillimetre);
 }
 
 // Unit vectors of an arc turned by `angle`.
 struct ArcFrame {
-    Vec3f tangent;
-    Vec3f normal;
+    AxisVecf tangent;
+    AxisVecf normal;
 };
 
 ArcFrame frame_at(const ArcBlock& arc, float angle) noexcept
@@ -75,9 +77,9 @@ LaneDerivatives arc_state(const ArcBlock& arc, float angle) noexcept
     const ArcFrame frame = frame_at(arc, angle);
     const float rate = radians_per_mm(arc);
     const float radius = arc.radius + arc.spread * angle;
-    const Vec3f first = frame.tangent * radius - frame.normal * arc.spread + arc.axial;
-    const Vec3f second = frame.normal * radius + frame.tangent * (2.0F * arc.spread);
-    const Vec3f third = frame.normal * (3.0F * arc.spread) - frame.tangent * radius;
+    const AxisVecf first = frame.tangent * radius - frame.normal * arc.spread + arc.axial;
+    const AxisVecf second = frame.normal * radius + frame.tangent * (2.0F * arc.spread);
+    const AxisVecf third = frame.normal * (3.0F * arc.spread) - frame.tangent * radius;
     return {to_lanes(first * rate), to_lanes(second * (rate * rate)),
             to_lanes(third * (rate * rate * rate))};
 }
@@ -109,7 +111,7 @@ PathDerivatives arc_derivatives(const ArcBlock& arc,
     const float widest = arc.radius + std::max(0.0F, arc.spread * to_angle);
     const float spread = std::fabs(arc.spread);
     PathDerivatives bound{};
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const float tangent = arc.tangent[i];
         const float normal = arc.normal[i];
         const float along = largest_turned(tangent, normal, from, to);
@@ -124,10 +126,9 @@ PathDerivatives arc_derivatives(const ArcBlock& arc,
 PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
 {
     const float s = static_cast<float>(offset) / kPathUnitsPerMillimetre;
-    const Vec3f place =
+    const AxisVecf place =
         nurbs::point_at(curve.piece, nurbs::parameter_at(curve.table, s, curve.table.last_found));
-    return {rounded(place.x * kPathUnitsPerMillimetre), rounded(place.y * kPathUnitsPerMillimetre),
-            rounded(place.z * kPathUnitsPerMillimetre)};
+    return rounded(place * kPathUnitsPerMillimetre);
 }
 
 LaneVec largest(LaneVec a, LaneVec m, LaneVec b) noexcept
@@ -202,9 +203,8 @@ PathOffset quintic_position(const Block& block, std::uint32_t offset) noexcept
     const float x = static_cast<float>(fraction(block, offset)) * 0x1p-31F;
     const auto& q = block.quintic.bulge;
     const float scale = x * (1.0F - x) * kPathUnitsPerMillimetre;
-    const Vec3f bulge = (q[0] + (q[1] + (q[2] + q[3] * x) * x) * x) * scale;
-    return line_position(block, offset) +
-           PathOffset{rounded(bulge.x), rounded(bulge.y), rounded(bulge.z)};
+    const AxisVecf bulge = (q[0] + (q[1] + (q[2] + q[3] * x) * x) * x) * scale;
+    return line_position(block, offset) + rounded(bulge);
 }
 
 // A quintic ready to be asked for the derivatives of several places.
@@ -332,7 +332,7 @@ bool is_within_half_tick(const Block& block, float speed) noexcept
     return static_cast<float>(block.length) < kHalfTick * kPathUnitsPerMillimetre * speed;
 }
 
-Vec3f felt_end(const Block& block, Vec3f start, Vec3f end) noexcept
+AxisVecf felt_end(const Block& block, AxisVecf start, AxisVecf end) noexcept
 {
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
     // It bends by its turn over its length: the speed of that is the root of centripetal length / turn.

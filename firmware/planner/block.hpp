@@ -29,9 +29,9 @@ struct AxisFilter {
 // An arc or helix of at most a quarter turn. With h the angle from its start:
 //   (radius + spread h) turned by h, plus axial h.
 struct ArcBlock {
-    Vec3f tangent;         // unit vector of the motion in the plane at the start
-    Vec3f normal;          // unit vector from the start to the centre
-    Vec3f axial;           // mm per radian
+    AxisVecf tangent;      // unit vector of the motion in the plane at the start
+    AxisVecf normal;       // unit vector from the start to the centre
+    AxisVecf axial;        // mm per radian
     float radius;          // mm
     float spread;          // mm per radian: how the radius changes
     float angle_per_unit;  // radians per path unit
@@ -45,7 +45,7 @@ struct CurveBlock {
 
 // The bulge that path::Quintic adds to the chord.
 struct QuinticBlock {
-    std::array<Vec3f, 4> bulge;  // mm
+    std::array<AxisVecf, 4> bulge;  // mm
 };
 
 inline constexpr std::uint16_t kWholeShare = 1U << 15U;
@@ -97,7 +97,7 @@ inline PathOffset line_position(const Block& block, std::uint32_t offset) noexce
         const std::int64_t twice = std::int64_t{2 * whole} * part;
         return static_cast<std::int32_t>((twice + (std::int64_t{1} << 31)) >> 32);
     };
-    return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
+    return mapped(block.displacement, scale);
 }
 
 // As position_at(), of a block that is no line. Precondition: offset < length.
@@ -118,8 +118,8 @@ inline PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
 // Direction and curvature vector of the block at one of its ends, for the junction with its
 // neighbour.
 struct EndGeometry {
-    Vec3f tangent;    // dP/ds
-    Vec3f curvature;  // d2P/ds2, 1/mm
+    AxisVecf tangent;    // dP/ds
+    AxisVecf curvature;  // d2P/ds2, 1/mm
 };
 EndGeometry start_geometry(const Block& block) noexcept;
 EndGeometry end_geometry(const Block& block) noexcept;
@@ -129,7 +129,7 @@ bool is_within_half_tick(const Block& block, float speed) noexcept;
 
 // The direction in which a block is left, as the axis filters feel it: that of its start if it is passed within half a
 // tick at the speed of its bend, too. Then it is a turn at its end. Precondition: is_within_half_tick().
-Vec3f felt_end(const Block& block, Vec3f start, Vec3f end) noexcept;
+AxisVecf felt_end(const Block& block, AxisVecf start, AxisVecf end) noexcept;
 
 // The first three derivatives of the place by arc length, with signs, at `s` mm from the start.
 // Precondition: 0 <= s <= the length. Context: main loop.

@@ -15,10 +15,9 @@ constexpr double kMaxArcAngle = kPi / 2;
 
 PathOffset path_offset(Position from, Position to) noexcept
 {
-    const auto scaled = [](std::int64_t nm) {
+    return mapped(to - from, [](std::int64_t nm) {
         return static_cast<std::int32_t>(nm * kPathUnitsPerNanometre);
-    };
-    return {scaled(to.x - from.x), scaled(to.y - from.y), scaled(to.z - from.z)};
+    });
 }
 
 std::uint32_t units(double mm) noexcept
@@ -32,7 +31,7 @@ std::uint32_t pieces(double whole, double most) noexcept
 }
 
 // The point of an arc at parameter t, exact start and end excepted.
-Vec3d arc_point(const path::Arc& arc, double t) noexcept
+AxisVecd arc_point(const path::Arc& arc, double t) noexcept
 {
     const auto [sine, cosine] = sin_cos(t * arc.sweep);
     const double radius = arc.radius + t * arc.radius_change;
@@ -68,7 +67,7 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
     const Position from = at_;
     Position to = move.end;
     if (next_ != count_) {
-        const Vec3d whole = to_millimetres(move.end) - to_millimetres(move.start);
+        const AxisVecd whole = to_millimetres(move.end) - to_millimetres(move.start);
         to = move.start + to_position(arc != nullptr ? arc_point(*arc, t) : whole * t);
     }
     if (from == to && arc == nullptr && piece == nullptr) {
@@ -97,7 +96,7 @@ bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) no
         set_length(block, std::max(units(length_), std::uint32_t{1}));
         return true;
     }
-    const Vec3d along = to_millimetres(to - from);
+    const AxisVecd along = to_millimetres(to - from);
     set_length(block, std::max(units(norm(along)), std::uint32_t{1}));
     return true;
 }

@@ -101,8 +101,7 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
     const float centripetal = shaper_square_ > 0 ? 2.0F * departure / shaper_square_ : kUnlimited;
     const float speed = std::sqrt(squared_cap(to_lanes(bound), limits_, centripetal, feed));
     const float travel = 2.0F * reach + speed * (ramp_time_ + 2.0F * shaper_length_);
-    const float slowest =
-        std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});
+    const float slowest = least(kUnlimited, limits_.acceleration);
     const float stop = ramp_time_ + shaper_length_ + 2.0F * std::sqrt(travel / slowest);
     return travel < kWorthIt * stop * speed;
 }
@@ -128,15 +127,15 @@ bool CornerBlender::blend(path::Move& before, path::Move& after, float departure
     if (!is_line(before) || !is_line(after) || before.power != after.power) {
         return false;
     }
-    const Vec3d first = to_millimetres(before.end - before.start);
-    const Vec3d second = to_millimetres(after.end - after.start);
+    const AxisVecd first = to_millimetres(before.end - before.start);
+    const AxisVecd second = to_millimetres(after.end - after.start);
     const double first_length = norm(first);
     const double second_length = norm(second);
     if (first_length <= 0 || second_length <= 0) {
         return false;
     }
-    const Vec3d t0 = first / first_length;
-    const Vec3d t1 = second / second_length;
+    const AxisVecd t0 = first / first_length;
+    const AxisVecd t1 = second / second_length;
     const double turn = norm(t1 - t0);
     if (turn < kLeastTurn || turn > kGreatestTurn) {
         return false;
@@ -159,15 +158,15 @@ bool CornerBlender::blend(path::Move& before, path::Move& after, float departure
     }
     path::BezierPiece piece{};
     piece.order = 5;
-    const Vec3d start = t0 * -reach;
-    const Vec3d points[] = {
+    const AxisVecd start = t0 * -reach;
+    const AxisVecd points[] = {
         {}, t0 * (-0.5 * reach) - start, -start, t1 * (0.5 * reach) - start, t1 * reach - start};
     for (unsigned i = 0; i < 5; ++i) {
         piece.points[i] = to_float(points[i]);
         piece.weights[i] = 1.0F;
     }
     const bool rapid = curve.kind == path::MoveKind::kRapid;
-    const float feed = rapid ? norm(limits_.velocity) : curve.feed;
+    const float feed = rapid ? limits_.whole_velocity() : curve.feed;
     if (!faster_than_stop(piece, static_cast<float>(reach), feed, departure)) {
         return false;
     }

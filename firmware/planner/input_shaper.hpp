@@ -58,7 +58,7 @@ struct ShaperStage {
 
 // All stages together are at most so long, servo ticks: what the interpolator has memory for.
 inline constexpr std::uint32_t kMostShaperTicks = 128;
-inline constexpr std::size_t kMostShaperStages = 2 * kAxisCount;
+inline constexpr std::size_t kMostShaperStages = 2 * kLinearAxes;
 
 // The shaper of a machine. Without stages it is off.
 struct InputShaper {

@@ -86,13 +86,13 @@ WarpBounds none() noexcept
 
 PackedBounds::PackedBounds(const WarpBounds& bounds) noexcept : time_{upper_half(bounds.time)}
 {
-    const Vec3f speed = to_vec(bounds.speed);
-    const Vec3f braking = to_vec(bounds.braking);
-    const Vec3f speeding = to_vec(bounds.speeding);
-    const Vec3f falling = to_vec(bounds.falling);
-    const Vec3f rising = to_vec(bounds.rising);
-    const Vec3f joint = to_vec(bounds.joint);
-    for (unsigned i = 0; i < 3; ++i) {
+    const AxisVecf speed = to_vec(bounds.speed);
+    const AxisVecf braking = to_vec(bounds.braking);
+    const AxisVecf speeding = to_vec(bounds.speeding);
+    const AxisVecf falling = to_vec(bounds.falling);
+    const AxisVecf rising = to_vec(bounds.rising);
+    const AxisVecf joint = to_vec(bounds.joint);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         speed_[i] = static_cast<std::uint16_t>(upper_half(speed[i]) + 1U);
         braking_[i] = packed_acceleration(braking[i]);
         speeding_[i] = static_cast<std::int8_t>(-packed_acceleration(-speeding[i]));
@@ -104,13 +104,13 @@ PackedBounds::PackedBounds(const WarpBounds& bounds) noexcept : time_{upper_half
 
 WarpBounds PackedBounds::unpacked() const noexcept
 {
-    Vec3f speed{};
-    Vec3f braking{};
-    Vec3f speeding{};
-    Vec3f falling{};
-    Vec3f rising{};
-    Vec3f joint{};
-    for (unsigned i = 0; i < 3; ++i) {
+    AxisVecf speed{};
+    AxisVecf braking{};
+    AxisVecf speeding{};
+    AxisVecf falling{};
+    AxisVecf rising{};
+    AxisVecf joint{};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         speed[i] = from_upper_half(speed_[i]);
         constexpr float kPart = kPlanShare / kPartsOfShare;
         braking[i] = static_cast<float>(braking_[i]) * kPart;

@@ -15,13 +15,13 @@ struct PackedBounds {
     WarpBounds unpacked() const noexcept;
 
 private:
-    std::array<std::uint16_t, 3> speed_{};  // the upper half of a float
-    std::uint16_t time_{0};                 // the same
-    std::array<std::int8_t, 3> braking_{};  // parts of a plan's share
-    std::array<std::int8_t, 3> speeding_{};
-    std::array<std::int16_t, 3> falling_{};  // parts of 2^14: what is left may be little
-    std::array<std::int16_t, 3> rising_{};
-    std::array<std::int16_t, 3> joint_{};
+    PerAxis<std::uint16_t> speed_{};  // the upper half of a float
+    std::uint16_t time_{0};           // the same
+    PerAxis<std::int8_t> braking_{};  // parts of a plan's share
+    PerAxis<std::int8_t> speeding_{};
+    PerAxis<std::int16_t> falling_{};  // parts of 2^14: what is left may be little
+    PerAxis<std::int16_t> rising_{};
+    PerAxis<std::int16_t> joint_{};
 };
 
 // Over a cell that begins in a state.

@@ -24,19 +24,19 @@ constexpr float kLongestPiece = 4.0F;
 constexpr float kSpeedError = 5e-4F;
 
 // For distances below 2 m: the target converts 32 bits in one instruction.
-Vec3f millimetres(Position p) noexcept
+AxisVecf millimetres(Position p) noexcept
 {
     constexpr float kScale = 1e-6F;
     const auto scaled = [](std::int64_t nm) {
         return static_cast<float>(static_cast<std::int32_t>(nm)) * kScale;
     };
-    return {scaled(p.x), scaled(p.y), scaled(p.z)};
+    return mapped(p, scaled);
 }
 
 bool is_short(Position p) noexcept
 {
     constexpr auto kLongest = static_cast<std::int64_t>(LineSmoother::kLongestLine * 1e6F);
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         if (p[i] > kLongest || p[i] < -kLongest) {
             return false;
         }
@@ -44,22 +44,18 @@ bool is_short(Position p) noexcept
     return true;
 }
 
-Vec3d to_double(Vec3f a) noexcept
-{
-    return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
-}
-
 constexpr float kMillimetre = 1e-6F;  // of a nanometre
 
 // mm, of nanometres.
-Vec3f scaled(Vec3<std::int32_t> nm) noexcept
+AxisVecf scaled(AxisVec<std::int32_t> nm) noexcept { return to_float(nm) * kMillimetre; }
+
+Position wide(const AxisVec<std::int32_t>& nm) noexcept
 {
-    return Vec3f{static_cast<float>(nm.x), static_cast<float>(nm.y), static_cast<float>(nm.z)} *
-           kMillimetre;
+    return mapped(nm, [](std::int32_t part) { return std::int64_t{part}; });
 }
 
 // Direction and curvature, of the first two derivatives by a parameter.
-void set_end(Vec3f slope, Vec3f bend, PathEnd& end) noexcept
+void set_end(AxisVecf slope, AxisVecf bend, PathEnd& end) noexcept
 {
     const float speed = norm(slope);
     end.tangent = slope / std::max(speed, 1e-6F);
@@ -73,22 +69,23 @@ union Leave {
 };
 
 // nm: of the axis that travels farthest.
-std::int32_t travel(const Vec3<std::int32_t>& from, const Vec3<std::int32_t>& to) noexcept
+std::int32_t travel(const AxisVec<std::int32_t>& from, const AxisVec<std::int32_t>& to) noexcept
 {
-    const std::int32_t x = std::abs(to.x - from.x);
-    const std::int32_t y = std::abs(to.y - from.y);
-    const std::int32_t z = std::abs(to.z - from.z);
-    return std::max(std::max(x, y), z);
+    std::int32_t most = 0;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        most = std::max(most, std::abs(to[i] - from[i]));
+    }
+    return most;
 }
 
-Vec3f unit(Vec3f a) noexcept
+AxisVecf unit(AxisVecf a) noexcept
 {
     const float length = norm(a);
     return length > 0 ? a / length : a;
 }
 
 // The lean of a curve that begins or ends on a line's end.
-path::PathLean lean_of(Vec3f tangent, Vec3f line) noexcept
+path::PathLean lean_of(AxisVecf tangent, AxisVecf line) noexcept
 {
     const float length = norm(line);
     return {norm(tangent - unit(line)), length};
@@ -103,7 +100,7 @@ bool LineSmoother::accepts(const path::Move& move) noexcept
         !is_short(move.end - move.start)) {
         return false;
     }
-    const Vec3f along = millimetres(move.end - move.start);
+    const AxisVecf along = millimetres(move.end - move.start);
     return dot(along, along) <= kLongestLine * kLongestLine;
 }
 
@@ -113,14 +110,14 @@ bool LineSmoother::continues(const path::Move& move) const noexcept
     if (count < 2) {
         return true;
     }
-    const Vec3<std::int32_t>& last = vertices_[count - 1].at;
-    const Position end = origin_ + Position{last.x, last.y, last.z};
+    const AxisVec<std::int32_t>& last = vertices_[count - 1].at;
+    const Position end = origin_ + wide(last);
     if (move.kind != kind_ || move.feed != feed_ || move.tolerance != tolerance_ ||
         move.power != power_ || end != move.start) {
         return false;
     }
-    const Vec3f before = unit(between(count - 2, count - 1));
-    const Vec3f turn = unit(millimetres(move.end - move.start)) - before;
+    const AxisVecf before = unit(between(count - 2, count - 1));
+    const AxisVecf turn = unit(millimetres(move.end - move.start)) - before;
     return dot(turn, turn) <= kCornerTurnSquared;
 }
 
@@ -139,9 +136,8 @@ void LineSmoother::add(const path::Move& move, float departure) noexcept
         (void)vertices_.try_push_back({{}, move.line, 0});
     }
     const Position from = move.end - origin_;
-    const Vec3<std::int32_t> at{static_cast<std::int32_t>(from.x),
-                                static_cast<std::int32_t>(from.y),
-                                static_cast<std::int32_t>(from.z)};
+    const AxisVec<std::int32_t> at =
+        mapped(from, [](std::int64_t nm) { return static_cast<std::int32_t>(nm); });
     const bool added = vertices_.try_push_back({at, move.line, travel(vertices_.back().at, at)});
     CUSP_ASSERT(added);
 }
@@ -153,7 +149,7 @@ void LineSmoother::clear() noexcept
 }
 
 // mm
-Vec3f LineSmoother::between(std::size_t from, std::size_t to) const noexcept
+AxisVecf LineSmoother::between(std::size_t from, std::size_t to) const noexcept
 {
     return scaled(vertices_[to].at - vertices_[from].at);
 }
@@ -283,7 +279,7 @@ float LineSmoother::fit_knot(std::size_t index,
     }
     set_end(to_vec(slope), to_vec(bend), knot.end);
     const bool at_end = index == 0 || index + 1 == vertices_.size();
-    knot.at = at_end ? Vec3f{} : to_vec(place);
+    knot.at = at_end ? AxisVecf{} : to_vec(place);
     return std::sqrt(worst);
 }
 
@@ -346,7 +342,7 @@ bool LineSmoother::within_tolerance(const Fit& fit, std::size_t last) const noex
 bool LineSmoother::fit(std::size_t last, Fit& fit) const noexcept
 {
     const Knot& start = start_;
-    const Vec3f whole = between(0, last);
+    const AxisVecf whole = between(0, last);
     if (last > 1 && dot(whole, whole) > kLongestPiece * kLongestPiece) {
         return false;
     }
@@ -435,8 +431,8 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
     piece.start = at_;
     const std::size_t passed = std::max<std::size_t>(good, 1);
     lines_before_ = static_cast<std::uint8_t>(passed);
-    const Vec3<std::int32_t> vertex = vertices_[passed].at;
-    piece.end = origin_ + Position{vertex.x, vertex.y, vertex.z};
+    const AxisVec<std::int32_t> vertex = vertices_[passed].at;
+    piece.end = origin_ + wide(vertex);
     piece.path = path::Line{};
     // If not even one line can be rounded it stays, and its ends are corners.
     has_start_ = good != 0;
@@ -456,11 +452,11 @@ void LineSmoother::drop(std::size_t count) noexcept
 {
     std::copy(vertices_.begin() + count, vertices_.end(), vertices_.begin());
     vertices_.shrink(vertices_.size() - count);
-    const Vec3<std::int32_t> first = vertices_[0].at;
+    const AxisVec<std::int32_t> first = vertices_[0].at;
     if (travel({}, first) <= kFarthest) {
         return;
     }
-    origin_ = origin_ + Position{first.x, first.y, first.z};
+    origin_ = origin_ + wide(first);
     for (Vertex& vertex : vertices_) {
         vertex.at = vertex.at - first;
     }

@@ -51,7 +51,7 @@ public:
 
 private:
     struct Vertex {
-        Vec3<std::int32_t> at;  // nm from origin_
+        AxisVec<std::int32_t> at;  // nm from origin_
         std::uint32_t line;
         std::int32_t travel;  // nm, from the vertex before: of the axis that travels farthest
     };
@@ -67,16 +67,16 @@ private:
 
     // The joint of two pieces: the curve through the vertices around it.
     struct Knot {
-        Vec3f at;  // mm from its vertex
+        AxisVecf at;  // mm from its vertex
         PathEnd end;
     };
     struct Fit {
         Knot end;
         path::Quintic piece;
-        Vec3f chord;  // mm
+        AxisVecf chord;  // mm
     };
 
-    Vec3f between(std::size_t from, std::size_t to) const noexcept;
+    AxisVecf between(std::size_t from, std::size_t to) const noexcept;
     std::size_t knot_lines_before(std::size_t index) const noexcept;
     std::size_t knot_lines_after(std::size_t index) const noexcept;
     Knot knot_at(std::size_t index) const noexcept;

@@ -45,6 +45,20 @@ float circle_factor(AxisFilter filter) noexcept
     return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
 }
 
+// Travel along the path while the tool travels 1 mm: the feed is that of X, Y and Z, unless A moves alone.
+float travel_a_feed(const Block& block) noexcept
+{
+    float least = 1.0F;
+    if constexpr (kHasRotaryAxis) {
+        const auto at = [](const AxisVecf& along) {
+            const float linear = norm(xyz(along));
+            return along[kLinearAxes] != 0 && linear > 0 ? norm(along) / linear : 1.0F;
+        };
+        least = std::min(at(start_geometry(block).tangent), at(end_geometry(block).tangent));
+    }
+    return least;
+}
+
 }  // namespace
 
 // The longest filter that leaves a circle at the greatest acceleration of all axes by no more than its
@@ -78,7 +92,7 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
     least_filter_ =
         std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kLongestFilterTicks);
-    whole_acceleration_ = norm(limits.acceleration);
+    whole_acceleration_ = limits.whole_acceleration();
     limits_ = with_margin(limits);
     blender_.set_limits(limits_, longest);
     law_.set_limits(limits_);
@@ -211,8 +225,9 @@ bool Planner::go_on() noexcept
 // The block lies where the queue has the next.
 void Planner::add_block(Block& block) noexcept
 {
-    const float feed = block.kind == path::MoveKind::kRapid ? kGreatestSpeed
-                                                            : std::min(move_.feed, kGreatestSpeed);
+    const float feed = block.kind == path::MoveKind::kRapid
+                           ? kGreatestSpeed
+                           : std::min(move_.feed * travel_a_feed(block), kGreatestSpeed);
     block.feed = feed * feed * kFeedOfBarrier;
     block.centripetal = choice_.centripetal;
     // Only rounding makes a jump where one line or arc was cut into blocks.
@@ -223,7 +238,7 @@ void Planner::add_block(Block& block) noexcept
     within_move_ = true;
     queue_.append_block();
     end_ = end_geometry(block);
-    if (is_within_half_tick(block, std::min(feed, norm(limits_.velocity)))) {
+    if (is_within_half_tick(block, std::min(feed, limits_.whole_velocity()))) {
         end_->tangent = felt_end(block, start_geometry(block).tangent, end_->tangent);
     }
     end_length_ += static_cast<float>(block.length) / kPathUnitsPerMillimetre;

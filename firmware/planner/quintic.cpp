@@ -4,24 +4,27 @@
 #include <algorithm>
 
 namespace cusp::planner {
-path::Quintic hermite(Vec3f chord, const PathEnd& from, const PathEnd& to, float length) noexcept
+path::Quintic hermite(AxisVecf chord, const PathEnd& from, const PathEnd& to, float length) noexcept
 {
     // The part that the ends add to a straight line: computed by itself, so that nothing cancels.
-    const Vec3f e0 = from.tangent * length - chord;
-    const Vec3f e1 = to.tangent * length - chord;
-    const Vec3f w0 = from.curvature * (0.5F * length * length);
-    const Vec3f w1 = to.curvature * (0.5F * length * length);
-    const Vec3f a3 = e0 * -6.0F - e1 * 4.0F - w0 * 3.0F + w1;
-    const Vec3f a4 = e0 * 8.0F + e1 * 7.0F + w0 * 3.0F - w1 * 2.0F;
-    const Vec3f a5 = (e0 + e1) * -3.0F - w0 + w1;
-    const Vec3f q3 = -a5;
-    const Vec3f q2 = q3 - a4;
-    const Vec3f q1 = q2 - a3;
+    const AxisVecf e0 = from.tangent * length - chord;
+    const AxisVecf e1 = to.tangent * length - chord;
+    const AxisVecf w0 = from.curvature * (0.5F * length * length);
+    const AxisVecf w1 = to.curvature * (0.5F * length * length);
+    const AxisVecf a3 = e0 * -6.0F - e1 * 4.0F - w0 * 3.0F + w1;
+    const AxisVecf a4 = e0 * 8.0F + e1 * 7.0F + w0 * 3.0F - w1 * 2.0F;
+    const AxisVecf a5 = (e0 + e1) * -3.0F - w0 + w1;
+    const AxisVecf q3 = -a5;
+    const AxisVecf q2 = q3 - a4;
+    const AxisVecf q1 = q2 - a3;
     return {{{e0, q1, q2, q3}}, length, false};
 }
 
-bool make_quintic(
-    Vec3f chord, const PathEnd& from, const PathEnd& to, float error, path::Quintic& piece) noexcept
+bool make_quintic(AxisVecf chord,
+                  const PathEnd& from,
+                  const PathEnd& to,
+                  float error,
+                  path::Quintic& piece) noexcept
 {
     constexpr unsigned kTries = 3;
     float length = norm(chord);

@@ -11,17 +11,20 @@ namespace cusp::planner {
 
 // Direction and curvature of a path at a place.
 struct PathEnd {
-    Vec3f tangent;    // unit vector
-    Vec3f curvature;  // 1/mm, square to the tangent
+    AxisVecf tangent;    // unit vector
+    AxisVecf curvature;  // 1/mm, square to the tangent
 };
 
 // The Hermite quintic over a chord, mm, whose derivatives by arc length are those of the ends if
 // it is `length` mm long.
-path::Quintic hermite(Vec3f chord, const PathEnd& from, const PathEnd& to, float length) noexcept;
+path::Quintic hermite(AxisVecf chord,
+                      const PathEnd& from,
+                      const PathEnd& to,
+                      float length) noexcept;
 
 // The one whose mean speed is one. Returns false where its parameter is not arc length within
 // `error`, relative.
-bool make_quintic(Vec3f chord,
+bool make_quintic(AxisVecf chord,
                   const PathEnd& from,
                   const PathEnd& to,
                   float error,
@@ -33,7 +36,7 @@ struct LaneQuintic {
     std::array<LaneVec, 4> bulge;
 };
 
-inline LaneQuintic lane_quintic(const std::array<Vec3f, 4>& q, Vec3f chord) noexcept
+inline LaneQuintic lane_quintic(const std::array<AxisVecf, 4>& q, AxisVecf chord) noexcept
 {
     return {to_lanes(chord), {{to_lanes(q[0]), to_lanes(q[1]), to_lanes(q[2]), to_lanes(q[3])}}};
 }

@@ -20,8 +20,10 @@ constexpr float kRoughestShare = 0.05F;
 MachineLimits with_margin(const MachineLimits& limits) noexcept
 {
     constexpr float kFactor = 1.0F - kRoundingMargin;
-    MachineLimits kept{limits.velocity * kFactor, limits.acceleration * kFactor,
-                       limits.jerk * kFactor};
+    MachineLimits kept = limits;
+    kept.velocity = limits.velocity * kFactor;
+    kept.acceleration = limits.acceleration * kFactor;
+    kept.jerk = limits.jerk * kFactor;
     for (unsigned i = 0; i < kAxisCount; ++i) {
         kept.acceleration[i] -= std::min(kRoughAcceleration, kRoughestShare * kept.acceleration[i]);
     }

@@ -13,9 +13,9 @@ namespace cusp::planner {
 
 // Bounds of |dP/ds|, |d2P/ds2| and |d3P/ds3| of each axis over a stretch (1, 1/mm, 1/mm^2).
 struct PathDerivatives {
-    Vec3f first;
-    Vec3f second;
-    Vec3f third;
+    AxisVecf first;
+    AxisVecf second;
+    AxisVecf third;
 };
 
 // The same, as they are reckoned.

@@ -74,9 +74,9 @@ ReadJoint StationMaker::joint(const LawPath& path, const PathCursor& before) con
     LaneDerivatives a =
         derivatives_at(last, static_cast<float>(last.length) / kPathUnitsPerMillimetre);
     const LaneDerivatives b = derivatives_at(next, 0.0F);
-    const float speed = std::min(std::sqrt(path[before.block].feed), norm(limits_.velocity));
+    const float speed = std::min(std::sqrt(path[before.block].feed), limits_.whole_velocity());
     if (is_within_half_tick(last, speed)) {
-        const Vec3f start = to_vec(derivatives_at(last, 0.0F).first);
+        const AxisVecf start = to_vec(derivatives_at(last, 0.0F).first);
         a.first = to_lanes(felt_end(last, start, to_vec(a.first)));
     }
     const float first = static_cast<float>(last.filter.first) * kServoTick;
@@ -149,10 +149,10 @@ Station StationMaker::make(const LawPath& path,
     station.kept.bend_acceleration =
         product(kinks.second, inverse_acceleration_) * kKeptAcceleration;
     station.kept.bend = product(kinks.third, inverse_jerk_) * kKeptJerk;
-    Vec3f moving{};
-    const Vec3f used = to_vec(first);
-    const Vec3f turned = to_vec(station.kept.turn);
-    for (unsigned i = 0; i < 3; ++i) {
+    AxisVecf moving{};
+    const AxisVecf used = to_vec(first);
+    const AxisVecf turned = to_vec(station.kept.turn);
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         moving[i] = used[i] > 1e-6F || turned[i] > 0 ? 1.0F : 0.0F;
     }
     station.moving = to_lanes(moving);
@@ -263,11 +263,11 @@ void StationMaker::keep_turns(KeptShares& kept,
 void StationMaker::keep_jumps(KeptShares& kept, const JumpSums& sums, float speed) const noexcept
 {
     const float dip = kDipOfJerk * greatest_jerk_ * sums.window * sums.window;
-    const Vec3f net = to_vec(sums.high - sums.low);
-    const Vec3f magnitudes = to_vec(sums.magnitudes);
-    Vec3f jump{};
-    Vec3f turn{};
-    for (unsigned i = 0; i < 3; ++i) {
+    const AxisVecf net = to_vec(sums.high - sums.low);
+    const AxisVecf magnitudes = to_vec(sums.magnitudes);
+    AxisVecf jump{};
+    AxisVecf turn{};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         // Faster than by the sum of magnitudes alone it is not passed, whatever is expected.
         const float most = std::min(speed, 1.0F / std::sqrt(std::max(magnitudes[i], 1e-12F)));
         const bool cancels = net[i] * (most + dip) < magnitudes[i] * most;
@@ -334,7 +334,7 @@ StopElement StationMaker::element(const LawPath& path,
         return path.derivatives(cursor, place);
     };
     const LaneVec along = larger(magnitude(at(0.0F).first), all_lanes(1e-9F));
-    const auto along_path = [&along](const Vec3f& limit) {
+    const auto along_path = [&along](const AxisVecf& limit) {
         return least(kUnlimited, quotient(to_lanes(limit), along));
     };
     float jerk = choice.share * along_path(limits_.jerk);

@@ -41,7 +41,7 @@ void StationSpacing::set_limits(const MachineLimits& limits, float station_time)
     station_time_ = station_time;
     maker_.set_limits(limits);
     longest_ = 0;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         longest_ = std::max(longest_, limits.acceleration[i] / limits.jerk[i]);
     }
 }

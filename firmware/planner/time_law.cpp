@@ -65,7 +65,7 @@ void TimeLaw::set_limits(const MachineLimits& limits) noexcept
 {
     float longest = 0;
     least_jerk_ = kUnlimited;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
         least_jerk_ = std::min(least_jerk_, limits.jerk[i]);
     }

@@ -39,9 +39,9 @@ public:
     double length() const noexcept { return length_; }
 
     struct Place {
-        Vec3d at;  // mm, of the machine
-        Vec3d tangent;
-        Vec3d curvature;
+        AxisVecd at;  // mm, of the machine
+        AxisVecd tangent;
+        AxisVecd curvature;
     };
     Place at(double s) const noexcept
     {
@@ -50,21 +50,21 @@ public:
         }
         const double t = s / length_;
         const auto [sine, cosine] = sin_cos(t * arc_->sweep);
-        const Vec3d out = arc_->u * cosine + arc_->v * sine;
-        const Vec3d on = arc_->v * cosine - arc_->u * sine;
+        const AxisVecd out = arc_->u * cosine + arc_->v * sine;
+        const AxisVecd on = arc_->v * cosine - arc_->u * sine;
         const double radius = arc_->radius + t * arc_->radius_change;
         const double spread = arc_->radius_change / arc_->sweep;
         // By the angle.
-        const Vec3d slope = on * radius + out * spread + arc_->axial / arc_->sweep;
-        const Vec3d bend = on * (2 * spread) - out * radius;
+        const AxisVecd slope = on * radius + out * spread + arc_->axial / arc_->sweep;
+        const AxisVecd bend = on * (2 * spread) - out * radius;
         const double square = dot(slope, slope);
-        const Vec3d tangent = slope / std::sqrt(square);
+        const AxisVecd tangent = slope / std::sqrt(square);
         return {start_ + arc_->centre + out * radius + arc_->axial * t, tangent,
                 (bend - tangent * dot(bend, tangent)) / square};
     }
 
     // Distance of a place from the curve, near the length s.
-    double distance(Vec3d place, double s) const noexcept
+    double distance(AxisVecd place, double s) const noexcept
     {
         for (unsigned i = 0; i < 2; ++i) {
             const Place here = at(s);
@@ -75,9 +75,9 @@ public:
 
 private:
     const path::Arc* arc_;
-    Vec3d start_;
+    AxisVecd start_;
     double length_;
-    Vec3d along_;
+    AxisVecd along_;
 };
 
 PathEnd end_of(const Curve::Place& place) noexcept
@@ -91,20 +91,20 @@ bool may_join(const path::Move& move) noexcept
 }
 
 // Speed, squared, at which a jump of curvature takes all of the jerk.
-float joint_speed(Vec3f jump, const MachineLimits& limits, float jerk_time) noexcept
+float joint_speed(AxisVecf jump, const MachineLimits& limits, float jerk_time) noexcept
 {
     float least = 1e12F;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         least = std::min(least, limits.jerk[i] * jerk_time / std::max(jump[i], 1e-12F));
     }
     return least;
 }
 
 // And at which a curvature takes all of the acceleration.
-float bend_speed(Vec3f curvature, const MachineLimits& limits) noexcept
+float bend_speed(AxisVecf curvature, const MachineLimits& limits) noexcept
 {
     float least = 1e12F;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         least = std::min(least, limits.acceleration[i] / std::max(curvature[i], 1e-12F));
     }
     return least;
@@ -128,7 +128,7 @@ void cut_front(path::Move& move, double length, Position start) noexcept
     if (auto* arc = std::get_if<path::Arc>(&move.path)) {
         const double part = length / path::length(move);
         const auto [sine, cosine] = sin_cos(part * arc->sweep);
-        const Vec3d u = arc->u * cosine + arc->v * sine;
+        const AxisVecd u = arc->u * cosine + arc->v * sine;
         arc->v = arc->v * cosine - arc->u * sine;
         arc->u = u;
         arc->centre = arc->centre + arc->axial * part - to_millimetres(start - move.start);
@@ -142,20 +142,19 @@ void cut_front(path::Move& move, double length, Position start) noexcept
 
 bool keeps_to(const path::Quintic& piece,
               Position from,
-              Vec3f chord,
+              AxisVecf chord,
               const Curve& before,
               const Curve& after,
               double deviation) noexcept
 {
     constexpr unsigned kPlaces = 16;
-    const Vec3d start = to_millimetres(from);
+    const AxisVecd start = to_millimetres(from);
     const LaneQuintic lanes = lane_quintic(piece.bulge, chord);
     const double half = 0.5 * static_cast<double>(piece.length);
     for (unsigned i = 1; i < kPlaces; ++i) {
         const double x = static_cast<double>(i) / kPlaces;
-        const Vec3f place = to_vec(point_at(lanes, static_cast<float>(x)));
-        const Vec3d at = start + Vec3d{static_cast<double>(place.x), static_cast<double>(place.y),
-                                       static_cast<double>(place.z)};
+        const AxisVecf place = to_vec(point_at(lanes, static_cast<float>(x)));
+        const AxisVecd at = start + to_double(place);
         const double s = (2 * x - 1) * half;
         const double off =
             std::min(before.distance(at, std::min(before.length() + s, before.length())),
@@ -195,7 +194,7 @@ bool make_transition(path::Move& before,
     }
     const Curve::Place end = first.at(first.length());
     const Curve::Place start = second.at(0);
-    const Vec3d jump = start.curvature - end.curvature;
+    const AxisVecd jump = start.curvature - end.curvature;
     const double greatest = std::max(norm(start.curvature), norm(end.curvature));
     if (norm(start.tangent - end.tangent) > kStraightTurn || norm(jump) <= 0) {
         return false;
@@ -217,7 +216,7 @@ bool make_transition(path::Move& before,
         const Curve::Place to = second.at(reach);
         const Position piece_start = to_position(from.at);
         const Position piece_end = to_position(to.at);
-        const Vec3f chord = to_float(to_millimetres(piece_end - piece_start));
+        const AxisVecf chord = to_float(to_millimetres(piece_end - piece_start));
         path::Quintic quintic{};
         if (!make_quintic(chord, end_of(from), end_of(to), kFeedError, quintic) ||
             !keeps_to(quintic, piece_start, chord, first, second, deviation)) {

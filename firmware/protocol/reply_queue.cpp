@@ -94,13 +94,14 @@ void write_length(ReplyQueue& out, std::int64_t nanometres, bool inches) noexcep
     }
 }
 
-void write_position(ReplyQueue& out, Position position, bool inches) noexcept
+void write_position(ReplyQueue& out, Position position, PlaceForm form) noexcept
 {
-    write_length(out, position.x, inches);
-    (void)out.character(',');
-    write_length(out, position.y, inches);
-    (void)out.character(',');
-    write_length(out, position.z, inches);
+    for (unsigned axis = 0; axis < form.axes; ++axis) {
+        if (axis > 0) {
+            (void)out.character(',');
+        }
+        write_length(out, position[axis], form.inches && axis < kLinearAxes);
+    }
 }
 
 std::int64_t scaled(float value, unsigned decimals) noexcept

@@ -42,8 +42,14 @@ private:
     std::uint32_t tail_{0};
 };
 
-// x,y,z with three decimals in millimetres, or four in inches.
-void write_position(ReplyQueue& out, Position position, bool inches) noexcept;
+// How places are told: so many axes of them.
+struct PlaceForm {
+    bool inches{false};
+    unsigned axes{kLinearAxes};
+};
+
+// x,y,z with three decimals in millimetres, or four in inches; then a, in degrees.
+void write_position(ReplyQueue& out, Position position, PlaceForm form) noexcept;
 // One length in the form of write_position().
 void write_length(ReplyQueue& out, std::int64_t nanometres, bool inches) noexcept;
 

@@ -92,7 +92,11 @@ bool PulseMaker::idle() const noexcept
 
 PerAxis<std::int32_t> PulseMaker::position_steps() const noexcept
 {
-    return {axes_[0].steps, axes_[1].steps, axes_[2].steps};
+    PerAxis<std::int32_t> steps{};
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        steps[axis] = axes_[axis].steps;
+    }
+    return steps;
 }
 
 void PulseMaker::make_frame(Position set_point, PulseFrame& frame) noexcept

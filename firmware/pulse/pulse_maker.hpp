@@ -22,12 +22,13 @@ namespace cusp::pulse {
 
 struct StepSettings {
     // Thousandths of a step per millimetre: $100 to $102 have three decimals. In [1, 10 000 000].
-    PerAxis<std::uint32_t> millisteps_per_mm{800000, 800000, 800000};
+    PerAxis<std::uint32_t> millisteps_per_mm{
+        of_axes([](unsigned) { return std::uint32_t{800000}; })};
     std::uint16_t pulse_us{2};            // $0: high time, and least low time
     std::uint16_t direction_setup_us{5};  // $29: from a change of direction to the step after it
     // Lines that step with an axis and that say its direction: two each where it has a second motor.
-    PerAxis<PulseLines> step_lines{step_line(0), step_line(1), step_line(2)};
-    PerAxis<PulseLines> direction_lines{direction_line(0), direction_line(1), direction_line(2)};
+    PerAxis<PulseLines> step_lines{of_axes(step_line)};
+    PerAxis<PulseLines> direction_lines{of_axes(direction_line)};
 };
 
 // Context: servo tick. Exact: after any number of frames the steps counted are the set point in

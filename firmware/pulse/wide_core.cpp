@@ -30,6 +30,7 @@ void add_steady(const std::array<Run*, kAxisCount>& runs, std::int32_t steps) no
     auto first = runs[0]->writer;
     auto second = runs[kCount > 1 ? 1 : 0]->writer;
     auto third = runs[kCount > 2 ? 2 : 0]->writer;
+    auto fourth = runs[kCount > 3 ? 3 : 0]->writer;
     const auto add = [&](const SteadyLanes::Ticks& ticks) {
         first.add(ticks[0]);
         if constexpr (kCount > 1) {
@@ -37,6 +38,9 @@ void add_steady(const std::array<Run*, kAxisCount>& runs, std::int32_t steps) no
         }
         if constexpr (kCount > 2) {
             third.add(ticks[2]);
+        }
+        if constexpr (kCount > 3) {
+            fourth.add(ticks[3]);
         }
     };
     if (lanes.even()) {
@@ -54,6 +58,9 @@ void add_steady(const std::array<Run*, kAxisCount>& runs, std::int32_t steps) no
     }
     if constexpr (kCount > 2) {
         runs[2]->writer = third;
+    }
+    if constexpr (kCount > 3) {
+        runs[3]->writer = fourth;
     }
     for (unsigned lane = 0; lane < kCount; ++lane) {
         lanes.take(lane, runs[lane]->times);
@@ -81,7 +88,8 @@ void add_all_steady(std::array<std::optional<Run>, kAxisCount>& runs) noexcept
         }
         count == 1   ? add_steady<1>(together, steps)
         : count == 2 ? add_steady<2>(together, steps)
-                     : add_steady<3>(together, steps);
+        : count == 3 ? add_steady<3>(together, steps)
+                     : add_steady<kAxisCount>(together, steps);
     }
 }
 

@@ -12,14 +12,14 @@ namespace {
 // Steps of a frame are counted for all axes in one word: no branch for each edge and axis.
 constexpr unsigned kCountBits = 21;
 constexpr std::uint64_t kCountMask = (1U << kCountBits) - 1;
-static_assert(kPulseTicksPerFrame < kCountMask && kAxisCount * kCountBits <= 64);
-constexpr unsigned kAllAxes = (1U << kAxisCount) - 1;
+static_assert(kPulseTicksPerFrame < kCountMask && kLinearAxes * kCountBits <= 64);
+constexpr unsigned kAllAxes = (1U << kLinearAxes) - 1;
 
 // One step of each axis whose bit is set.
 constexpr std::array<std::uint64_t, kAllAxes + 1> kStepsOfLines = [] {
     std::array<std::uint64_t, kAllAxes + 1> counts{};
     for (unsigned lines = 0; lines < counts.size(); ++lines) {
-        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
             counts[lines] |= static_cast<std::uint64_t>(lines >> axis & 1U) << kCountBits * axis;
         }
     }
@@ -43,7 +43,7 @@ std::uint16_t SimulatedMill::inputs() const noexcept
 {
     unsigned bits = 0;
     const Vec3d at = place();
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         const double beyond = geometry_.switch_distance;
         if (at[axis] >= beyond || at[axis] <= -geometry_.travel[axis] - beyond) {
             bits |= unsigned{kLimitX} << axis;
@@ -92,7 +92,7 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
     } else {
         plus = count_steps_forward(frame);
     }
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         const std::uint64_t steps = taken >> kCountBits * axis & kCountMask;
         const std::uint64_t forward = plus >> kCountBits * axis & kCountMask;
         steps_taken_[axis] += steps;
@@ -130,7 +130,7 @@ void SimulatedMill::set_geometry(const MillGeometry& geometry) { geometry_ = geo
 Vec3d SimulatedMill::place() const noexcept
 {
     Vec3d at = geometry_.start;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         at[axis] +=
             static_cast<double>(steps_[axis]) / geometry_.steps_per_mm[axis] + behind_[axis];
     }
@@ -146,7 +146,12 @@ double SimulatedMill::second_place() const noexcept
 
 void SimulatedMill::take_second_step() noexcept
 {
-    second_steps_ += (levels_ & kSecondDirectionLine) != 0 ? 1 : -1;
+    const int step = (levels_ & kSecondDirectionLine) != 0 ? 1 : -1;
+    second_steps_ += step;
+    for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+        ++steps_taken_[axis];
+        steps_[axis] += step;
+    }
 }
 
 }  // namespace cusp::hal

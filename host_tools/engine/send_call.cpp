@@ -33,7 +33,7 @@ Position place_of(const Call& call, const char* key)
 {
     const std::vector<double> place = call.arguments.find_numbers(key);
     constexpr double kFarthest = 1e7;  // mm
-    if (!place.empty() && place.size() != kAxisCount) {
+    if (!place.empty() && place.size() != kLinearAxes) {
         throw InputError{fmt::format("send: {}: needs a number for each axis", key)};
     }
     Vec3d at;

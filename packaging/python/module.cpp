@@ -218,7 +218,7 @@ py::dict simulated(const std::string& name,
         }
         if (samples) {
             options.set_point = [&rows](const simulate::SetPoint& point) {
-                const Vec3d at = to_millimetres(point.at);
+                const Vec3d at = xyz(to_millimetres(point.at));
                 rows.push_back({static_cast<double>(point.microseconds) * kMicrosecond, at.x, at.y,
                                 at.z, point.line});
             };

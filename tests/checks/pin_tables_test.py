@@ -69,7 +69,7 @@ static_assert(cusp::boards::PinRules<cusp::boards::{name},
 def compile_table(name, text):
     """The compiler's message; None where it takes the table."""
     source = text.replace("#pragma once\n", "") + (PICO_RULES if name in PICO_TABLES else RULES).format(name=name)
-    run = subprocess.run([COMPILER, "-std=c++17", "-fsyntax-only", "-x", "c++", "-I", ROOT, "-"],
+    run = subprocess.run([COMPILER, "-std=c++17", "-DCUSP_AXES=3", "-fsyntax-only", "-x", "c++", "-I", ROOT, "-"],
                          input=source, capture_output=True, text=True, cwd=ROOT)
     return run.stderr if run.returncode else None
 

@@ -51,7 +51,7 @@ bool curve_is_open(const std::string& modal)
 cusp::machine::Settings quick_mill()
 {
     cusp::machine::Settings settings;
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < cusp::kAxisCount; ++axis) {
         (void)settings.put(100 + axis, 40.0F);
         (void)settings.put(110 + axis, 60000.0F);
         (void)settings.put(120 + axis, 20000.0F);

@@ -15,7 +15,7 @@ namespace cusp::test {
 
 class RandomMoves {
 public:
-    explicit RandomMoves(std::uint64_t seed) : random_{seed} {}
+    explicit RandomMoves(std::uint64_t seed) : random_{seed}, turns_{seed} {}
 
     std::vector<path::Move> program()
     {
@@ -76,15 +76,15 @@ private:
         for (std::uint64_t i = 0; i < chords; ++i) {
             bend += between(-0.1, 0.1) * 0.2 / chord;
             const double turn = std::clamp(bend * chord, -0.25, 0.25);
-            const Vec3d side = unit(cross(direction_, {0.1, 0.2, 1}));
-            direction_ = unit(direction_ + side * turn);
+            const Vec3d side = unit(cross(xyz(direction_), {0.1, 0.2, 1}));
+            direction_ = unit(direction_ + turning(side * turn));
             path::Move move;
             move.start = at_;
             move.tolerance = tolerance_;
             move.feed = feed_;
             move.line = static_cast<std::uint32_t>(moves_.size() + 1);
             move.end = at_ + to_position(direction_ * chord);
-            for (unsigned axis = 0; axis < 3; ++axis) {
+            for (unsigned axis = 0; axis < kAxisCount; ++axis) {
                 move.end[axis] -= move.end[axis] % grain;
             }
             if (move.end != move.start) {
@@ -98,10 +98,9 @@ private:
     bool make_line(path::Move& move, double length, std::uint64_t kind)
     {
         if (kind == 0) {
-            direction_ = unit({between(-1, 1), between(-1, 1), between(-1, 1)});
+            direction_ = unit(any_way(1));
         } else if (kind == 1) {
-            direction_ = unit(direction_ +
-                              Vec3d{between(-.01, .01), between(-.01, .01), between(-.01, .01)});
+            direction_ = unit(direction_ + any_way(.01));
         }
         move.end = at_ + to_position(direction_ * length);
         move.path = path::Line{};
@@ -115,8 +114,12 @@ private:
     // An arc or helix that starts tangentially to the previous move.
     bool make_arc(path::Move& move, double radius)
     {
-        const Vec3d any{between(-1, 1), between(-1, 1), between(-1, 1)};
-        const Vec3d across = any - direction_ * dot(any, direction_);
+        const Vec3d any = xyz(any_way(1));
+        if (norm(xyz(direction_)) < 1e-3) {
+            return false;
+        }
+        const Vec3d along = kHasRotaryAxis ? unit(xyz(direction_)) : xyz(direction_);
+        const Vec3d across = any - along * dot(any, along);
         if (norm(across) < 1e-3) {
             return false;
         }
@@ -125,13 +128,13 @@ private:
         const double rise = number() % 2 == 0 ? 0 : between(-.2, .2) * radius;
         arc.centre = inward * radius;
         arc.u = -inward;
-        arc.v = direction_;
+        arc.v = along;
         arc.radius = radius;
         arc.sweep = between(0.05, 6);
-        arc.axial = cross(direction_, inward) * rise;
+        arc.axial = turning(cross(along, inward) * rise);
         const double cosine = std::cos(arc.sweep);
         const double sine = std::sin(arc.sweep);
-        const Vec3d end =
+        const AxisVecd end =
             arc.centre + arc.u * (radius * cosine) + arc.v * (radius * sine) + arc.axial;
         if (norm(end) < 1e-5) {
             return false;
@@ -142,12 +145,39 @@ private:
         return true;
     }
 
-    static Vec3d unit(Vec3d a) { return a / norm(a); }
+    template <class Vector>
+    static Vector unit(Vector a)
+    {
+        return a / norm(a);
+    }
+    // Up to so much of each axis.
+    AxisVecd any_way(double most)
+    {
+        AxisVecd way{};
+        for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
+            way[axis] = between(-most, most);
+        }
+        for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+            way[axis] = most * (2 * part_(turns_) - 1);
+        }
+        return way;
+    }
+    // With a turn of A about as long, sometimes.
+    AxisVecd turning(Vec3d way)
+    {
+        AxisVecd turned{way};
+        for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+            turned[axis] = turns_() % 2 == 0 ? 0 : (2 * part_(turns_) - 1) * norm(way);
+        }
+        return turned;
+    }
 
     std::mt19937_64 random_;
+    std::mt19937_64 turns_;  // of A alone
+    std::uniform_real_distribution<double> part_{0, 1};
     std::vector<path::Move> moves_;
     Position at_{};
-    Vec3d direction_{1, 0, 0};
+    AxisVecd direction_{1, 0, 0};
     double scale_{1};
     float feed_{1};
     float tolerance_{0};
@@ -158,6 +188,7 @@ private:
 inline MachineLimits random_limits(std::uint64_t seed)
 {
     MachineLimits limits{};
+    limits.set_rotary(true);
     if (seed % 2 == 0) {
         return limits;
     }
@@ -166,7 +197,7 @@ inline MachineLimits random_limits(std::uint64_t seed)
         std::uniform_real_distribution<double> exponent{std::log(low), std::log(high)};
         return static_cast<float>(std::exp(exponent(random)));
     };
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         limits.velocity[axis] = between(10, 500);
         limits.acceleration[axis] = between(50, 8000);
         limits.jerk[axis] = limits.acceleration[axis] * between(5, 300);

@@ -17,7 +17,7 @@ namespace cusp::test {
 // A program in absolute coordinates within about a metre of zero, without M2 or M30.
 class RandomProgram {
 public:
-    explicit RandomProgram(std::uint64_t seed) : random_{seed}
+    explicit RandomProgram(std::uint64_t seed) : random_{seed}, turns_{seed}
     {
         inches_ = number() % 4 == 0;
         decimals_ = static_cast<int>(2 + number() % 4);
@@ -180,7 +180,20 @@ private:
             at_[axis] = std::stod(number) * (inches_ ? 25.4 : 1);
             text += std::string{" "} + letters[axis] + number;
         }
-        line(text + more);
+        line(text + turn_for(words) + more);
+    }
+
+    // Where the machine has A, lines and arcs turn it too, some by little, some far.
+    std::string turn_for(const std::string& words)
+    {
+        const bool is_curve = words.empty() || words.substr(0, 4) == "G6.2";
+        if (!kHasRotaryAxis || is_curve || turns_() % 3 == 0) {
+            return "";
+        }
+        std::uniform_real_distribution<double> exponent{-2, 2};
+        std::normal_distribution<double> size;
+        turn_ += size(turns_) * std::pow(10, exponent(turns_));
+        return " A" + value(turn_, decimals_);
     }
 
     void line(const std::string& text) { lines_.push_back(text); }
@@ -206,8 +219,10 @@ private:
     std::uint64_t number() { return random_(); }
 
     std::mt19937_64 random_;
+    std::mt19937_64 turns_;  // of A alone: the rest of a program is the same without it
     std::vector<std::string> lines_;
     Vec3d at_{};
+    double turn_{0};
     double scale_{1};
     int decimals_{3};
     bool inches_{false};

@@ -15,14 +15,14 @@ class RandomStations {
 public:
     explicit RandomStations(std::uint64_t seed) : random_{seed}
     {
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             limits.velocity[i] = static_cast<float>(between(5, 500));
             limits.acceleration[i] = static_cast<float>(between(80, 8000));
             limits.jerk[i] = limits.acceleration[i] * static_cast<float>(between(5, 300));
         }
         // One axis in three stands still.
         still_ = static_cast<unsigned>(random_() % 9);
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             waves_[i] = {between(1e-3, 1), between(0.01, 3), between(0.001, 6)};
         }
         length_ = between(0.01, 1);
@@ -40,8 +40,8 @@ public:
             station.places[p] = place(at_ + 0.5 * p * length_);
         }
         at_ += length_;
-        Vec3f moving{};
-        for (unsigned i = 0; i < 3; ++i) {
+        AxisVecf moving{};
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             moving[i] = i == still_ ? 0.0F : 1.0F;
         }
         station.moving = to_lanes(moving);
@@ -75,10 +75,10 @@ private:
 
     planner::LaneDerivatives place(double s) const
     {
-        Vec3f first{};
-        Vec3f second{};
-        Vec3f third{};
-        for (unsigned i = 0; i < 3; ++i) {
+        AxisVecf first{};
+        AxisVecf second{};
+        AxisVecf third{};
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             if (i == still_) {
                 continue;
             }
@@ -95,8 +95,8 @@ private:
 
     LaneVec kept(double low, double high)
     {
-        Vec3f shares{};
-        for (unsigned i = 0; i < 3; ++i) {
+        AxisVecf shares{};
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             shares[i] = i == still_ ? 0.0F : static_cast<float>(between(low, high));
         }
         return to_lanes(shares);

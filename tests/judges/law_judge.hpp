@@ -45,15 +45,15 @@ inline long double use_at(const planner::LaneDerivatives& lanes,
                           const ExactSpeed& x,
                           bool with_acceleration)
 {
-    const Vec3f q1 = to_vec(lanes.first);
-    const Vec3f q2 = to_vec(lanes.second);
-    const Vec3f q3 = to_vec(lanes.third);
-    const Vec3f ratio = to_vec(jerk_over_acceleration);
+    const AxisVecf q1 = to_vec(lanes.first);
+    const AxisVecf q2 = to_vec(lanes.second);
+    const AxisVecf q3 = to_vec(lanes.third);
+    const AxisVecf ratio = to_vec(jerk_over_acceleration);
     const long double v = std::sqrt(x.value);
     const long double u = x.slope / 2;
     const long double w = v * x.bend / 2;
     long double most = 0;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const long double a1 = static_cast<long double>(q1[i]);
         const long double a2 = static_cast<long double>(q2[i]);
         const long double a3 = static_cast<long double>(q3[i]);

@@ -35,7 +35,7 @@ inline void check_motion(const std::vector<Position>& samples,
 {
     const std::string which = "seed " + std::to_string(seed);
     const LimitUse use = limit_use(samples, {}, limits);
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         CHECK_TEXT(use.velocity[axis] <= 1, (which + ": velocity").c_str());
         CHECK_TEXT(use.acceleration[axis] <= 1, (which + ": acceleration").c_str());
         CHECK_TEXT(use.jerk[axis] <= 1, (which + ": jerk").c_str());

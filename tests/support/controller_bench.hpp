@@ -54,7 +54,9 @@ public:
     }
 
     // Machine position, mm.
-    Vec3d position() const { return to_millimetres(app.machine().motion().position()); }
+    Vec3d position() const { return xyz(to_millimetres(app.machine().motion().position())); }
+    // Of the rotary axis, degrees.
+    double turned() const { return to_millimetres(app.machine().motion().position())[kLinearAxes]; }
 
     hal::SimulatedBoard board;
     planner::PathQueue queue;

@@ -169,7 +169,7 @@ struct MotionRig {
 
 // Largest |difference| of set points of each axis relative to the limit, corrected for rounding.
 struct LimitUse {
-    Vec3d velocity, acceleration, jerk;
+    AxisVecd velocity, acceleration, jerk;
 };
 
 // Rounding to whole nanometres adds up to 1, 2 and 4 nm to the first three differences; `rounded`: of how
@@ -180,7 +180,7 @@ inline LimitUse limit_use(const std::vector<Position>& samples,
                           int rounded = 1)
 {
     LimitUse use{};
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         std::int64_t p[4] = {start[axis], start[axis], start[axis], start[axis]};
         for (const Position& sample : samples) {
             p[0] = p[1], p[1] = p[2], p[2] = p[3], p[3] = sample[axis];

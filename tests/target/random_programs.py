@@ -32,8 +32,10 @@ LONGEST_SCRIPT = 4000  # servo ticks
 class Program:
     """Lines of a program whose position is known, so that arcs close."""
 
-    def __init__(self, chance):
+    def __init__(self, chance, rotary=False):
         self.chance = chance
+        self.rotary = rotary
+        self.turned = 0.0
         self.lines = []
         self.at = [0.0, 0.0, 0.0]  # in the program's units
         self.absolute = True
@@ -61,21 +63,30 @@ class Program:
             self.at[axis] = float(shown) if self.absolute else self.at[axis] + float(shown)
         return words
 
+    def turn(self):
+        """A word of A, mostly, where there is that axis: a little or a lot."""
+        if not self.rotary or self.chance.random() < 0.3:
+            return []
+        goal = self.turned + self.chance.gauss(0, 1) * 10 ** self.chance.uniform(-2, 2)
+        shown = f"{goal if self.absolute else goal - self.turned:.3f}"
+        self.turned = float(shown) if self.absolute else self.turned + float(shown)
+        return ["A" + shown]
+
     def somewhere(self, reach=FARTHEST):
         axes = self.chance.sample(range(3), self.chance.randint(1, 3))
         return {axis: self.length(self.chance.uniform(-reach, reach)) for axis in axes}
 
     def rapid(self):
-        self.add("G0", *self.target(self.somewhere()))
+        self.add("G0", *self.target(self.somewhere()), *self.turn())
 
     def line(self):
-        self.add("G1", *self.target(self.somewhere()), self.feed())
+        self.add("G1", *self.target(self.somewhere()), *self.turn(), self.feed())
 
     def tiny_lines(self):
         self.add("G1", self.feed())
         for _ in range(self.chance.randint(3, 30)):
             near = {axis: self.at[axis] + self.length(self.chance.gauss(0, 0.01)) for axis in (0, 1)}
-            self.add(*self.target(near))
+            self.add(*self.target(near), *self.turn())
 
     def dense_lines(self):
         step = self.chance.choice((0.03, 0.1, 0.3))
@@ -89,7 +100,7 @@ class Program:
             place = {0: start[0] + self.length(direction * along), 1: start[1] + self.length(across)}
             if self.chance.random() < 0.2:
                 place[2] = start[2] + self.length(0.3 * math.cos(along))
-            self.add(*self.target(place))
+            self.add(*self.target(place), *(self.turn() if k % 7 == 0 else []))
 
     def arc(self):
         first, second, third = PLANES[self.plane]
@@ -111,7 +122,7 @@ class Program:
             goal.update({first: self.at[first], second: self.at[second]})
         words = self.target(goal)
         by_radius = not full and 0.5 < sweep < 2.8 and self.chance.random() < 0.4
-        self.add("G3" if turn > 0 else "G2", *words,
+        self.add("G3" if turn > 0 else "G2", *words, *self.turn(),
                  *([f"R{self.number(radius * 1.0005)}"] if by_radius else offsets), *turns, self.feed())
 
     def points(self, count):
@@ -157,7 +168,7 @@ class Program:
 
     def inverse_time(self):
         self.add("G93")
-        self.add("G1", *self.target(self.somewhere(4.0)), f"F{self.chance.uniform(20, 200):.1f}")
+        self.add("G1", *self.target(self.somewhere(4.0)), *self.turn(), f"F{self.chance.uniform(20, 200):.1f}")
         self.add("G94", self.feed())
 
     def offsets(self):
@@ -192,8 +203,8 @@ class Program:
             self.chance.choice(kinds)()
 
 
-def random_program(chance):
-    program = Program(chance)
+def random_program(chance, rotary=False):
+    program = Program(chance, rotary)
     program.add(program.feed())
     program.fill(chance.randint(2, 14))
     ending = chance.choice(("M2", "M30", "", "", "G1 X1 Y", "G999", "G38.3 Z-2 F200", "G38.2 Z-1 F300"))
@@ -210,6 +221,13 @@ def random_settings(chance):
         values[f"$12{axis}"] = f"{acceleration:.3f}"
         values[f"$80{axis}"] = f"{acceleration * chance.uniform(6, 100):.3f}"
     return "".join(f"{name}={value}\n" for name, value in values.items())
+
+
+def rotary_settings(chance):
+    """A on the fourth motor."""
+    acceleration = chance.uniform(100, 3000)
+    return (f"$793=4\n$103={chance.uniform(5, 200):.3f}\n$113={chance.uniform(600, 20000):.3f}\n"
+            f"$123={acceleration:.3f}\n$803={acceleration * chance.uniform(6, 100):.3f}\n")
 
 
 def random_script(chance):

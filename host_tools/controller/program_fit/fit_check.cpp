@@ -11,7 +11,7 @@
 namespace cusp::program_fit {
 namespace {
 
-double distance_to_line(Vec3d p, Vec3d end)
+double distance_to_line(AxisVecd p, AxisVecd end)
 {
     const double square = dot(end, end);
     const double t = square > 0 ? std::clamp(dot(p, end) / square, 0.0, 1.0) : 0;
@@ -19,9 +19,9 @@ double distance_to_line(Vec3d p, Vec3d end)
 }
 
 // To the point of the arc at the same angle; to the nearer end beyond its ends.
-double distance_to_arc(Vec3d p, const path::Arc& arc, Vec3d end)
+double distance_to_arc(AxisVecd p, const path::Arc& arc, AxisVecd end)
 {
-    const Vec3d from_centre = p - arc.centre;
+    const AxisVecd from_centre = p - arc.centre;
     const double x = dot(from_centre, arc.u);
     const double y = dot(from_centre, arc.v);
     double angle = elementary::atan2(y, x);
@@ -30,10 +30,10 @@ double distance_to_arc(Vec3d p, const path::Arc& arc, Vec3d end)
         return std::min(norm(p), norm(p - end));
     }
     const double share = angle / arc.sweep;
-    const Vec3d on_arc = arc.centre +
-                         (arc.radius + share * arc.radius_change) *
-                             (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
-                         share * arc.axial;
+    const AxisVecd on_arc = arc.centre +
+                            (arc.radius + share * arc.radius_change) *
+                                (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
+                            share * arc.axial;
     return norm(p - on_arc);
 }
 
@@ -87,14 +87,14 @@ private:
             throw std::logic_error("the fitted program misses a vertex at its line " +
                                    std::to_string(line_ + 1));
         }
-        const Vec3d end = to_millimetres(move.end - move.start);
+        const AxisVecd end = to_millimetres(move.end - move.start);
         const auto* arc = std::get_if<path::Arc>(&move.path);
-        Vec3d last{};
+        AxisVecd last{};
         for (std::uint32_t i = 1; i <= replacement.count; ++i) {
-            const Vec3d at = to_millimetres(vertices_[replacement.first + i] - move.start);
-            const Vec3d middle = 0.5 * (at + last);
+            const AxisVecd at = to_millimetres(vertices_[replacement.first + i] - move.start);
+            const AxisVecd middle = 0.5 * (at + last);
             last = at;
-            const auto distance = [&](Vec3d p) {
+            const auto distance = [&](AxisVecd p) {
                 return arc != nullptr ? distance_to_arc(p, *arc, end) : distance_to_line(p, end);
             };
             measured_.vertices = std::max(measured_.vertices, distance(at));

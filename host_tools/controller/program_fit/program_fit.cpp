@@ -232,7 +232,7 @@ void Fitter::add_to_run(const PlainLine& line)
     }
     vertices_.push_back(interpreter_.position());
     sources_.push_back(line);
-    fitter_.push(to_millimetres(vertices_.back() - vertices_[run_begin_]));
+    fitter_.push(xyz(to_millimetres(vertices_.back() - vertices_[run_begin_])));
 }
 
 void Fitter::end_run()

@@ -55,11 +55,11 @@ std::uint32_t after_high(std::uint32_t high)
            kTables[3][high >> 16U & 255U] ^ kTables[2][high >> 24U];
 }
 
-constexpr unsigned kTracedLines = 63;
+constexpr std::size_t kLineSets = 1U << std::size(EdgeChecksum::kLinesInOrder);
 
 // The remainder of the last two bytes of a falling edge, wire and level, by the line's bit.
-constexpr std::array<std::uint32_t, kTracedLines + 1> kFallOfLine = [] {
-    std::array<std::uint32_t, kTracedLines + 1> ends{};
+constexpr std::array<std::uint32_t, kLineSets> kFallOfLine = [] {
+    std::array<std::uint32_t, kLineSets> ends{};
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         ends[step_line(axis)] = kTables[1][2 * axis] ^ kTables[0][0];
         ends[direction_line(axis)] = kTables[1][2 * axis + 1] ^ kTables[0][0];
@@ -85,7 +85,7 @@ void EdgeChecksum::frame_played(std::uint64_t start_tick, const PulseFrame& fram
     unsigned levels = levels_;
     for (const PulseEdge& at : frame.edges) {
         const unsigned now = (levels | at.raise) & ~unsigned{at.lower};
-        const unsigned changed = (now ^ levels) & kTracedLines;
+        const unsigned changed = (now ^ levels) & traced_;
         levels = now;
         const std::uint32_t time = low + at.tick;
         if (time < low) {

@@ -9,7 +9,10 @@
 
 namespace cusp::program_run {
 
-// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z, counted from 0. Edges of one pulse tick are ordered by axis,
+// Those of so many axes, X first. Those of A may be those of a second motor, which is not traced.
+constexpr unsigned traced_lines(unsigned axes) { return axes > kLinearAxes ? 0xFFU : 0x3FU; }
+
+// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z and those of A, counted from 0. Edges of one pulse tick are ordered by axis,
 // the direction of each before its step.
 //
 // `Own` is the derived class (CRTP). It has edge(tick, wire, level), called for each edge, and may have
@@ -19,7 +22,11 @@ class EdgeListener : public hal::FrameListener {
 public:
     //   start   pulse tick of virtual time that counts as 0; earlier frames are ignored
     //   levels  of the lines at that time
-    EdgeListener(std::uint64_t start, PulseLines levels) : start_{start}, levels_{levels} {}
+    //   axes    whose lines are traced, X first
+    EdgeListener(std::uint64_t start, PulseLines levels, unsigned axes = kLinearAxes)
+        : start_{start}, levels_{levels}, traced_{traced_lines(axes)}
+    {
+    }
 
     void frame_played(std::uint64_t start_tick, const PulseFrame& frame) final;
 
@@ -32,13 +39,15 @@ protected:
 private:
     std::uint64_t start_;
     PulseLines levels_;
+    unsigned traced_;
     std::uint64_t end_{0};
 };
 
 // Lines in the order of their edges: dir_x in bit 0, step_x in bit 1, dir_y in bit 2 and so on. The bit number of a
 // line is its wire with the lowest bit inverted.
-inline constexpr std::array<std::uint8_t, 64> kLinesInTraceOrder = [] {
-    std::array<std::uint8_t, 64> order{};
+using LinesInTraceOrder = std::array<std::uint8_t, 1U << 2 * kAxisCount>;
+inline constexpr LinesInTraceOrder kLinesInTraceOrder = [] {
+    LinesInTraceOrder order{};
     for (unsigned lines = 0; lines < order.size(); ++lines) {
         unsigned ordered = 0;
         for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -62,8 +71,8 @@ void EdgeListener<Own>::frame_played(std::uint64_t start_tick, const PulseFrame&
     own.frame_begins(tick);
     for (const PulseEdge& at : frame.edges) {
         const auto now = static_cast<PulseLines>((levels_ | at.raise) & ~unsigned{at.lower});
-        unsigned changed = kLinesInTraceOrder[(now ^ levels_) & 63U];
-        const unsigned high = kLinesInTraceOrder[now & 63U];
+        unsigned changed = kLinesInTraceOrder[(now ^ levels_) & traced_];
+        const unsigned high = kLinesInTraceOrder[now & traced_];
         levels_ = now;
         for (; changed != 0; changed &= changed - 1) {
             const auto bit = static_cast<unsigned>(__builtin_ctz(changed));

@@ -16,8 +16,8 @@ Instruments::Instruments(board_sim::SimulatedController& controller, const RunOp
       start_steps_{controller.board().mill.steps_taken()},
       start_tick_{player_.next_frame_start()},
       statistics_{motion_.position()},
-      shadow_{motion_.position(), path_listener()},
-      checksum_{start_tick_, player_.levels()},
+      shadow_{motion_.position(), path_listener(), controller.machine().settings().axes()},
+      checksum_{start_tick_, player_.levels(), controller.machine().settings().axes()},
       delay_us_{controller.machine().settings().steps().direction_setup_us}
 {
     if (options_.sums_edges) {
@@ -69,6 +69,7 @@ void Instruments::finish(RunResult& result)
     result.tools = tool_times_.times();
     result.tool_changes = tool_times_.changes();
     result.edges_crc32 = options_.sums_edges ? checksum_.value() : 0;
+    result.axes = controller_.machine().settings().axes();
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         result.steps[axis] = controller_.board().mill.steps_taken()[axis] - start_steps_[axis];
     }

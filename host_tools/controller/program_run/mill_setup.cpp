@@ -15,7 +15,7 @@ hal::MillGeometry mill_geometry(const machine::Settings& settings,
                                 double part_from_home)
 {
     hal::MillGeometry geometry;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         const double travel = static_cast<double>(settings.value(Setting::kTravel, axis));
         const bool homes_to_minus = (settings.whole(Setting::kHomingDirection) >> axis & 1U) != 0;
         geometry.steps_per_mm[axis] =

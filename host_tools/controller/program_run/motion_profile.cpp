@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTicksPerSecond = kServoTicksPerSecond;
 
-void keep_greater(Vec3d& greatest, Vec3d value)
+void keep_greater(AxisVecd& greatest, AxisVecd value)
 {
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         greatest[axis] = std::max(greatest[axis], std::abs(value[axis]));
@@ -44,7 +44,7 @@ void MotionProfile::add(Position set_point, std::uint32_t line)
     }
     ++ticks_;
     const SetPointDifferences differences = window_->take(set_point);
-    const Vec3d velocity = to_millimetres(differences.velocity) * kTicksPerSecond;
+    const AxisVecd velocity = to_millimetres(differences.velocity) * kTicksPerSecond;
     join(stretches_.back(),
          {norm(velocity), velocity,
           to_millimetres(differences.acceleration) * (kTicksPerSecond * kTicksPerSecond),

@@ -12,10 +12,10 @@ namespace cusp::program_run {
 
 // Greatest magnitudes within a stretch of time.
 struct ProfileStretch {
-    double speed{0};  // along the path, mm/s
-    Vec3d velocity;   // of each axis: mm/s, mm/s^2, mm/s^3
-    Vec3d acceleration;
-    Vec3d jerk;
+    double speed{0};    // along the path, mm/s
+    AxisVecd velocity;  // of each axis: mm/s, mm/s^2, mm/s^3
+    AxisVecd acceleration;
+    AxisVecd jerk;
     std::uint32_t first_line{0};  // of the program, at the start of the stretch
 };
 

@@ -51,14 +51,14 @@ void MotionStatistics::take(Position p)
     length_ += norm(to_millimetres(velocity));
 }
 
-Vec3d MotionStatistics::max_velocity() const { return to_millimetres(velocity_) * kTicks; }
+AxisVecd MotionStatistics::max_velocity() const { return to_millimetres(velocity_) * kTicks; }
 
-Vec3d MotionStatistics::max_acceleration() const
+AxisVecd MotionStatistics::max_acceleration() const
 {
     return to_millimetres(acceleration_) * (kTicks * kTicks);
 }
 
-Vec3d MotionStatistics::max_jerk() const
+AxisVecd MotionStatistics::max_jerk() const
 {
     return to_millimetres(jerk_) * (kTicks * kTicks * kTicks);
 }

@@ -21,9 +21,9 @@ public:
     void finish();
 
     // Greatest of each axis: mm/s, mm/s^2, mm/s^3.
-    Vec3d max_velocity() const;
-    Vec3d max_acceleration() const;
-    Vec3d max_jerk() const;
+    AxisVecd max_velocity() const;
+    AxisVecd max_acceleration() const;
+    AxisVecd max_jerk() const;
 
     // From the first to the last tick with motion, both included.
     std::uint64_t moving_ticks() const;

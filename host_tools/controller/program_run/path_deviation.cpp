@@ -12,7 +12,7 @@
 namespace cusp::program_run {
 namespace {
 
-PathPlace nearest_on_segment(Vec3d point, Vec3d end, double length_squared)
+PathPlace nearest_on_segment(AxisVecd point, AxisVecd end, double length_squared)
 {
     const double t =
         length_squared > 0 ? std::clamp(dot(point, end) / length_squared, 0.0, 1.0) : 0.0;
@@ -21,27 +21,27 @@ PathPlace nearest_on_segment(Vec3d point, Vec3d end, double length_squared)
 
 // Point of the arc at t in [0, 1] and, by differences of the closed form, its derivatives.
 struct ArcPoint {
-    Vec3d position;
-    Vec3d first;
-    Vec3d second;
+    AxisVecd position;
+    AxisVecd first;
+    AxisVecd second;
 };
 
 ArcPoint arc_at(const path::Arc& arc, double t)
 {
     const double angle = t * arc.sweep;
     const double radius = arc.radius + t * arc.radius_change;
-    const Vec3d out = arc.u * elementary::cos(angle) + arc.v * elementary::sin(angle);
-    const Vec3d along = arc.v * elementary::cos(angle) - arc.u * elementary::sin(angle);
+    const AxisVecd out = arc.u * elementary::cos(angle) + arc.v * elementary::sin(angle);
+    const AxisVecd along = arc.v * elementary::cos(angle) - arc.u * elementary::sin(angle);
     return {arc.centre + out * radius + arc.axial * t,
             out * arc.radius_change + along * (radius * arc.sweep) + arc.axial,
             along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
 }
 
-PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
+PathPlace nearest_on_arc_from(const path::Arc& arc, AxisVecd point, double t)
 {
     for (int iteration = 0; iteration < 12; ++iteration) {
         const ArcPoint at = arc_at(arc, t);
-        const Vec3d away = at.position - point;
+        const AxisVecd away = at.position - point;
         const double slope = dot(away, at.first);
         const double curvature = dot(at.first, at.first) + dot(away, at.second);
         // Far from the arc Newton's method diverges: a step of steepest descent replaces it.
@@ -55,9 +55,9 @@ PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
     return {norm(arc_at(arc, t).position - point), t};
 }
 
-PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
+PathPlace nearest_on_arc(const path::Arc& arc, AxisVecd point)
 {
-    const Vec3d from_centre = point - arc.centre;
+    const AxisVecd from_centre = point - arc.centre;
     double angle = elementary::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
     if (angle < 0) {
         angle += 2.0 * kPi;
@@ -93,16 +93,14 @@ PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
 }
 
 // De Casteljau in homogeneous coordinates.
-Vec3d bezier_at(const path::BezierPiece& piece, double t)
+AxisVecd bezier_at(const path::BezierPiece& piece, double t)
 {
-    std::array<Vec3d, path::kMaxOrder> points{};
+    std::array<AxisVecd, path::kMaxOrder> points{};
     std::array<double, path::kMaxOrder> weights{};
     for (unsigned i = 0; i < piece.order; ++i) {
         weights[i] = static_cast<double>(piece.weights[i]);
-        const Vec3f& p = piece.points[i];
-        points[i] =
-            Vec3d{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} *
-            weights[i];
+        const AxisVecf& p = piece.points[i];
+        points[i] = to_double(p) * weights[i];
     }
     for (unsigned left = piece.order; left > 1; --left) {
         for (unsigned i = 0; i + 1 < left; ++i) {
@@ -113,7 +111,7 @@ Vec3d bezier_at(const path::BezierPiece& piece, double t)
     return points[0] / weights[0];
 }
 
-PathPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
+PathPlace nearest_on_bezier(const path::BezierPiece& piece, AxisVecd point)
 {
     constexpr int kSamples = 32;
     const auto distance_at = [&](double t) {
@@ -151,14 +149,14 @@ constexpr double kTie = 1e-7;
 
 PathPlace nearest_place(const path::Move& move, Position point)
 {
-    const Vec3d relative = to_millimetres(point - move.start);
+    const AxisVecd relative = to_millimetres(point - move.start);
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         return nearest_on_arc(*arc, relative);
     }
     if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
         return nearest_on_bezier(*piece, relative);
     }
-    const Vec3d chord = to_millimetres(move.end - move.start);
+    const AxisVecd chord = to_millimetres(move.end - move.start);
     return nearest_on_segment(relative, chord, dot(chord, chord));
 }
 
@@ -179,7 +177,7 @@ void PathDeviation::add_move(const path::Move& move)
 
 void PathDeviation::add_stretch(const path::Move& move, double length)
 {
-    const Vec3d chord = to_millimetres(move.end - move.start);
+    const AxisVecd chord = to_millimetres(move.end - move.start);
     const bool straight = std::holds_alternative<path::Line>(move.path);
     stretches_.push_back({move, end_, end_ + length, straight, chord, dot(chord, chord)});
     end_ += length;

@@ -45,7 +45,7 @@ private:
         double end;
         // Lines only, mm: end minus start, and the square of the length.
         bool straight;
-        Vec3d chord;
+        AxisVecd chord;
         double chord_square;
     };
     void add_stretch(const path::Move& move, double length);

@@ -87,12 +87,13 @@ struct RunResult {
     double total_s{0};     // dwells at both ends too
     std::uint64_t lines{0};
     ProgramMoveCounts moves;
+    unsigned axes{kLinearAxes};      // of the machine, X first
     PerAxis<std::uint64_t> steps{};  // pulses, both ways
     Position end;                    // machine coordinates
     double length_mm{0};
-    Vec3d max_velocity;
-    Vec3d max_acceleration;
-    Vec3d max_jerk;
+    AxisVecd max_velocity;
+    AxisVecd max_acceleration;
+    AxisVecd max_jerk;
     double max_deviation_mm{0};
     std::uint64_t max_deviation_line{0};
     std::uint64_t starved_ticks{0};

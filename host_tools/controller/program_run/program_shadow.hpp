@@ -33,9 +33,13 @@ class ProgramShadow {
 public:
     // start: position at the start of the program, machine coordinates.
     // path: called with each move, and with null where the machine has moved by itself; may be empty.
-    ProgramShadow(Position start, std::function<void(const path::Move*)> path)
+    // axes: of the machine, X first.
+    ProgramShadow(Position start,
+                  std::function<void(const path::Move*)> path,
+                  unsigned axes = kLinearAxes)
         : path_{std::move(path)}
     {
+        interpreter_.set_axes(axes);
         set_position(start);
     }
 

@@ -6,9 +6,12 @@
 
 namespace cusp::simulate {
 
-SamplesWriter::SamplesWriter(const std::string& file, bool laser) : file_{file}, laser_{laser}
+SamplesWriter::SamplesWriter(const std::string& file, bool laser, unsigned axes)
+    : file_{file}, laser_{laser}, axes_{axes}
 {
-    file_.write(laser ? "t_us,x_nm,y_nm,z_nm,line,power_ppm\n" : "t_us,x_nm,y_nm,z_nm,line\n");
+    file_.write("t_us,x_nm,y_nm,z_nm");
+    file_.write(axes > kLinearAxes ? ",a_udeg,line" : ",line");
+    file_.write(laser ? ",power_ppm\n" : "\n");
 }
 
 void SamplesWriter::write(std::uint64_t microseconds,
@@ -17,7 +20,7 @@ void SamplesWriter::write(std::uint64_t microseconds,
                           std::uint16_t power)
 {
     file_.write_number(static_cast<std::int64_t>(microseconds));
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < axes_; ++axis) {
         file_.write(',');
         file_.write_number(at[axis]);
     }

@@ -23,7 +23,8 @@ public:
     {
         if (!options.samples_file.empty()) {
             samples_ = std::make_unique<SamplesWriter>(
-                options.samples_file, options.settings.on(machine::Setting::kLaserMode));
+                options.samples_file, options.settings.on(machine::Setting::kLaserMode),
+                options.settings.axes());
         }
     }
 
@@ -59,7 +60,7 @@ private:
     {
         vcd_ = std::make_unique<VcdWriter>(options_.vcd_file, board.mill,
                                            board.pulse_player.next_frame_start(),
-                                           board.pulse_player.levels());
+                                           board.pulse_player.levels(), options_.settings.axes());
         board.pulse_player.add_listener(*vcd_);
         if (options_.started) {
             options_.started(board);

@@ -29,7 +29,7 @@ RunOptions options_for_times(const machine::Settings& settings)
     options.measures_deviation = false;
     options.sums_edges = false;
     // Set points do not depend on the size of a step, and pulses are a third of a run.
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         constexpr float kFewSteps = 1;  // a millimetre
         options.settings.put(100 + axis, kFewSteps);
     }

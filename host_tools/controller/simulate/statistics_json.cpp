@@ -10,7 +10,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json per_axis(Vec3d vector) { return Json::array({vector.x, vector.y, vector.z}); }
+// Of so many axes, X first.
+template <class Vector>
+Json per_axis(const Vector& vector, unsigned axes)
+{
+    Json values = Json::array();
+    for (unsigned axis = 0; axis < axes; ++axis) {
+        values.push_back(vector[axis]);
+    }
+    return values;
+}
 
 }  // namespace
 
@@ -40,12 +49,12 @@ std::string statistics_json(const SimulationResult& result)
           {"arc", moves.arc},
           {"nurbs", moves.nurbs}}},
         {"edges_crc32", fmt::format("{:08x}", result.edges_crc32)},
-        {"steps", Json::array({result.steps[0], result.steps[1], result.steps[2]})},
-        {"end_mpos_mm", per_axis(to_millimetres(result.end))},
+        {"steps", per_axis(result.steps, result.axes)},
+        {"end_mpos_mm", per_axis(to_millimetres(result.end), result.axes)},
         {"length_mm", result.length_mm},
-        {"max_velocity", per_axis(result.max_velocity)},
-        {"max_acceleration", per_axis(result.max_acceleration)},
-        {"max_jerk", per_axis(result.max_jerk)},
+        {"max_velocity", per_axis(result.max_velocity, result.axes)},
+        {"max_acceleration", per_axis(result.max_acceleration, result.axes)},
+        {"max_jerk", per_axis(result.max_jerk, result.axes)},
         {"max_deviation_mm", result.max_deviation_mm},
         {"max_deviation_line", result.max_deviation_line},
         {"starved_ticks", result.starved_ticks},

@@ -10,10 +10,14 @@ namespace cusp::simulate {
 namespace {
 
 // Order of declaration. Identifiers are '!' and up.
-constexpr std::array<std::string_view, 8> kWires{"step_x", "dir_x", "step_y",  "dir_y",
-                                                 "step_z", "dir_z", "spindle", "coolant"};
+constexpr std::array<std::string_view, 10> kWires{"step_x", "dir_x", "step_y",  "dir_y",
+                                                  "step_z", "dir_z", "spindle", "coolant",
+                                                  "step_a", "dir_a"};
 constexpr unsigned kSpindleWire = 6;
 constexpr unsigned kCoolantWire = 7;
+
+// The wire of a line of an axis: those of A come last.
+constexpr unsigned declared(unsigned wire) { return wire < kSpindleWire ? wire : wire + 2; }
 
 constexpr char identifier(unsigned wire) { return static_cast<char>('!' + wire); }
 
@@ -22,11 +26,12 @@ constexpr char identifier(unsigned wire) { return static_cast<char>('!' + wire);
 VcdWriter::VcdWriter(const std::string& file,
                      const hal::SimulatedMill& mill,
                      std::uint64_t start,
-                     PulseLines levels)
-    : EdgeListener{start, levels}, file_{file}, mill_{mill}
+                     PulseLines levels,
+                     unsigned axes)
+    : EdgeListener{start, levels, axes}, file_{file}, mill_{mill}
 {
     file_.write("$version cusp sim $end\n$timescale 1 us $end\n$scope module mill $end\n");
-    for (unsigned wire = 0; wire < kWires.size(); ++wire) {
+    for (unsigned wire = 0; wire < 2 * axes + 2; ++wire) {
         file_.write("$var wire 1 ");
         file_.write(identifier(wire));
         file_.write(' ');
@@ -34,9 +39,9 @@ VcdWriter::VcdWriter(const std::string& file,
         file_.write(" $end\n");
     }
     file_.write("$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n");
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        write_level((levels & step_line(axis)) != 0, 2 * axis);
-        write_level((levels & direction_line(axis)) != 0, 2 * axis + 1);
+    for (unsigned axis = 0; axis < axes; ++axis) {
+        write_level((levels & step_line(axis)) != 0, declared(2 * axis));
+        write_level((levels & direction_line(axis)) != 0, declared(2 * axis + 1));
     }
     write_level(false, kSpindleWire);
     write_level(false, kCoolantWire);
@@ -46,7 +51,7 @@ VcdWriter::VcdWriter(const std::string& file,
 void VcdWriter::edge(std::uint64_t tick, unsigned wire, bool level)
 {
     write_time(tick);
-    write_level(level, wire);
+    write_level(level, declared(wire));
 }
 
 void VcdWriter::close()

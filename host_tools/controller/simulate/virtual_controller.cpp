@@ -83,7 +83,8 @@ public:
             control_.emplace(*options.control);
         }
         if (!options.vcd_file.empty()) {
-            vcd_ = std::make_unique<VcdWriter>(options.vcd_file, board.mill, 0, PulseLines{0});
+            vcd_ = std::make_unique<VcdWriter>(options.vcd_file, board.mill, 0, PulseLines{0},
+                                               stored_settings(board.settings_store).axes());
             board.pulse_player.add_listener(*vcd_);
         }
         keep_settings();

@@ -134,8 +134,8 @@ Approach make_approach(const ResumePoint& point,
             fmt::format("G1Z{}F{:.4f}", words_of(goal.z - shift.z), approach.plunge_feed));
     }
     restore_modal(point.modal, approach.lines);
-    approach.point = to_millimetres(goal - shift);
-    approach.safe_z = to_millimetres(Position{0, 0, travel_z - shift.z}).z;
+    approach.point = xyz(to_millimetres(goal - shift));
+    approach.safe_z = xyz(to_millimetres(Position{0, 0, travel_z - shift.z})).z;
     return approach;
 }
 

@@ -193,7 +193,7 @@ void Streamer::prepare_resume(ProgramLines& program)
                      "the controller is in alarm and can't home ($22=0): see that its position is "
                      "true and unlock it ($X) first"};
     }
-    const Vec3d gone = to_millimetres(resume.record.last_seen);
+    const Vec3d gone = xyz(to_millimetres(resume.record.last_seen));
     constexpr double kNear = 0.01;
     const bool lost = !homes && machine_position() == Position{} && norm(gone) > kNear;
     const bool goes_on = resume.confirm(facts_, machine_position(), homes, lost);

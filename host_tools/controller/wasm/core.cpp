@@ -73,7 +73,7 @@ std::string error_line(char origin, std::uint64_t line, int code, const std::str
 void take_figures(Run& run)
 {
     const RunResult& result = run.run->result();
-    const Vec3d end = to_millimetres(result.end);
+    const Vec3d end = xyz(to_millimetres(result.end));
     const auto whole = [](auto number) {
         return static_cast<double>(number);
     };
@@ -151,7 +151,7 @@ CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
     if (with_set_points != 0) {
         run.options.set_point = [&run](const SetPoint& point) {
             run.profile.add(point.at, point.line);
-            const Vec3d at = to_millimetres(point.at);
+            const Vec3d at = xyz(to_millimetres(point.at));
             run.rows.push_back({at.x, at.y, at.z, static_cast<double>(point.line)});
         };
     }
@@ -203,7 +203,8 @@ CUSP_EXPORT(cusp_profile) const double* cusp_profile()
     double start = 0;
     for (const ProfileStretch& stretch : run.profile.stretches()) {
         run.profile_rows.push_back(stretch.speed);
-        for (const Vec3d& of_axes : {stretch.velocity, stretch.acceleration, stretch.jerk}) {
+        for (const Vec3d& of_axes :
+             {xyz(stretch.velocity), xyz(stretch.acceleration), xyz(stretch.jerk)}) {
             run.profile_rows.insert(run.profile_rows.end(), {of_axes.x, of_axes.y, of_axes.z});
         }
         run.profile_rows.push_back(static_cast<double>(stretch.first_line));

@@ -166,7 +166,7 @@ std::string axis_panel(const MotionProfile& profile,
                        unsigned axis,
                        double seconds)
 {
-    const auto share = [&](Vec3d ProfileStretch::*member, Vec3f limit) {
+    const auto share = [&](AxisVecd ProfileStretch::*member, AxisVecf limit) {
         return values_of(profile, [member, limit, axis](const ProfileStretch& s) {
             return kPercent * (s.*member)[axis] / static_cast<double>(limit[axis]);
         });
@@ -179,7 +179,7 @@ std::string axis_panel(const MotionProfile& profile,
          share(&ProfileStretch::acceleration, limits.acceleration)},
         {fmt::format("velocity, of {:g} mm/s", limits.velocity[axis]), kVelocityColour,
          share(&ProfileStretch::velocity, limits.velocity)}};
-    constexpr std::array<char, kAxisCount> kNames{'X', 'Y', 'Z'};
+    constexpr std::array<char, kLinearAxes> kNames{'X', 'Y', 'Z'};
     constexpr double kUpper = 110;  // kRoundingNote
     constexpr double kStep = 50;
     const std::string title = fmt::format("{}, % of its limits", kNames.at(axis));
@@ -200,7 +200,7 @@ std::string motion_picture(const MotionProfile& profile, const MachineLimits& li
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         width, height, width, height, kTextSize);
     out += speed_panel(profile, seconds);
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         out += axis_panel(profile, limits, axis, seconds);
     }
     out += text_at(kLeft, height - 8, "start", kRoundingNote);

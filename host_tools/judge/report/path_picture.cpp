@@ -33,7 +33,7 @@ constexpr double kSagitta = 0.02;
 
 std::vector<Vec3d> points_of(const path::Move& move)
 {
-    std::vector<Vec3d> points{to_millimetres(move.start)};
+    std::vector<Vec3d> points{xyz(to_millimetres(move.start))};
     double spacing = kSpacing;
     if (std::holds_alternative<path::Line>(move.path)) {
         spacing = kUnbounded;

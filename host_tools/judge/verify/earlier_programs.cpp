@@ -85,7 +85,7 @@ std::vector<EarlierCut> straight_cuts(const Program& program,
         const bool is_chord = !std::holds_alternative<path::Line>(m.move.path);
         points.clear();
         append_points(m.move, spacing_for(m.move), points);
-        Vec3d at = to_millimetres(m.move.start);
+        Vec3d at = xyz(to_millimetres(m.move.start));
         for (const Vec3d p : points) {
             cuts.push_back({tool, is_chord, at, p, m.move.line});
             at = p;
@@ -192,7 +192,7 @@ std::vector<ToolPositions> program_positions(const Job& job,
         if (m.tool != current) {
             current = m.tool;
             runs.push_back({tool_of_program(job, file, program, current), {}, {}});
-            runs.back().tips.push_back(to_millimetres(m.move.start));
+            runs.back().tips.push_back(xyz(to_millimetres(m.move.start)));
         }
         ToolPositions& run = runs.back();
         append_points(m.move, spacing, run.tips);

@@ -94,7 +94,7 @@ double programmed_seconds(const Program& program)
         if (move.kind == path::MoveKind::kFeed) {
             seconds += path::length(move) / static_cast<double>(move.feed);
         } else {
-            const Vec3d way = to_millimetres(move.end) - to_millimetres(move.start);
+            const Vec3d way = xyz(to_millimetres(move.end)) - xyz(to_millimetres(move.start));
             seconds += std::max(
                 {std::abs(way.x) / rate.x, std::abs(way.y) / rate.y, std::abs(way.z) / rate.z});
         }

@@ -36,8 +36,9 @@ Vec3d point_on(const path::Arc& arc, double t)
 {
     const double angle = t * arc.sweep;
     const double radius = arc.radius + t * arc.radius_change;
-    return arc.centre + radius * (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
-           t * arc.axial;
+    return xyz(arc.centre +
+               radius * (elementary::cos(angle) * arc.u + elementary::sin(angle) * arc.v) +
+               t * arc.axial);
 }
 
 // de Casteljau on homogeneous points.
@@ -227,8 +228,8 @@ Program read_program(const job::Job& job, const std::string& name, double start_
 
 void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points)
 {
-    const Vec3d start = to_millimetres(move.start);
-    const Vec3d end = to_millimetres(move.end);
+    const Vec3d start = xyz(to_millimetres(move.start));
+    const Vec3d end = xyz(to_millimetres(move.end));
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         append_sampled(*arc, path::length(move), spacing, start, points);
     } else if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {

@@ -125,7 +125,7 @@ void read_positions(Verifying& work)
         const bool rapid = m.move.kind == path::MoveKind::kRapid;
         ToolPositions& run = runs.back();
         if (k == 0) {  // the machine's start position is unknown
-            run.tips.push_back(to_millimetres(m.move.end));
+            run.tips.push_back(xyz(to_millimetres(m.move.end)));
         } else {
             const double length = path::length(m.move);
             (rapid ? figures.rapid_length : figures.cut_length) += length;

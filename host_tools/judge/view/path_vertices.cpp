@@ -46,7 +46,7 @@ std::uint8_t level_of(double missed)
 
 void PathVertices::add(Position at, double deviation, bool corner)
 {
-    const Vec3d place = to_millimetres(at);
+    const Vec3d place = xyz(to_millimetres(at));
     double speed = 0;
     if (!points_.empty()) {
         const auto& last = points_.back().at;

@@ -5,10 +5,10 @@
 
 namespace cusp::view {
 
-void RepetitionSearch::add(const PerAxis<std::uint64_t>& differences)
+void RepetitionSearch::add(const std::array<std::uint64_t, kLinearAxes>& differences)
 {
     Differences kept{};
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         kept[axis] = static_cast<std::uint32_t>(std::min<std::uint64_t>(differences[axis], kHuge));
     }
     ticks_.push_back(kept);

@@ -24,7 +24,7 @@ public:
     static constexpr std::size_t kShortest = 64;
 
     // The compared values of the next tick; ticks count from 0.
-    void add(const PerAxis<std::uint64_t>& differences);
+    void add(const std::array<std::uint64_t, kLinearAxes>& differences);
 
     // Repetitions within ticks [begin, end), in order, without overlap, of ticks that are in [begin, end) or in the
     // range of an earlier call. A repetition may overlap its original.
@@ -32,7 +32,7 @@ public:
     std::vector<Repetition> find(std::size_t begin, std::size_t end);
 
 private:
-    using Differences = PerAxis<std::uint32_t>;
+    using Differences = std::array<std::uint32_t, kLinearAxes>;
     // Larger differences are not compared.
     static constexpr std::uint32_t kHuge = std::numeric_limits<std::uint32_t>::max();
     // Every kStep-th start is stored.

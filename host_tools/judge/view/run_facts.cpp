@@ -38,9 +38,9 @@ Json main_facts(const RunFacts& facts)
              {"moves", moves.rapid + moves.line + moves.arc + moves.nurbs},
              {"ticks", facts.ticks},
              {"length_mm", facts.run.length_mm},
-             {"max_velocity", per_axis(facts.run.max_velocity)},
-             {"max_acceleration", per_axis(facts.run.max_acceleration)},
-             {"max_jerk", per_axis(facts.run.max_jerk)}};
+             {"max_velocity", per_axis(xyz(facts.run.max_velocity))},
+             {"max_acceleration", per_axis(xyz(facts.run.max_acceleration))},
+             {"max_jerk", per_axis(xyz(facts.run.max_jerk))}};
     if (facts.verification != nullptr) {
         out["gouge_max_mm"] = facts.verification->figures.gouge_max;
         out["scallop_max_mm"] = facts.verification->figures.scallop_max;
@@ -190,9 +190,9 @@ std::string facts_json(const RunFacts& facts)
               {"start_us", facts.start_us},
               {"farthest_nm", facts.farthest_nm},
               {"limits",
-               {{"velocity", per_axis(facts.limits.velocity)},
-                {"acceleration", per_axis(facts.limits.acceleration)},
-                {"jerk", per_axis(facts.limits.jerk)}}},
+               {{"velocity", per_axis(xyz(facts.limits.velocity))},
+                {"acceleration", per_axis(xyz(facts.limits.acceleration))},
+                {"jerk", per_axis(xyz(facts.limits.jerk))}}},
               {"facts", main_facts(facts)},
               {"run", run_facts(facts)},
               {"tools", tools_of(facts)},

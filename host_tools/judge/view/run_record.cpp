@@ -38,17 +38,17 @@ void RunRecord::add(const program_run::SetPoint& point)
     } else if (point.line != line_) {
         end_line_run();
     }
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         farthest_ = std::max(farthest_, std::abs(point.at[axis] - start_at_[axis]));
     }
     line_ = point.line;
     ++run_ticks_;
     const int tool = reading_.sections[reading_.section[now]].tool;
-    path_.add(to_millimetres(point.at), ticks(), tool, reading_.rapid[now] != 0);
+    path_.add(xyz(to_millimetres(point.at)), ticks(), tool, reading_.rapid[now] != 0);
     vertices_.add(point.at, point.on_path ? deviation_.add_set_point(point.at) : 0.0, corner);
     samples_.add(point.at);
     if (engagement_) {
-        engagement_->add(to_millimetres(point.at), point.line);
+        engagement_->add(xyz(to_millimetres(point.at)), point.line);
     }
 }
 

@@ -14,14 +14,15 @@ void SampleBlocks::add(Position at)
     const Position acceleration = velocity - last_[1];
     const Position jerk = acceleration - last_[2];
     last_ = {at, velocity, acceleration};
-    const PerAxis<std::uint64_t> third{zigzag(jerk[0]), zigzag(jerk[1]), zigzag(jerk[2])};
+    const std::array<std::uint64_t, kLinearAxes> third{zigzag(jerk[0]), zigzag(jerk[1]),
+                                                       zigzag(jerk[2])};
     if (ticks_ % kBlock == 0) {
         if (ticks_ > 0) {
             end_block();
         }
         first_ = last_;
     } else {
-        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
             third_[axis].push_back(third[axis]);
         }
     }
@@ -63,7 +64,7 @@ void SampleBlocks::end_block()
 {
     Bytes planes;
     leave_out_repetitions(planes);
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         std::uint64_t all = 0;
         for (const std::uint64_t value : third_[axis]) {
             all |= value;

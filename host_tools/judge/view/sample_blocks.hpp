@@ -38,9 +38,10 @@ private:
     void end_block();
 
     std::uint64_t ticks_{0};
-    std::array<Position, 3> last_{};             // position and its differences, newest
-    std::array<Position, 3> first_{};            // of the block
-    PerAxis<std::vector<std::uint64_t>> third_;  // of the block's ticks after the first
+    std::array<Position, 3> last_{};   // position and its differences, newest
+    std::array<Position, 3> first_{};  // of the block
+    std::array<std::vector<std::uint64_t>, kLinearAxes>
+        third_;  // of the block's ticks after the first
     RepetitionSearch repeated_;
     Bytes blocks_;
 };

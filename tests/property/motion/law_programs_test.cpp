@@ -31,12 +31,21 @@ struct Machine {
     float feed;  // mm/s, of all feed moves; 0: the program's
 };
 
+// Times those of the default machine.
+MachineLimits limits_by(float velocity, float acceleration, float jerk)
+{
+    MachineLimits limits;
+    limits.velocity = limits.velocity * velocity;
+    limits.acceleration = limits.acceleration * acceleration;
+    limits.jerk = limits.jerk * jerk;
+    return limits;
+}
+
 const std::vector<Machine>& machines()
 {
-    static const std::vector<Machine> all{
-        {"default", {}, 0},
-        {"slow", {{50, 50, 25}, {200, 200, 100}, {2000, 2000, 1000}}, 0},
-        {"fast", {{500, 500, 250}, {5000, 5000, 2500}, {5e5F, 5e5F, 2.5e5F}}, 500}};
+    static const std::vector<Machine> all{{"default", {}, 0},
+                                          {"slow", limits_by(0.5F, 0.2F, 0.04F), 0},
+                                          {"fast", limits_by(5, 5, 10), 500}};
     return all;
 }
 
@@ -111,7 +120,7 @@ double time_of_program(std::istream& in, const std::string& program, const Machi
     const std::vector<Position> samples = rig.run(moves);
     const LimitUse use = limit_use(samples, start, machine.limits);
     const std::string name = program + "-" + machine.name;
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         CHECK_TEXT(use.velocity[axis] <= 1, name.c_str());
         CHECK_TEXT(use.acceleration[axis] <= 1, name.c_str());
         CHECK_TEXT(use.jerk[axis] <= 1, name.c_str());

@@ -45,14 +45,14 @@ TEST(MotionLimits, HoldWhereFewTicksBrakeFromTheGreatestSpeed)
     for (std::uint64_t i = 0; i < 30 * test::motion_program_count(); ++i) {
         RandomMoves random{kSeed + i};
         MachineLimits limits = test::random_limits(kSeed + i);
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             const float in_a_tick = limits.acceleration[axis] * 1e-3F;
             limits.velocity[axis] = in_a_tick * static_cast<float>(random.between(0.5, 9));
             limits.jerk[axis] = limits.acceleration[axis] * 1000.5F / static_cast<float>(2 + i % 9);
         }
         path::Move move;
         move.kind = path::MoveKind::kRapid;
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             move.end[axis] = static_cast<std::int64_t>(random.between(-1e6, 1e6));
         }
         move.line = 1;

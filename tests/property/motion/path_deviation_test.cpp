@@ -22,18 +22,18 @@ constexpr double kExact = 0.001;
 constexpr double kRounding = 3e-6;
 
 struct Box {
-    Vec3d low, high;
+    AxisVecd low, high;
 };
 
 // A move as chords, none farther from it than 2e-5 mm.
 struct Chords {
-    std::vector<Vec3d> points;
+    std::vector<AxisVecd> points;
     Box box;
 };
 
-double distance_to_segment(Vec3d p, Vec3d a, Vec3d b)
+double distance_to_segment(AxisVecd p, AxisVecd a, AxisVecd b)
 {
-    const Vec3d along = b - a;
+    const AxisVecd along = b - a;
     const double square = dot(along, along);
     const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
     return norm(p - a - along * t);
@@ -42,7 +42,7 @@ double distance_to_segment(Vec3d p, Vec3d a, Vec3d b)
 Chords chords_of(const path::Move& move)
 {
     Chords chords;
-    const Vec3d start = to_millimetres(move.start);
+    const AxisVecd start = to_millimetres(move.start);
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         const double step = std::sqrt(8 * 2e-5 / arc->radius);
         const int count = 1 + static_cast<int>(arc->sweep / step);
@@ -56,8 +56,8 @@ Chords chords_of(const path::Move& move)
         chords.points = {start, to_millimetres(move.end)};
     }
     chords.box = {start, start};
-    for (const Vec3d& point : chords.points) {
-        for (unsigned i = 0; i < 3; ++i) {
+    for (const AxisVecd& point : chords.points) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             chords.box.low[i] = std::min(chords.box.low[i], point[i]);
             chords.box.high[i] = std::max(chords.box.high[i], point[i]);
         }
@@ -65,16 +65,16 @@ Chords chords_of(const path::Move& move)
     return chords;
 }
 
-double distance_to_box(Vec3d p, const Box& box)
+double distance_to_box(AxisVecd p, const Box& box)
 {
-    Vec3d outside{};
-    for (unsigned i = 0; i < 3; ++i) {
+    AxisVecd outside{};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         outside[i] = std::max({box.low[i] - p[i], 0.0, p[i] - box.high[i]});
     }
     return norm(outside);
 }
 
-double distance_to_path(Vec3d p, const std::vector<Chords>& path, double enough)
+double distance_to_path(AxisVecd p, const std::vector<Chords>& path, double enough)
 {
     double least = 1e9;
     for (const Chords& move : path) {
@@ -91,12 +91,12 @@ double distance_to_path(Vec3d p, const std::vector<Chords>& path, double enough)
     return least;
 }
 
-double distance_to_samples(Vec3d p, const std::vector<Position>& samples)
+double distance_to_samples(AxisVecd p, const std::vector<Position>& samples)
 {
     double least = 1e9;
-    Vec3d before = to_millimetres(samples.front());
+    AxisVecd before = to_millimetres(samples.front());
     for (const Position& sample : samples) {
-        const Vec3d here = to_millimetres(sample);
+        const AxisVecd here = to_millimetres(sample);
         least = std::min(least, distance_to_segment(p, before, here));
         before = here;
     }
@@ -108,7 +108,9 @@ using Samples = std::vector<Position>;
 
 Samples plain(const Moves& moves)
 {
-    MotionRig rig;
+    MachineLimits limits{};
+    limits.set_rotary(true);
+    MotionRig rig{limits};
     rig.start_at({});
     return rig.run(moves);
 }
@@ -130,7 +132,7 @@ void check_program(std::uint64_t seed,
     const double allowed = (tolerance > 0 ? tolerance : kExact) + kRounding;
     const std::string which = "seed " + std::to_string(seed);
     for (std::size_t i = 0; i < samples.size(); i += 3) {
-        const Vec3d here = to_millimetres(samples[i]);
+        const AxisVecd here = to_millimetres(samples[i]);
         CHECK_TEXT(distance_to_path(here, path, 0.5 * allowed) <= allowed,
                    (which + ": off the path").c_str());
     }

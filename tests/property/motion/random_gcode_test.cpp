@@ -31,6 +31,7 @@ struct Moves {
 Moves moves_of(const std::vector<std::string>& lines)
 {
     gcode::Interpreter interpreter;
+    interpreter.set_axes(kAxisCount);
     Moves result;
     std::uint32_t number = 0;
     for (const std::string& line : lines) {
@@ -128,7 +129,7 @@ TEST(RandomGcode, HoldsLowAccelerationsOnCurves)
             return static_cast<float>(std::uniform_real_distribution<double>{low, high}(random));
         };
         MachineLimits limits{};
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
             limits.velocity[axis] = between(20, 200);
             limits.acceleration[axis] = axis == slow ? between(40, 80) : between(4000, 8000);
             limits.jerk[axis] = limits.acceleration[axis] * between(50, 300);

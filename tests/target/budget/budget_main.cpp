@@ -104,7 +104,7 @@ void count_one_curve(std::string_view name, const path::BezierPiece& piece)
 {
     nurbs::ArcLengthTable table;
     CUSP_ASSERT(nurbs::make_arc_length_table(piece, table));
-    const Vec3f end = piece.points[piece.order - 1U];
+    const AxisVecf end = piece.points[piece.order - 1U];
     count_one_move(name,
                    to_position({static_cast<double>(end.x), static_cast<double>(end.y),
                                 static_cast<double>(end.z)}),

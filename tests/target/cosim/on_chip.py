@@ -2,11 +2,11 @@
 """Runs programs on a board's shipping image in the co-simulation and in the simulator: equal pins.
 
 usage: on_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin [--programs N] [--seed N]
-                  [--keep FOLDER] [--usb] [PROGRAM [--settings FILE] [--script FILE]]
+                  [--keep FOLDER] [--usb] [--rotary] [PROGRAM [--settings FILE] [--script FILE]]
 
 With a program, that one; otherwise N random programs with random settings and scripts, as
 random_programs.py makes them. The edges are compared at the pins, through the wiring table of the
-board's README and the inversion of $2 and $3, microsecond by microsecond. --usb: bytes come through its plug.
+board's README and the inversion of $2 and $3, microsecond by microsecond. --usb: bytes come through its plug. --rotary: random programs turn A, on the fourth motor.
 Exit status: 0 all are equal, 1 one is not, 2 something could not run.
 """
 import argparse
@@ -26,10 +26,14 @@ from qemu import RunFailed  # noqa: E402
 from usb import Usb  # noqa: E402
 
 
+FOURTH = ("second motor step", "second motor direction")
+
+
 def inversion(settings):
-    """The mask of the six lines that $2 and $3 invert."""
+    """The mask of the lines that $2 and $3 invert."""
     values = dict(re.findall(r"\$(\d+)=(\d+)", settings))
-    return int(values.get("2", 0)) & 7 | (int(values.get("3", 0)) & 7) << 3
+    steps, directions = int(values.get("2", 0)), int(values.get("3", 0))
+    return steps & 7 | (directions & 7) << 3 | (steps & 8) << 3 | (directions & 8) << 4
 
 
 def play(options, folder):
@@ -59,7 +63,7 @@ def play(options, folder):
         start = chip.state()["now"]
         script = pathlib.Path(options.script).resolve() if options.script else "-"
         answer = chip.command(f"golden {program} {script} {trace} {inversion(settings)} {options.most_ticks} "
-                              + " ".join(chip.lines))
+                              + " ".join(chip.lines + [chip.pins[line] for line in FOURTH if "$793=4" in settings]))
         state = chip.state()
     passed = (state["now"] - start) / 1e6
     return int(answer[-1].split()[1]), golden.read_trace(trace), passed, time.monotonic() - began
@@ -89,10 +93,12 @@ def run_random(options, seed):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         options.program = folder / f"random_{seed}.ngc"
-        options.program.write_bytes(random_programs.random_program(chance).encode())
+        options.program.write_bytes(random_programs.random_program(chance, options.rotary).encode())
         options.settings = folder / f"random_{seed}.settings"
         settings = random_programs.random_settings(chance)
-        settings += f"$2={chance.randint(0, 7)}\n$3={chance.randint(0, 7)}\n"
+        most = 15 if options.rotary else 7
+        settings += f"$2={chance.randint(0, most)}\n$3={chance.randint(0, most)}\n"
+        settings += random_programs.rotary_settings(chance) if options.rotary else ""
         if seed % 3 == 0:
             settings += "$160=0.05\n$161=0.3\n$162=0.008\n"
         options.settings.write_text(settings)
@@ -120,6 +126,7 @@ def main():
     parser.add_argument("--settings")
     parser.add_argument("--script")
     parser.add_argument("--usb", action="store_true")
+    parser.add_argument("--rotary", action="store_true")
     parser.add_argument("--as-it-is", action="store_true")
     parser.add_argument("--programs", type=int, default=6)
     parser.add_argument("--seed", type=int, default=1)

@@ -12,7 +12,7 @@ using namespace cusp;
 
 TEST_GROUP(LaneVec){};
 
-TEST(LaneVec, HasTheBitsOfAVec3f)
+TEST(LaneVec, HasTheBitsOfAVector)
 {
     constexpr unsigned kSeed = 4711;
     std::mt19937_64 random{kSeed};
@@ -22,12 +22,24 @@ TEST(LaneVec, HasTheBitsOfAVec3f)
         return random() % 2 == 0 ? size : -size;
     };
     const auto vector = [&] {
-        return Vec3f{number(), number(), number()};
+        AxisVecf v{};
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            v[axis] = number();
+        }
+        return v;
+    };
+    // A vector of what a function makes of each axis.
+    const auto of_each = [](auto f) {
+        AxisVecf v{};
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            v[axis] = f(axis);
+        }
+        return v;
     };
     for (unsigned i = 0; i < 20000; ++i) {
         const std::string where = "seed " + std::to_string(kSeed) + ", " + std::to_string(i);
-        const Vec3f a = vector();
-        const Vec3f b = vector();
+        const AxisVecf a = vector();
+        const AxisVecf b = vector();
         const float k = number();
         const LaneVec p = to_lanes(a);
         const LaneVec q = to_lanes(b);
@@ -37,26 +49,30 @@ TEST(LaneVec, HasTheBitsOfAVec3f)
         CHECK_TEXT(to_vec(p * k) == a * k, where.c_str());
         CHECK_TEXT(to_vec(p / k) == a / k, where.c_str());
         CHECK_TEXT(to_vec(magnitude(p)) == magnitude(a), where.c_str());
-        const Vec3f most{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+        const AxisVecf most = of_each([&](unsigned axis) { return std::max(a[axis], b[axis]); });
         CHECK_TEXT(to_vec(larger(p, q)) == most, where.c_str());
-        const Vec3f fewest{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+        const AxisVecf fewest = of_each([&](unsigned axis) { return std::min(a[axis], b[axis]); });
         CHECK_TEXT(to_vec(smaller(p, q)) == fewest, where.c_str());
-        const Vec3f products{a.x * b.x, a.y * b.y, a.z * b.z};
+        const AxisVecf products = of_each([&](unsigned axis) { return a[axis] * b[axis]; });
         CHECK_TEXT(to_vec(product(p, q)) == products, where.c_str());
-        const Vec3f quotients{a.x / b.x, a.y / b.y, a.z / b.z};
+        const AxisVecf quotients = of_each([&](unsigned axis) { return a[axis] / b[axis]; });
         CHECK_TEXT(to_vec(quotient(p, q)) == quotients, where.c_str());
-        CHECK_TEXT(to_vec(all_lanes(k)) == (Vec3f{k, k, k}), where.c_str());
-        CHECK_TEXT(least(k, p) == std::min({k, a.x, a.y, a.z}), where.c_str());
+        CHECK_TEXT(to_vec(all_lanes(k)) == of_each([k](unsigned) { return k; }), where.c_str());
+        float fewest_of_all = k;
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            fewest_of_all = std::min(fewest_of_all, a[axis]);
+        }
+        CHECK_TEXT(least(k, p) == fewest_of_all, where.c_str());
         CHECK_TEXT(dot(p, q) == dot(a, b), where.c_str());
         CHECK_TEXT(norm(p) == norm(a), where.c_str());
-        const auto nanometres = [&] {
-            return static_cast<std::int32_t>(random()) / 2;
-        };
-        const Vec3<std::int32_t> from{nanometres(), nanometres(), nanometres()};
-        const Vec3<std::int32_t> to{nanometres(), nanometres(), nanometres()};
-        const Vec3<std::int32_t> d = to - from;
-        const Vec3f whole{static_cast<float>(d.x), static_cast<float>(d.y),
-                          static_cast<float>(d.z)};
+        AxisVec<std::int32_t> from{};
+        AxisVec<std::int32_t> to{};
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            from[axis] = static_cast<std::int32_t>(random()) / 2;
+            to[axis] = static_cast<std::int32_t>(random()) / 2;
+        }
+        const AxisVecf whole =
+            of_each([&](unsigned axis) { return static_cast<float>(to[axis] - from[axis]); });
         CHECK_TEXT(to_vec(scaled_difference(to, from, 1e-6F)) == whole * 1e-6F, where.c_str());
     }
 }

@@ -69,7 +69,7 @@ TEST(RestToRest, WithinEightMillisecondsOfTheLeastTime)
 {
     for (const double length : {0.01, 0.1, 0.5, 1.0, 3.0, 10.0, 40.0, 100.0}) {
         for (const float feed : {10.0F, 50.0F, 100.0F}) {
-            const Position end = to_position(Vec3d{length, 0, 0});
+            const Position end = to_position(AxisVecd{length, 0, 0});
             MotionRig rig;
             rig.start_at({});
             const double time = moving_time(rig.run({line({}, end, feed, 0)}));
@@ -84,14 +84,14 @@ TEST(RestToRest, WithinEightMillisecondsOfTheLeastTime)
 TEST(RestToRest, ShortMovesOfAStrongMachineWithLittleJerk)
 {
     MachineLimits limits;
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         limits.velocity[axis] = 100;
         limits.acceleration[axis] = 6000;
         limits.jerk[axis] = 40000;
     }
     for (const double length : {0.002, 0.02, 0.15, 0.5}) {
         for (const float feed : {0.5F, 2.0F, 20.0F}) {
-            const Position end = to_position(Vec3d{length, 0, 0});
+            const Position end = to_position(AxisVecd{length, 0, 0});
             MotionRig rig{limits};
             rig.start_at({});
             const double time = moving_time(rig.run({line({}, end, feed, 0)}));

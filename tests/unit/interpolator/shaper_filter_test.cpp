@@ -42,10 +42,10 @@ TEST(ShaperFilters, GiveBackWhatTheyGetToTheLastUnit)
         filter.reset();
         for (unsigned round = 0; round < 3; ++round) {
             const std::int32_t most = 1 << (random() % 31);
-            Vec3<std::int64_t> in{}, out{};
+            AxisVec<std::int64_t> in{}, out{};
             const auto tell = [&](PathOffset value) {
                 const PathOffset shaped = filter.add(value);
-                for (unsigned i = 0; i < 3; ++i) {
+                for (unsigned i = 0; i < kAxisCount; ++i) {
                     in[i] += value[i];
                     out[i] += shaped[i];
                     CHECK_TEXT(std::abs(std::int64_t{shaped[i]}) <= most + 1, which.c_str());
@@ -63,7 +63,7 @@ TEST(ShaperFilters, GiveBackWhatTheyGetToTheLastUnit)
                 tell({});
             }
             CHECK_TEXT(filter.drained(), which.c_str());
-            for (unsigned i = 0; i < 3; ++i) {
+            for (unsigned i = 0; i < kAxisCount; ++i) {
                 CHECK_TEXT(in[i] == out[i], which.c_str());
             }
             CHECK_TEXT((filter.add({}) == PathOffset{}), which.c_str());

@@ -28,7 +28,7 @@ class WavePlan {
 public:
     WavePlan(std::mt19937_64& random, const MachineLimits& limits) : limits_{limits}
     {
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             const double ramp =
                 static_cast<double>(limits.acceleration[i]) / static_cast<double>(limits.jerk[i]);
             for (Wave& wave : waves_[i]) {
@@ -62,12 +62,12 @@ public:
 
     WarpBounds bounds(double from) const
     {
-        Vec3f speed{};
-        Vec3f braking{1, 1, 1};
-        Vec3f speeding{-1, -1, -1};
-        Vec3f falling{1, 1, 1};
-        Vec3f rising{-1, -1, -1};
-        for (unsigned i = 0; i < 3; ++i) {
+        AxisVecf speed{};
+        AxisVecf braking{1, 1, 1};
+        AxisVecf speeding{-1, -1, -1};
+        AxisVecf falling{1, 1, 1};
+        AxisVecf rising{-1, -1, -1};
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             for (int k = 0; k <= 10; ++k) {
                 const double t = from + kCell * k / 10;
                 const double v = at(i, t, 1);
@@ -97,7 +97,7 @@ private:
 MachineLimits any_limits(std::mt19937_64& random)
 {
     MachineLimits limits;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const auto between = [&random](double low, double high) {
             return static_cast<float>(std::exp(
                 std::uniform_real_distribution<double>{std::log(low), std::log(high)}(random)));
@@ -115,7 +115,7 @@ double largest_use(const WavePlan& plan,
                    const MachineLimits& limits)
 {
     double most = 0;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const auto at = [&](std::size_t k) {
             return plan.at(i, times[k], 0);
         };
@@ -147,7 +147,7 @@ TEST(TimeWarp, no_change_of_the_rate_breaks_a_limit)
         const WavePlan plan{random, limits};
         double stop = 0;
         double ramp = 0;
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             stop = std::max(stop, static_cast<double>(limits.velocity[i]) /
                                       static_cast<double>(limits.acceleration[i]));
             ramp = std::max(ramp, static_cast<double>(limits.acceleration[i]) /

@@ -52,7 +52,7 @@ std::uint64_t programs() { return static_cast<std::uint64_t>(test::property_case
 struct Followed {
     std::vector<Position> way;
     std::vector<Position> motors;
-    Vec3f play;
+    AxisVecf play;
 };
 
 Followed follow_program(std::uint64_t seed, Backlash& backlash)

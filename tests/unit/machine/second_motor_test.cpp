@@ -88,7 +88,7 @@ TEST(SecondMotor, MakesNoStepsUnlessASettingNamesItsAxis)
 
 TEST(SecondMotor, StepsWithItsAxisInNormalMotion)
 {
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
         Bench bench{{axis, 0.5, 0}};
         std::string said = bench.say("G91G1X3Y2Z-1F3000\nX-5Y-7Z3\nG2X1Y1I1\nG0X2Y1Z-3\n");
         CHECK_FALSE(has_text(said, "error"));

@@ -137,7 +137,7 @@ const std::vector<std::vector<std::uint16_t>> kBrought{
     {8, 170, 171, 172, 347, 348, 349, 793, 794},
 };
 
-// The record of a state as a firmware of an earlier layout would have written it.
+// The record of a state as a firmware of an earlier layout, without the rotary axis, would have written it.
 std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, unsigned layout)
 {
     std::vector<std::uint8_t> bytes;
@@ -147,10 +147,11 @@ std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, uns
         }
     };
     for (std::size_t i = 0; i < cusp::machine::kSettingCount; ++i) {
-        const std::uint16_t number = cusp::machine::setting_entry(i).number;
-        bool lacks = false;
-        for (unsigned later = cusp::machine::kSettingsLayout; later > layout; --later) {
-            const auto& brought = kBrought[cusp::machine::kSettingsLayout - later];
+        const cusp::machine::SettingEntry& entry = cusp::machine::setting_entry(i);
+        const std::uint16_t number = entry.number;
+        bool lacks = entry.since == cusp::machine::kLayoutWithRotary;
+        for (unsigned later = cusp::machine::kLayoutNumber; later > layout; --later) {
+            const auto& brought = kBrought[cusp::machine::kLayoutNumber - later];
             lacks = lacks || std::find(brought.begin(), brought.end(), number) != brought.end();
         }
         const float value = state.settings.value_at(i);
@@ -163,6 +164,11 @@ std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, uns
     bytes.resize((bytes.size() + 7) / 8 * 8);
     const auto* rest = reinterpret_cast<const std::uint8_t*>(&state.parameters);
     const auto* end = reinterpret_cast<const std::uint8_t*>(&state + 1);
+    // Of X, Y and Z.
+    for (std::size_t i = 0; i < cusp::gcode::Parameters::kPositions; ++i) {
+        bytes.insert(bytes.end(), rest, rest + 3 * sizeof(std::int64_t));
+        rest += sizeof(cusp::Position);
+    }
     bytes.insert(bytes.end(), rest, end);
     const auto size = static_cast<std::uint32_t>(bytes.size());
     add_word(1);
@@ -199,7 +205,7 @@ TEST(Store, KeepsWhatWasCarriedOverWithTheNextChange)
 
 TEST(Store, ReadsEveryEarlierLayoutWithDefaultsForWhatItLacks)
 {
-    for (unsigned layout = cusp::machine::kOldestLayout; layout < cusp::machine::kSettingsLayout;
+    for (unsigned layout = cusp::machine::kOldestLayout; layout <= cusp::machine::kLatestEarlier;
          ++layout) {
         cusp::machine::StoredState state{};
         CHECK_FALSE(state.settings.put(110, 4321));

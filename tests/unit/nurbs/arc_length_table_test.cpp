@@ -23,23 +23,24 @@ path::BezierPiece random_piece(std::mt19937_64& random)
     piece.order = static_cast<std::uint8_t>(orders(random));
     for (unsigned i = 0; i < piece.order; ++i) {
         // Progress along x keeps cusps away.
-        const Vec3f p{4.0F * static_cast<float>(i) + 0.3F * coordinate(random), coordinate(random),
-                      coordinate(random)};
-        piece.points[i] = i == 0 ? Vec3f{} : p;
+        const AxisVecf p{4.0F * static_cast<float>(i) + 0.3F * coordinate(random),
+                         coordinate(random), coordinate(random)};
+        piece.points[i] = i == 0 ? AxisVecf{} : p;
         piece.weights[i] = weights(random);
     }
     return piece;
 }
 
-Vec3d double_point_at(const path::BezierPiece& piece, double u)
+AxisVecd double_point_at(const path::BezierPiece& piece, double u)
 {
-    std::array<Vec3d, path::kMaxOrder> a{};
+    std::array<AxisVecd, path::kMaxOrder> a{};
     std::array<double, path::kMaxOrder> w{};
     for (unsigned i = 0; i < piece.order; ++i) {
         w[i] = static_cast<double>(piece.weights[i]);
-        a[i] = Vec3d{static_cast<double>(piece.points[i].x), static_cast<double>(piece.points[i].y),
+        a[i] =
+            AxisVecd{static_cast<double>(piece.points[i].x), static_cast<double>(piece.points[i].y),
                      static_cast<double>(piece.points[i].z)} *
-               w[i];
+            w[i];
     }
     for (unsigned n = piece.order; n > 1; --n) {
         for (unsigned i = 0; i + 1 < n; ++i) {
@@ -69,10 +70,10 @@ TEST(ArcLengthTable, KeepsTheSpeedWithin1e4)
         constexpr int kSteps = 300;
         std::uint8_t interval = 0;
         const double step = static_cast<double>(table.length()) / kSteps;
-        Vec3d last{};
+        AxisVecd last{};
         for (int k = 1; k <= kSteps; ++k) {
             const auto s = static_cast<float>(step * k);
-            const Vec3d p =
+            const AxisVecd p =
                 double_point_at(piece, static_cast<double>(parameter_at(table, s, interval)));
             // A chord of a curve is shorter than its arc by a 24th of (curvature times step)^2.
             const CurveState state = state_at(piece, parameter_at(table, s, interval));
@@ -137,11 +138,11 @@ TEST(ArcLengthTable, DerivativesAgreeWithDifferences)
             return s;
         };
         const float scale = state.du / (2 * static_cast<float>(kStep));
-        const Vec3f curvature = (at(1).tangent - at(-1).tangent) * scale;
+        const AxisVecf curvature = (at(1).tangent - at(-1).tangent) * scale;
         DOUBLES_EQUAL(0, static_cast<double>(norm(curvature - state.curvature)),
                       2e-3 + 0.01 * static_cast<double>(norm(state.curvature)));
         constexpr int kWide = 20;
-        const Vec3f change = (at(kWide).curvature - at(-kWide).curvature) * (scale / kWide);
+        const AxisVecf change = (at(kWide).curvature - at(-kWide).curvature) * (scale / kWide);
         DOUBLES_EQUAL(0, static_cast<double>(norm(change - state.change)),
                       2e-3 + 0.02 * static_cast<double>(norm(state.change)));
     }

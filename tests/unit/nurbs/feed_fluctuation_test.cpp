@@ -17,19 +17,14 @@ using namespace cusp::nurbs;
 
 namespace {
 
-Vec3d to_double(Vec3f v)
-{
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
 struct PointAndSpeed {
-    Vec3d point;
-    Vec3d derivative;
+    AxisVecd point;
+    AxisVecd derivative;
 };
 
 PointAndSpeed exact_at(const path::BezierPiece& piece, double u)
 {
-    std::array<Vec3d, path::kMaxOrder> a{};
+    std::array<AxisVecd, path::kMaxOrder> a{};
     std::array<double, path::kMaxOrder> w{};
     for (unsigned i = 0; i < piece.order; ++i) {
         w[i] = static_cast<double>(piece.weights[i]);
@@ -58,9 +53,9 @@ double exact_length(const path::BezierPiece& piece, double to)
 }
 
 // Arc length up to the point of the curve nearest to p.
-double station_of(const path::BezierPiece& piece, Vec3d p, double u)
+double station_of(const path::BezierPiece& piece, AxisVecd p, double u)
 {
-    for (int i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const PointAndSpeed at = exact_at(piece, u);
         u += dot(p - at.point, at.derivative) / dot(at.derivative, at.derivative);
     }

@@ -24,7 +24,7 @@ struct Reference {
 };
 
 // Cox and de Boor in long double, mm.
-Vec3d reference_at(const Reference& curve, long double u)
+AxisVecd reference_at(const Reference& curve, long double u)
 {
     const std::size_t p = curve.order - 1;
     std::size_t span = p;
@@ -118,7 +118,7 @@ Reference random_curve(std::mt19937_64& random, bool uniform)
 double largest_deviation(const Reference& curve, const std::vector<Piece>& pieces)
 {
     constexpr int kSamples = 1000;  // of each span, so that corners are among them
-    std::vector<Vec3d> dense{to_millimetres(curve.points[0].position)};
+    std::vector<AxisVecd> dense{to_millimetres(curve.points[0].position)};
     for (std::size_t k = 0; k + 1 < curve.knots.size(); ++k) {
         const long double from = curve.knots[k];
         const long double step = (static_cast<long double>(curve.knots[k + 1]) - from) / kSamples;
@@ -134,16 +134,16 @@ double largest_deviation(const Reference& curve, const std::vector<Piece>& piece
     Position start = curve.points[0].position;
     for (const Piece& piece : pieces) {
         for (int i = 0; i <= 8; ++i) {
-            const Vec3f relative = point_at(piece.bezier, static_cast<float>(i) / 8);
-            const Vec3d p = to_millimetres(start) + Vec3d{static_cast<double>(relative.x),
-                                                          static_cast<double>(relative.y),
-                                                          static_cast<double>(relative.z)};
+            const AxisVecf relative = point_at(piece.bezier, static_cast<float>(i) / 8);
+            const AxisVecd p = to_millimetres(start) + AxisVecd{static_cast<double>(relative.x),
+                                                                static_cast<double>(relative.y),
+                                                                static_cast<double>(relative.z)};
             double best = 1e9;
             std::size_t best_at = near;
             const std::size_t first = near > kWindow ? near - kWindow : 0;
             for (std::size_t k = first; k + 1 < dense.size() && k < near + kWindow; ++k) {
-                const Vec3d chord = dense[k + 1] - dense[k];
-                const Vec3d off = p - dense[k];
+                const AxisVecd chord = dense[k + 1] - dense[k];
+                const AxisVecd off = p - dense[k];
                 const double t =
                     std::clamp(dot(chord, off) / std::max(1e-30, dot(chord, chord)), 0.0, 1.0);
                 const double distance = norm(off - chord * t);

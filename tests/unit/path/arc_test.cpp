@@ -16,7 +16,7 @@ using namespace cusp::path;
 constexpr std::int64_t kMm = 1000000;
 constexpr unsigned kSeed = 7;
 
-Vec3d point_at(const Arc& arc, double t)
+AxisVecd point_at(const Arc& arc, double t)
 {
     const auto [sine, cosine] = sin_cos(t * arc.sweep);
     return arc.centre + (arc.radius + t * arc.radius_change) * (cosine * arc.u + sine * arc.v) +
@@ -50,7 +50,7 @@ TEST(Arc, EndsAtItsEndInEveryPlaneAndSense)
             const Result<Arc> arc = make_arc(words);
             CHECK(static_cast<bool>(arc));
             DOUBLES_EQUAL((clockwise ? 1.5 : 0.5) * kPi, arc->sweep, 1e-14);
-            const Vec3d off = point_at(*arc, 1) - to_millimetres(words.end - words.start);
+            const AxisVecd off = point_at(*arc, 1) - to_millimetres(words.end - words.start);
             DOUBLES_EQUAL(0, norm(off), 1e-13);
         }
     }
@@ -115,7 +115,7 @@ TEST(Arc, OfARadiusPassesThroughItsEndAndTurnsTheRightWay)
         const Result<Arc> arc = make_arc(*centred);
         CHECK(static_cast<bool>(arc));
         CHECK(longer ? arc->sweep >= kPi - 1e-3 : arc->sweep <= kPi + 1e-3);
-        const Vec3d off = point_at(*arc, 1) - to_millimetres(words.end - words.start);
+        const AxisVecd off = point_at(*arc, 1) - to_millimetres(words.end - words.start);
         DOUBLES_EQUAL(0, norm(off), 1e-10);
         DOUBLES_EQUAL(static_cast<double>(radius) / kMm, arc->radius, 0.0052);
     }

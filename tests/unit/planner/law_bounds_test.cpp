@@ -29,23 +29,23 @@ TEST(PackedBounds, are_outward_and_near)
     std::uniform_real_distribution<float> share{0.0F, 1.9F};
     std::uniform_real_distribution<float> power{-12.0F, 3.0F};
     const auto vector_of = [&random](auto& numbers) {
-        return Vec3f{numbers(random), numbers(random), numbers(random)};
+        return AxisVecf{numbers(random), numbers(random), numbers(random)};
     };
     for (int n = 0; n < kBoundsCases; ++n) {
-        const Vec3f exponents = vector_of(power);
-        const Vec3f speed{std::exp(exponents.x), std::exp(exponents.y),
-                          n % 7 == 0 ? 0 : std::exp(exponents.z)};
-        const Vec3f braking = vector_of(of_plan);
-        const Vec3f speeding = vector_of(of_plan);
-        const Vec3f falling = vector_of(signed_share);
-        const Vec3f rising = vector_of(signed_share);
-        const Vec3f joint = vector_of(share);
+        const AxisVecf exponents = vector_of(power);
+        const AxisVecf speed{std::exp(exponents.x), std::exp(exponents.y),
+                             n % 7 == 0 ? 0 : std::exp(exponents.z)};
+        const AxisVecf braking = vector_of(of_plan);
+        const AxisVecf speeding = vector_of(of_plan);
+        const AxisVecf falling = vector_of(signed_share);
+        const AxisVecf rising = vector_of(signed_share);
+        const AxisVecf joint = vector_of(share);
         const float time = std::exp(power(random));
         const WarpBounds bounds = PackedBounds{
             {to_lanes(speed), to_lanes(braking), to_lanes(speeding), to_lanes(falling),
              to_lanes(rising), to_lanes(joint),
              time}}.unpacked();
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             const float packed_speed = to_vec(bounds.speed)[i];
             CHECK(packed_speed >= speed[i] && packed_speed <= speed[i] * (1.0F + kPart) + 1e-30F);
             const float packed_braking = to_vec(bounds.braking)[i];

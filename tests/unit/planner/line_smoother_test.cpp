@@ -52,15 +52,15 @@ std::vector<path::Move> smoothed(const std::vector<Position>& vertices)
     return pieces;
 }
 
-Vec3d point_of(const path::Move& move, double t)
+AxisVecd point_of(const path::Move& move, double t)
 {
-    const Vec3d start = to_millimetres(move.start);
-    const Vec3d chord = to_millimetres(move.end) - start;
+    const AxisVecd start = to_millimetres(move.start);
+    const AxisVecd chord = to_millimetres(move.end) - start;
     if (const auto* quintic = std::get_if<path::Quintic>(&move.path)) {
-        Vec3d bulge{};
+        AxisVecd bulge{};
         for (unsigned i = 4; i-- > 0;) {
-            const Vec3f q = quintic->bulge[i];
-            bulge = bulge * t + Vec3d{q.x, q.y, q.z};
+            const AxisVecf q = quintic->bulge[i];
+            bulge = bulge * t + AxisVecd{q.x, q.y, q.z};
         }
         return start + chord * t + bulge * (t * (1 - t));
     }
@@ -83,8 +83,8 @@ planner::EndGeometry geometry_at(const path::Move& move, bool at_end)
 }
 
 struct Chord {
-    Vec3d start;
-    Vec3d along;
+    AxisVecd start;
+    AxisVecd along;
 };
 
 std::vector<Chord> chords_of(const std::vector<path::Move>& pieces)
@@ -92,9 +92,9 @@ std::vector<Chord> chords_of(const std::vector<path::Move>& pieces)
     constexpr int kSteps = 200;
     std::vector<Chord> chords;
     for (const path::Move& piece : pieces) {
-        Vec3d before = point_of(piece, 0);
+        AxisVecd before = point_of(piece, 0);
         for (int i = 1; i <= kSteps; ++i) {
-            const Vec3d here = point_of(piece, static_cast<double>(i) / kSteps);
+            const AxisVecd here = point_of(piece, static_cast<double>(i) / kSteps);
             chords.push_back({before, here - before});
             before = here;
         }
@@ -102,14 +102,14 @@ std::vector<Chord> chords_of(const std::vector<path::Move>& pieces)
     return chords;
 }
 
-double distance(Vec3d p, const std::vector<Chord>& chords)
+double distance(AxisVecd p, const std::vector<Chord>& chords)
 {
     double least = 1e18;
     for (const Chord& chord : chords) {
-        const Vec3d to = p - chord.start;
+        const AxisVecd to = p - chord.start;
         const double square = dot(chord.along, chord.along);
         const double t = square > 0 ? std::clamp(dot(to, chord.along) / square, 0.0, 1.0) : 0.0;
-        const Vec3d off = to - chord.along * t;
+        const AxisVecd off = to - chord.along * t;
         least = std::min(least, dot(off, off));
     }
     return std::sqrt(least);
@@ -127,7 +127,7 @@ std::vector<Position> random_curve(std::uint64_t seed, double spacing)
     for (int i = 0; i < 160; ++i) {
         const double t = spacing * i;
         vertices.push_back(
-            to_position(Vec3d{t, 3 * a * std::sin(b * t), 0.5 * c * std::cos(0.7 * t)}));
+            to_position(AxisVecd{t, 3 * a * std::sin(b * t), 0.5 * c * std::cos(0.7 * t)}));
     }
     return vertices;
 }
@@ -145,8 +145,8 @@ TEST(LineSmoothers, KeepEveryVertexAndMiddleWithinTheirShare)
         CHECK(pieces.size() < vertices.size());
         const auto chords = chords_of(pieces);
         for (std::size_t i = 1; i < vertices.size(); ++i) {
-            const Vec3d here = to_millimetres(vertices[i]);
-            const Vec3d middle = (here + to_millimetres(vertices[i - 1])) * 0.5;
+            const AxisVecd here = to_millimetres(vertices[i]);
+            const AxisVecd middle = (here + to_millimetres(vertices[i - 1])) * 0.5;
             const std::string which = "seed " + std::to_string(seed);
             CHECK_TEXT(distance(here, chords) <= allowed + 2e-6, which.c_str());
             CHECK_TEXT(distance(middle, chords) <= allowed + 2e-6, which.c_str());
@@ -209,7 +209,7 @@ TEST(LineSmoothers, FindACircle)
         constexpr int kSteps = 100;
         const double length = static_cast<double>(std::get<path::Quintic>(piece.path).length);
         for (int i = 0; i < kSteps; ++i) {
-            const Vec3d step =
+            const AxisVecd step =
                 point_of(piece, (i + 1.0) / kSteps) - point_of(piece, i * 1.0 / kSteps);
             DOUBLES_EQUAL(1, norm(step) * kSteps / length, 6e-4);
         }
@@ -239,8 +239,8 @@ TEST(LineSmoothers, LeaveTheirEndsNoFasterThanTheyLean)
         for (const bool at_end : {false, true}) {
             const path::Move& piece = at_end ? pieces.back() : pieces.front();
             const path::PathLean& lean = at_end ? piece.end_lean : piece.start_lean;
-            const Vec3d from = to_millimetres(at_end ? vertices.back() : vertices.front());
-            const Vec3d to = to_millimetres(at_end ? *(vertices.end() - 2) : vertices[1]);
+            const AxisVecd from = to_millimetres(at_end ? vertices.back() : vertices.front());
+            const AxisVecd to = to_millimetres(at_end ? *(vertices.end() - 2) : vertices[1]);
             if (lean.length <= 0) {
                 CHECK(std::holds_alternative<path::Line>(piece.path) && piece.departure <= 0);
                 continue;
@@ -249,13 +249,13 @@ TEST(LineSmoothers, LeaveTheirEndsNoFasterThanTheyLean)
             curves += std::holds_alternative<path::Quintic>(piece.path) ? 1 : 0;
             double travel = 0;
             double bend = 0;  // most so far, 1/mm
-            Vec3d before = from;
-            Vec3d direction{};
+            AxisVecd before = from;
+            AxisVecd direction{};
             for (int i = 1; i <= kSteps; ++i) {
                 const double t = static_cast<double>(i) / kSteps;
-                const Vec3d here = point_of(piece, at_end ? 1 - t : t);
-                const Vec3d step = here - before;
-                const Vec3d along = step / norm(step);
+                const AxisVecd here = point_of(piece, at_end ? 1 - t : t);
+                const AxisVecd step = here - before;
+                const AxisVecd along = step / norm(step);
                 bend = i == 1 ? 0 : std::max(bend, norm(along - direction) / norm(step));
                 travel += norm(step);
                 if (travel > static_cast<double>(lean.length)) {

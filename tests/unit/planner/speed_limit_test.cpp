@@ -28,7 +28,7 @@ double use(const Limited& one, double speed)
 {
     double most = speed / static_cast<double>(one.speed);
     double bend = 0;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         const auto first = static_cast<double>(one.path.first[i]);
         const auto second = static_cast<double>(one.path.second[i]);
         const auto third = static_cast<double>(one.path.third[i]);
@@ -55,7 +55,7 @@ TEST(SpeedLimit, a_cap_is_the_greatest_speed_that_keeps_all)
     };
     for (int n = 0; n < kLimitCases; ++n) {
         Limited one{};
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             one.path.first[i] = between(0.01F, 1);
             one.path.second[i] = random() % 4 == 0 ? 0 : between(1e-4F, 10);
             one.path.third[i] = random() % 4 == 0 ? 0 : between(1e-4F, 100);

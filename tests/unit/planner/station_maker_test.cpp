@@ -101,7 +101,7 @@ TEST(StationMaker, jumps_that_cancel_are_kept_by_their_net_change)
             const float size = 1e-5F * (0.2F + part(random));
             const float jump = joints.size() % 2 == 0 ? size : -size;
             const auto place = static_cast<std::int64_t>(at * 16e6F);
-            joints.push_back({place, place, none, to_lanes(Vec3f{0, jump, 0}), none, none, none,
+            joints.push_back({place, place, none, to_lanes(AxisVecf{0, jump, 0}), none, none, none,
                               0.006F, kUnlimited, 0.0F});
             magnitudes += static_cast<double>(size);
         }

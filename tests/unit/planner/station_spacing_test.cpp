@@ -100,7 +100,10 @@ bool are_same(const StopElement& a, const StopElement& b)
     return a.length == b.length && a.cap == b.cap;
 }
 
-bool are_same(const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+bool are_same(const AxisVecf& a, const AxisVecf& b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
 bool are_same(const Station& a, const Station& b)
 {

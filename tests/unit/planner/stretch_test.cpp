@@ -25,20 +25,20 @@ path::BezierPiece stretch_test_piece(std::mt19937_64& random)
     const float scale = 2.0F * std::pow(10.0F, exponent(random));
     const float along = random() % 2 == 0 ? 1.0F : 0.0F;
     for (unsigned i = 0; i < piece.order; ++i) {
-        const Vec3f p{along * static_cast<float>(i) + coordinate(random), coordinate(random),
-                      coordinate(random)};
-        piece.points[i] = i == 0 ? Vec3f{} : p * scale;
+        const AxisVecf p{along * static_cast<float>(i) + coordinate(random), coordinate(random),
+                         coordinate(random)};
+        piece.points[i] = i == 0 ? AxisVecf{} : p * scale;
         piece.weights[i] = weights(random);
     }
     return piece;
 }
 
 // By how much the largest of |f| exceeds the bound, as a part of the greatest bound of an axis.
-float excess_over(const Vec3f& f, const Vec3f& bound)
+float excess_over(const AxisVecf& f, const AxisVecf& bound)
 {
     const float whole = std::max(bound.x, std::max(bound.y, bound.z));
     float most = 0;
-    for (unsigned i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < kAxisCount; ++i) {
         most = std::max(most, (std::fabs(f[i]) - bound[i]) / whole);
     }
     return most;
@@ -100,21 +100,23 @@ TEST(Stretches, BoundTheDerivativesOfQuintics)
         block.shape = BlockShape::kQuintic;
         block.displacement = {16'000'000, 0, 0};
         set_length(block, 16'000'000);
-        for (Vec3f& q : block.quintic.bulge) {
-            q = Vec3f{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
+        for (AxisVecf& q : block.quintic.bulge) {
+            q = AxisVecf{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
         }
         const auto& q = block.quintic.bulge;
-        const Vec3f a[] = {{}, Vec3f{1, 0, 0} + q[0], q[1] - q[0], q[2] - q[1], q[3] - q[2], -q[3]};
+        const AxisVecf a[] = {{},   AxisVecf{1, 0, 0} + q[0], q[1] - q[0], q[2] - q[1], q[3] - q[2],
+                              -q[3]};
         float from = 0;
         for (unsigned i = 0; i < stretch_count(block); ++i) {
             const Stretch part = stretch(block, i);
             const float to = static_cast<float>(part.end) / kPathUnitsPerMillimetre;
             for (int n = 0; n <= 32; ++n) {
                 const float x = from + (to - from) * static_cast<float>(n) / 32.0F;
-                const Vec3f first =
+                const AxisVecf first =
                     a[1] + (a[2] * 2 + (a[3] * 3 + (a[4] * 4 + a[5] * (5 * x)) * x) * x) * x;
-                const Vec3f second = a[2] * 2 + (a[3] * 6 + (a[4] * 12 + a[5] * (20 * x)) * x) * x;
-                const Vec3f third = a[3] * 6 + (a[4] * 24 + a[5] * (60 * x)) * x;
+                const AxisVecf second =
+                    a[2] * 2 + (a[3] * 6 + (a[4] * 12 + a[5] * (20 * x)) * x) * x;
+                const AxisVecf third = a[3] * 6 + (a[4] * 24 + a[5] * (60 * x)) * x;
                 const PathDerivatives bound = to_vec(part.derivatives);
                 worst.first.x = std::max(worst.first.x, excess_over(first, bound.first));
                 worst.second.x = std::max(worst.second.x, excess_over(second, bound.second));
@@ -145,8 +147,8 @@ TEST(Stretches, AreTheSameReadInOrderAndAlone)
         } else if (k % 3 == 1) {
             block.shape = BlockShape::kQuintic;
             block.displacement = {16'000'000, 0, 0};
-            for (Vec3f& q : block.quintic.bulge) {
-                q = Vec3f{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
+            for (AxisVecf& q : block.quintic.bulge) {
+                q = AxisVecf{coordinate(random), coordinate(random), coordinate(random)} * 0.1F;
             }
         } else {
             block.shape = BlockShape::kArc;

@@ -128,9 +128,9 @@ Stretch line(const MachineLimits& limits, float length, float feed, float dt)
     for (const float h : cells) {
         Station station{};
         for (LaneDerivatives& place : station.places) {
-            place.first = to_lanes(Vec3f{1.0F / limits.jerk.x, 0.0F, 0.0F});
+            place.first = to_lanes(AxisVecf{1.0F / limits.jerk.x, 0.0F, 0.0F});
         }
-        station.moving = to_lanes(Vec3f{1.0F, 0.0F, 0.0F});
+        station.moving = to_lanes(AxisVecf{1.0F, 0.0F, 0.0F});
         station.length = h;
         station.cap = feed * feed;
         made.stations.push_back(station);
@@ -189,10 +189,15 @@ TEST(TimeLaw, a_line_takes_hardly_longer_than_the_closed_form)
         MachineLimits limits;
         float feed;
     };
-    const Machine machines[] = {
-        {MachineLimits{}, 100.0F},
-        {{{50, 50, 25}, {200, 200, 100}, {2000, 2000, 1000}}, 50.0F},
-        {{{500, 500, 250}, {5000, 5000, 2500}, {5e5F, 5e5F, 2.5e5F}}, 500.0F}};
+    MachineLimits slow;
+    slow.velocity = slow.velocity * 0.5F;
+    slow.acceleration = slow.acceleration * 0.2F;
+    slow.jerk = slow.jerk * 0.04F;
+    MachineLimits fast;
+    fast.velocity = fast.velocity * 5;
+    fast.acceleration = fast.acceleration * 5;
+    fast.jerk = fast.jerk * 10;
+    const Machine machines[] = {{MachineLimits{}, 100.0F}, {slow, 50.0F}, {fast, 500.0F}};
     for (const Machine& machine : machines) {
         const float length = 200.0F;
         TimeLaw law;

@@ -33,14 +33,15 @@ path::Move move_from(Position start)
 }
 
 // An arc or helix that leaves `start` along the unit vector `v`, towards the unit vector `side`.
-path::Move arc_from(Position start, Vec3d v, Vec3d side, double radius, double sweep, double rise)
+path::Move arc_from(
+    Position start, AxisVecd v, AxisVecd side, double radius, double sweep, double rise)
 {
     path::Move move = move_from(start);
     path::Arc arc{};
     arc.centre = side * radius;
     arc.u = -side;
     arc.v = v;
-    arc.axial = cross(v, side) * rise;
+    arc.axial = cross(xyz(v), xyz(side)) * rise;
     arc.radius = radius;
     arc.sweep = sweep;
     move.path = arc;
@@ -49,36 +50,36 @@ path::Move arc_from(Position start, Vec3d v, Vec3d side, double radius, double s
     return move;
 }
 
-Vec3d point_of(const path::Move& move, double t)
+AxisVecd point_of(const path::Move& move, double t)
 {
-    const Vec3d start = to_millimetres(move.start);
-    const Vec3d chord = to_millimetres(move.end) - start;
+    const AxisVecd start = to_millimetres(move.start);
+    const AxisVecd chord = to_millimetres(move.end) - start;
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         return start + arc->centre + arc->u * (arc->radius * std::cos(t * arc->sweep)) +
                arc->v * (arc->radius * std::sin(t * arc->sweep)) + arc->axial * t;
     }
     if (const auto* quintic = std::get_if<path::Quintic>(&move.path)) {
         const planner::LaneQuintic lanes = planner::lane_quintic(quintic->bulge, to_float(chord));
-        const Vec3f at = to_vec(planner::point_at(lanes, static_cast<float>(t)));
-        return start + Vec3d{at.x, at.y, at.z};
+        const AxisVecf at = to_vec(planner::point_at(lanes, static_cast<float>(t)));
+        return start + AxisVecd{at.x, at.y, at.z};
     }
     return start + chord * t;
 }
 
-std::vector<Vec3d> points_of(const path::Move& move, int count)
+std::vector<AxisVecd> points_of(const path::Move& move, int count)
 {
-    std::vector<Vec3d> points;
+    std::vector<AxisVecd> points;
     for (int i = 0; i <= count; ++i) {
         points.push_back(point_of(move, static_cast<double>(i) / count));
     }
     return points;
 }
 
-double distance(Vec3d p, const std::vector<Vec3d>& points)
+double distance(AxisVecd p, const std::vector<AxisVecd>& points)
 {
     double least = 1e9;
     for (std::size_t i = 1; i < points.size(); ++i) {
-        const Vec3d along = points[i] - points[i - 1];
+        const AxisVecd along = points[i] - points[i - 1];
         const double t = std::clamp(dot(p - points[i - 1], along) / dot(along, along), 0.0, 1.0);
         least = std::min(least, norm(p - points[i - 1] - along * t));
     }
@@ -94,7 +95,7 @@ Meeting random_joint(std::mt19937_64& random)
     const double rise = random() % 3 == 0 ? part(random) : 0.0;
     const double kink = random() % 2 == 0 ? 5e-4 * part(random) : 0.0;
     Meeting joint;
-    Vec3d tangent{1, 0, 0};
+    AxisVecd tangent{1, 0, 0};
     if (random() % 2 == 0) {
         joint.before = move_from({});
         joint.before.end = {static_cast<std::int64_t>(1e6 + 2e7 * part(random)), 0, 0};
@@ -103,13 +104,13 @@ Meeting random_joint(std::mt19937_64& random)
         tangent = {std::cos(sweep), std::sin(sweep), rise / (radius * sweep)};
         tangent = tangent / norm(tangent);
     }
-    tangent = tangent + Vec3d{0, 0, kink};
+    tangent = tangent + AxisVecd{0, 0, kink};
     tangent = tangent / norm(tangent);
     if (std::holds_alternative<path::Arc>(joint.before.path) && random() % 2 == 0) {
         joint.after = move_from(joint.before.end);
         joint.after.end = joint.after.start + to_position(tangent * (1 + 20 * part(random)));
     } else {
-        Vec3d side = cross(Vec3d{0, 0, 1}, tangent);
+        AxisVecd side = cross(Vec3d{0, 0, 1}, xyz(tangent));
         side = side / norm(side);
         const double turn = random() % 2 == 0 ? 1 : -1;
         joint.after = arc_from(joint.before.end, tangent, side * turn, 1 + 30 * part(random),
@@ -143,11 +144,11 @@ TEST(Transitions, KeepToThePathAndMeetIt)
         DOUBLES_EQUAL(0, norm(point_of(before, 1) - to_millimetres(before.end)), 2e-6);
         DOUBLES_EQUAL(0, norm(point_of(after, 0) - to_millimetres(after.start)), 2e-6);
         DOUBLES_EQUAL(0, norm(point_of(after, 1) - to_millimetres(after.end)), 3e-6);
-        std::vector<Vec3d> path = points_of(joint.before, 1000);
-        for (const Vec3d& place : points_of(joint.after, 1000)) {
-            path.push_back(place + (place == path.back() ? Vec3d{1e-9, 0, 0} : Vec3d{}));
+        std::vector<AxisVecd> path = points_of(joint.before, 1000);
+        for (const AxisVecd& place : points_of(joint.after, 1000)) {
+            path.push_back(place + (place == path.back() ? AxisVecd{1e-9, 0, 0} : AxisVecd{}));
         }
-        for (const Vec3d& place : points_of(piece, 50)) {
+        for (const AxisVecd& place : points_of(piece, 50)) {
             CHECK_TEXT(distance(place, path) <= kDeviation + 2e-5, which.c_str());
         }
         // Direction and curvature of both sides, by differences of 0.01 mm.
@@ -156,9 +157,9 @@ TEST(Transitions, KeepToThePathAndMeetIt)
         const double dt = step / static_cast<double>(quintic.length);
         const double of_before = step / path::length(before);
         const double of_after = step / path::length(after);
-        const Vec3d at_start =
+        const AxisVecd at_start =
             point_of(piece, dt) - point_of(before, 1) * 2.0 + point_of(before, 1 - of_before);
-        const Vec3d at_end =
+        const AxisVecd at_end =
             point_of(piece, 1 - dt) - point_of(after, 0) * 2.0 + point_of(after, of_after);
         const auto bend = [](const path::Move& move) {
             const auto* arc = std::get_if<path::Arc>(&move.path);

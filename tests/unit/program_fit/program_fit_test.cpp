@@ -220,7 +220,7 @@ TEST(FitProgram, MeasuresHowFarVerticesAndMiddlesAreOff)
         to_position({0, 10, 0}), to_position({-5, 10.02, 0}), to_position({-10, 10, 0})};
     const MeasuredFit arc = measure_fit("G0X10Y0\nG3X0Y10I-10J0F100\n", vertices, {{1, 0, 2}});
     DOUBLES_EQUAL(0.05, arc.vertices, 1e-6);
-    const Vec3d middle = 0.5 * (to_millimetres(vertices[0]) + to_millimetres(vertices[1]));
+    const AxisVecd middle = 0.5 * (to_millimetres(vertices[0]) + to_millimetres(vertices[1]));
     DOUBLES_EQUAL(10 - norm(middle), arc.between, 1e-6);
     LONGS_EQUAL(1, arc.arcs);
     const MeasuredFit line = measure_fit("G0X0Y10\nG1X-10Y10F100\n", vertices, {{1, 2, 2}});

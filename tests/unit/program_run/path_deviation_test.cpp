@@ -32,7 +32,7 @@ path::Move helix(double radius, double radius_change, double sweep, double rise)
     return move;
 }
 
-Vec3d helix_point(const path::Arc& arc, double t)
+AxisVecd helix_point(const path::Arc& arc, double t)
 {
     const double r = arc.radius + t * arc.radius_change;
     return arc.centre + arc.u * (r * std::cos(t * arc.sweep)) +
@@ -69,7 +69,7 @@ TEST(PathDeviation, OfAHelixIsTheDistanceToItsNearestSample)
         const path::Move move =
             helix(radius, change, sweep, round % 2 == 0 ? 0.0 : 5.0 * unit(random));
         const auto& arc = std::get<path::Arc>(move.path);
-        const Vec3d off{0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random)};
+        const AxisVecd off{0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random)};
         const Position point = to_position(helix_point(arc, unit(random)) + off);
         double sampled = 1e9;
         for (int i = 0; i <= 200'000; ++i) {
@@ -93,7 +93,7 @@ TEST(PathDeviation, OfABezierPieceIsTheDistanceToItsCurve)
     move.end = {1'000'000, 1'000'000, 0};
     for (int i = 0; i <= 100; ++i) {
         const double angle = i / 100.0 * 1.5707963;
-        const Vec3d p{1.01 * std::sin(angle), 1.0 - 1.01 * std::cos(angle), 0.0};
+        const AxisVecd p{1.01 * std::sin(angle), 1.0 - 1.01 * std::cos(angle), 0.0};
         DOUBLES_EQUAL(0.01, distance_of(move, to_position(p)), 1e-6);
     }
 }

@@ -39,10 +39,13 @@ TEST(Reply, WritesDecimals)
 
 TEST(Reply, RoundsPositionsToTheNearestMicrometreOrTenThousandthOfAnInch)
 {
-    write_position(queue, {1499, -1500, 499}, false);
+    write_position(queue, {1499, -1500, 499}, {});
     CHECK_EQUAL(std::string{"0.001,-0.002,0.000"}, taken());
-    write_position(queue, {25400000, -1270, 1269}, true);
+    write_position(queue, {25400000, -1270, 1269}, {true, cusp::kLinearAxes});
     CHECK_EQUAL(std::string{"1.0000,-0.0001,0.0000"}, taken());
+    // Degrees stay degrees.
+    write_position(queue, {25400000, 0, 0, 12345600}, {true, cusp::kAxisCount});
+    CHECK_EQUAL(std::string{"1.0000,0.0000,0.0000,12.346"}, taken());
 }
 
 TEST(Reply, KeepsItsBytesInOrderAroundTheEndOfItsRing)

@@ -123,7 +123,7 @@ TEST(PulseMaker, EndsAtTheSetPointRoundedToSteps)
         }
         player.finish();
         CHECK(player.maker.idle());
-        for (unsigned i = 0; i < 3; ++i) {
+        for (unsigned i = 0; i < kAxisCount; ++i) {
             const double steps =
                 static_cast<double>(player.last[i]) * settings.millisteps_per_mm[i] * 1e-9;
             LONGS_EQUAL(static_cast<long>(std::floor(steps + 0.5)),
@@ -140,7 +140,7 @@ TEST(PulseMaker, KeepsPulseWidthLowTimeAndDirectionSetup)
             player.play(at);
         }
         player.finish();
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             std::int64_t rose = -1000;
             std::int64_t fell = -1000;
             std::int64_t turned = -1000;
@@ -210,7 +210,7 @@ TEST(PulseMaker, CountsEveryEdgeIntoThePosition)
     PerAxis<std::int32_t> count{};
     PerAxis<bool> forward{};
     for (const Edge& edge : player.edges) {
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             if ((edge.raise & direction_line(axis)) != 0) {
                 forward[axis] = true;
             }
@@ -222,7 +222,7 @@ TEST(PulseMaker, CountsEveryEdgeIntoThePosition)
             }
         }
     }
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         LONGS_EQUAL(player.maker.position_steps()[axis], count[axis]);
     }
 }

@@ -56,10 +56,10 @@ TEST(SteadyLanes, AreTheStepsOfEachAxis)
     int runs = 0;
     for (int i = 0; i < 20000; ++i) {
         SteadyLanes lanes;
-        StepTimes times[3] = {{{}, true}, {{}, true}, {{}, true}};
+        StepTimes times[kAxisCount] = {{{}, true}, {{}, true}, {{}, true}, {{}, true}};
         bool all_steady = true;
         const bool even = i % 2 == 0;
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             const float sign = random() % 2 == 0 ? 1.0F : -1.0F;
             // Whole steps, so that no rounding bends an even speed.
             const float travel = sign * (even ? std::floor(between(10, 200)) : between(10, 200));
@@ -77,11 +77,11 @@ TEST(SteadyLanes, AreTheStepsOfEachAxis)
         CHECK(!even || lanes.even());
         for (int step = 0; step < 7; ++step) {
             const SteadyLanes::Ticks ticks = lanes.even() ? lanes.next_even() : lanes.next();
-            for (unsigned axis = 0; axis < 3; ++axis) {
+            for (unsigned axis = 0; axis < kAxisCount; ++axis) {
                 LONGS_EQUAL(pulse::to_pulse_tick(times[axis].next_steady()), ticks[axis]);
             }
         }
-        for (unsigned axis = 0; axis < 3; ++axis) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             StepTimes back = times[axis];
             lanes.take(axis, back);
             CHECK(back.next_steady() == times[axis].next_steady());

@@ -68,10 +68,10 @@ std::vector<Vec3d> samples(Vec3d start, const FittedMove& move)
     for (int i = 0; i <= kCount; ++i) {
         const double t = static_cast<double>(i) / kCount;
         const double angle = t * arc->sweep;
-        points.push_back(start + arc->centre +
-                         (arc->radius + t * arc->radius_change) *
-                             (std::cos(angle) * arc->u + std::sin(angle) * arc->v) +
-                         t * arc->axial);
+        points.push_back(start + xyz(arc->centre +
+                                     (arc->radius + t * arc->radius_change) *
+                                         (std::cos(angle) * arc->u + std::sin(angle) * arc->v) +
+                                     t * arc->axial));
     }
     return points;
 }

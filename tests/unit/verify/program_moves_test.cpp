@@ -70,7 +70,7 @@ TEST(ProgramMoves, FollowEveryCycle)
             deepest = std::min(deepest, to_millimetres(move.move.end).z);
         }
         DOUBLES_EQUAL_TEXT(-3, deepest, 1e-9, cycle);
-        const Vec3d end = to_millimetres(program.moves.back().move.end);
+        const Vec3d end = xyz(to_millimetres(program.moves.back().move.end));
         DOUBLES_EQUAL_TEXT(6, end.x, 1e-9, cycle);
         DOUBLES_EQUAL_TEXT(7, end.y, 1e-9, cycle);
         DOUBLES_EQUAL_TEXT(10, end.z, 1e-9, cycle);

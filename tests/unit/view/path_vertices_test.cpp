@@ -85,8 +85,9 @@ TEST(PathVertices, OfEachLevelAreWithinItsTolerance)
         }
         for (std::size_t k = 1; k < kept.size(); ++k) {
             for (std::uint64_t tick = kept[k - 1]; tick <= kept[k]; ++tick) {
-                CHECK(to_chord(to_millimetres(points[tick]), to_millimetres(points[kept[k - 1]]),
-                               to_millimetres(points[kept[k]])) <= tolerance);
+                CHECK(to_chord(xyz(to_millimetres(points[tick])),
+                               xyz(to_millimetres(points[kept[k - 1]])),
+                               xyz(to_millimetres(points[kept[k]]))) <= tolerance);
             }
         }
         CHECK(kept.size() < last_count);
