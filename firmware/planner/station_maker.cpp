@@ -15,6 +15,7 @@ constexpr unsigned kRowEach = (kPlaces - 1) / (kPlacesOfCell - 1);  // every thi
 // Part of what the path leaves the chord of two rows by that is kept of the limits.
 constexpr float kKeptAcceleration = 0.3F;
 constexpr float kKeptJerk = 0.1F;
+constexpr float kEvenedOut = 2.0F;            // of the third derivative at the rows beside a peak
 constexpr float kElementAcceleration = 0.8F;  // of what the axes allow
 constexpr unsigned kElementBlocks = 16;       // that it may span
 constexpr float kMostAlways = 0.5F;           // of the jerk
@@ -53,6 +54,19 @@ Kinks kinks_of(const CellPlaces& q) noexcept
         kinks.third = larger(kinks.third, left(q[0].third, q[i].third, q[kPlaces - 1].third));
     }
     return kinks;
+}
+
+// By how much the third derivative between two rows exceeds what the axis filters even out of a peak so
+// short. A turn of a micrometre may lie between rows.
+LaneVec hidden_peak(const CellPlaces& q) noexcept
+{
+    LaneVec peak = all_lanes(0.0F);
+    for (unsigned i = 0; i + 1 < kPlaces; i += kRowEach) {
+        const LaneVec rows = larger(magnitude(q[i].third), magnitude(q[i + kRowEach].third));
+        const LaneVec between = larger(magnitude(q[i + 1].third), magnitude(q[i + 2].third));
+        peak = larger(peak, between - rows * kEvenedOut);
+    }
+    return peak;
 }
 
 }  // namespace
@@ -148,7 +162,7 @@ Station StationMaker::make(const LawPath& path,
     const Kinks kinks = kinks_of(q);
     station.kept.bend_acceleration =
         product(kinks.second, inverse_acceleration_) * kKeptAcceleration;
-    station.kept.bend = product(kinks.third, inverse_jerk_) * kKeptJerk;
+    station.kept.bend = product(larger(kinks.third * kKeptJerk, hidden_peak(q)), inverse_jerk_);
     AxisVecf moving{};
     const AxisVecf used = to_vec(first);
     const AxisVecf turned = to_vec(station.kept.turn);

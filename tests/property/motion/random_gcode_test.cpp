@@ -139,3 +139,28 @@ TEST(RandomGcode, HoldsLowAccelerationsOnCurves)
         test::check_motion(rig.run(program.moves), program.moves.back().end, limits, seed);
     }
 }
+
+// The spline turns within a radius of 0.8 um, between two rows of a cell.
+TEST(RandomGcode, HoldsTheJerkInATurnBetweenRows)
+{
+    const Moves program = moves_of(
+        {"G21 G90 F4576", "G1 X-2.84 Y-1.65 Z-5.2", "G6.2 P5 X-2.84 Y-1.65 Z-5.2 R1.355 K0",
+         "X-2.9 Y-1.71 Z-5.2 R0.613 K0", "X-2.93 Y-1.63 Z-5.2 R0.333 K0",
+         "X-2.88 Y-1.6 Z-5.2 R1 K0", "X-2.88 Y-1.58 Z-5.2 R1 K0", "X-2.88 Y-1.56 Z-5.2 R1 K1.5507",
+         "X-2.86 Y-1.61 Z-5.2 R1 K2.4074", "X-2.85 Y-1.7 Z-5.2 R3.631 K4.0489",
+         "X-2.82 Y-1.73 Z-5.2 R0.398 K4.7366", "X-2.77 Y-1.76 Z-5.13 R1.858 K5.6961",
+         "X-2.77 Y-1.83 Z-5.16 R1.014 K5.6961", "K6.9782", "K6.9782", "K6.9782", "K6.9782",
+         "K6.9782"});
+    UNSIGNED_LONGS_EQUAL(0, program.refused);
+    MachineLimits limits{};
+    const std::array<std::array<float, 3>, 3> of_axes{
+        {{15.63F, 376.9F, 15195.0F}, {43.08F, 2737.0F, 21284.0F}, {334.8F, 5064.0F, 101283.0F}}};
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
+        limits.velocity[axis] = of_axes[axis][0];
+        limits.acceleration[axis] = of_axes[axis][1];
+        limits.jerk[axis] = of_axes[axis][2];
+    }
+    MotionRig rig{limits};
+    rig.start_at({});
+    test::check_motion(rig.run(program.moves), program.moves.back().end, limits, 0);
+}
