@@ -103,6 +103,20 @@ TEST(Backlash, HoldsTheLimitsOfTheMotors)
 }
 
 // Every slide is where the way is, but for the play while a turn is being taken up.
+TEST(Backlash, LeavesAnAxisThatTheMachineLacksTheLimitsOfX)
+{
+    const MachineLimits limits{};
+    AxisVecf play{};
+    play[0] = 0.05F;
+    const MachineLimits left = Backlash::left_of(limits, play);
+    CHECK(left.velocity[0] < limits.velocity[0]);
+    for (unsigned axis = kLinearAxes; axis < kAxisCount; ++axis) {
+        DOUBLES_EQUAL(left.velocity[0], left.velocity[axis], 0);
+        DOUBLES_EQUAL(left.acceleration[0], left.acceleration[axis], 0);
+        DOUBLES_EQUAL(left.jerk[0], left.jerk[axis], 0);
+    }
+}
+
 TEST(Backlash, LeavesTheSlidesWhereTheWayIsButForTheTimeOfATurn)
 {
     std::uint64_t turns = 0;
