@@ -132,9 +132,8 @@ else
     # Downloading, unpacking and packing leave cores idle. Before a release the demo, whose time counts, has the machine for itself.
     [ "$release" = yes ] || beside packages_and_roots
     echo "building (sanitize)"
-    if [ "$release" = yes ]; then slow=ON optimised=-O1; else slow=OFF optimised=-O0; fi
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF \
-        -DCUSP_SLOW_UNIT_TESTS=$slow -DCMAKE_CXX_FLAGS_DEBUG="$optimised -g1"
+        -DCUSP_SLOW_UNIT_TESTS=$([ "$release" = yes ] && echo ON || echo OFF)
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz
     run_tests sanitize -L 'unit|fuzz'
     echo "building (thread)"
