@@ -63,10 +63,10 @@ public:
     WarpBounds bounds(double from) const
     {
         AxisVecf speed{};
-        AxisVecf braking{1, 1, 1};
-        AxisVecf speeding{-1, -1, -1};
-        AxisVecf falling{1, 1, 1};
-        AxisVecf rising{-1, -1, -1};
+        AxisVecf braking = MachineLimits::as_x(1, 1, 1);
+        AxisVecf speeding = MachineLimits::as_x(-1, -1, -1);
+        AxisVecf falling = MachineLimits::as_x(1, 1, 1);
+        AxisVecf rising = MachineLimits::as_x(-1, -1, -1);
         for (unsigned i = 0; i < kAxisCount; ++i) {
             for (int k = 0; k <= 10; ++k) {
                 const double t = from + kCell * k / 10;
@@ -91,7 +91,7 @@ private:
         double size, rate, phase;
     };
     MachineLimits limits_;
-    std::array<std::array<Wave, 3>, 3> waves_{};
+    std::array<std::array<Wave, 3>, kAxisCount> waves_{};
 };
 
 MachineLimits any_limits(std::mt19937_64& random)
