@@ -20,7 +20,7 @@ inline constexpr bool kHasRotaryAxis = kAxisCount > kLinearAxes;
 template <class T>
 using PerAxis = std::array<T, kAxisCount>;
 
-// What a function of the axis' number makes.
+// The results of a function of the axis' number.
 template <class F>
 constexpr auto of_axes(F f) noexcept
 {

@@ -34,7 +34,7 @@ struct MachineLimits : std::conditional_t<kHasRotaryAxis, MayHaveRotaryAxis, Wit
         return limits;
     }
 
-    // Of all axes of the machine together.
+    // Limits of all axes of the machine together.
     float whole_velocity() const noexcept { return whole(velocity); }
     float whole_acceleration() const noexcept { return whole(acceleration); }
 

@@ -17,7 +17,7 @@ constexpr std::size_t rest_behind(std::size_t settings) noexcept
     constexpr std::size_t kAlign = alignof(gcode::Parameters);
     return (settings * sizeof(float) + kAlign - 1) / kAlign * kAlign;
 }
-// Of a record without the rotary axis, whose positions are of three numbers.
+// Layout of a record without the rotary axis: its positions are of three numbers.
 constexpr std::size_t rest_size(std::uint8_t layout) noexcept
 {
     const bool lacks_rotary = kHasRotaryAxis && layout < kLayoutWithRotary;

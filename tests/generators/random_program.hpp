@@ -183,7 +183,7 @@ private:
         line(text + turn_for(words) + more);
     }
 
-    // Where the machine has A, lines and arcs turn it too, some by little, some far.
+    // Lines and arcs turn A too, if the machine has it: some by little, some far.
     std::string turn_for(const std::string& words)
     {
         const bool is_curve = words.empty() || words.substr(0, 4) == "G6.2";

@@ -55,7 +55,7 @@ public:
 
     // Machine position, mm.
     Vec3d position() const { return xyz(to_millimetres(app.machine().motion().position())); }
-    // Of the rotary axis, degrees.
+    // Degrees of the rotary axis.
     double turned() const { return to_millimetres(app.machine().motion().position())[kLinearAxes]; }
 
     hal::SimulatedBoard board;

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of so many axes, X first.
+// Numbers of so many axes, X first.
 template <class Vector>
 Json per_axis(const Vector& vector, unsigned axes)
 {

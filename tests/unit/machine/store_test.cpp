@@ -164,7 +164,7 @@ std::vector<std::uint8_t> record_of(const cusp::machine::StoredState& state, uns
     bytes.resize((bytes.size() + 7) / 8 * 8);
     const auto* rest = reinterpret_cast<const std::uint8_t*>(&state.parameters);
     const auto* end = reinterpret_cast<const std::uint8_t*>(&state + 1);
-    // Of X, Y and Z.
+    // Numbers of X, Y and Z.
     for (std::size_t i = 0; i < cusp::gcode::Parameters::kPositions; ++i) {
         bytes.insert(bytes.end(), rest, rest + 3 * sizeof(std::int64_t));
         rest += sizeof(cusp::Position);
