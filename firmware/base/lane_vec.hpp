@@ -66,7 +66,7 @@ inline WideVec smaller(WideVec a, WideVec b) noexcept
 inline WideVec product(WideVec a, WideVec b) noexcept { return {a.lanes * b.lanes}; }
 inline WideVec quotient(WideVec a, WideVec b) noexcept { return {a.lanes / b.lanes}; }
 
-// The same of vectors: a function of two numbers, axis by axis.
+// A function of two numbers, axis by axis.
 template <class F>
 constexpr Vec3f merged(const Vec3f& v, const Vec3f& w, F f) noexcept
 {

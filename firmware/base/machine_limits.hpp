@@ -23,8 +23,8 @@ struct MachineLimits : std::conditional_t<kHasRotaryAxis, MayHaveRotaryAxis, Wit
     AxisVecf acceleration = as_x(1000.0F, 1000.0F, 500.0F);  // mm/s^2
     AxisVecf jerk = as_x(50000.0F, 50000.0F, 25000.0F);      // mm/s^3
 
-    // Limits of X, Y and Z. An axis that the machine does not have never moves: with those of X it changes no
-    // bit of what is the least or greatest of all.
+    // An axis that the machine lacks never moves: with the limits of X it changes no bit of what is the least or
+    // greatest of all.
     static constexpr AxisVecf as_x(float x, float y, float z) noexcept
     {
         AxisVecf limits{Vec3f{x, y, z}};
@@ -32,6 +32,16 @@ struct MachineLimits : std::conditional_t<kHasRotaryAxis, MayHaveRotaryAxis, Wit
             limits[axis] = x;
         }
         return limits;
+    }
+
+    // To be called once limits of X have changed.
+    void settle_lacking_axis() noexcept
+    {
+        for (unsigned axis = kLinearAxes; axis < kAxisCount && !has_rotary; ++axis) {
+            velocity[axis] = velocity[0];
+            acceleration[axis] = acceleration[0];
+            jerk[axis] = jerk[0];
+        }
     }
 
     // Limits of all axes of the machine together.

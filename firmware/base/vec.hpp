@@ -105,7 +105,7 @@ using AxisVec = std::conditional_t<kAxisCount == 3, Vec3<T>, Vec4<T>>;
 using AxisVecf = AxisVec<float>;
 using AxisVecd = AxisVec<double>;
 
-// A place of the machine, exact: whole nanometres, machine coordinates. Of the rotary axis: millionths of a
+// A place of the machine, exact: whole nanometres, machine coordinates; the rotary axis has millionths of a
 // degree.
 using Position = AxisVec<std::int64_t>;
 

@@ -24,7 +24,7 @@ struct DrillMemory {
     double dwell_seconds{0};
 };
 
-// Those of A B C that the machine does not have: their words may not move one. Before its first word, and before the
+// Axes of A B C that the machine lacks: their words may not move one. Before its first word, and before the
 // first feed move, an axis may be anywhere.
 struct RotaryAxes {
     std::array<Decimal, 3> at{};

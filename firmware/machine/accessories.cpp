@@ -98,15 +98,13 @@ OutputLevels output_levels(const Accessories& accessories,
     constexpr unsigned kSecondDrive = 1U << kLinearAxes;
     levels.drives_on =
         static_cast<std::uint8_t>((drives.bits & kAxes) | (second ? kSecondDrive : 0U));
-    const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
-    const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
-    levels.inverted_lines = static_cast<PulseLines>(steps | directions << kLinearAxes);
-    if (settings.has_rotary()) {
-        constexpr unsigned kRotary = 1U << kLinearAxes;
-        const bool step = (settings.whole(Setting::kStepInvert) & kRotary) != 0;
-        const bool direction = (settings.whole(Setting::kDirectionInvert) & kRotary) != 0;
-        levels.inverted_lines |= static_cast<PulseLines>((step ? kSecondStepLine : 0U) |
-                                                         (direction ? kSecondDirectionLine : 0U));
+    const unsigned steps = settings.whole(Setting::kStepInvert);
+    const unsigned directions = settings.whole(Setting::kDirectionInvert);
+    levels.inverted_lines = 0;
+    for (unsigned axis = 0; axis < settings.axes(); ++axis) {
+        levels.inverted_lines |=
+            static_cast<PulseLines>((steps >> axis & 1U) * step_line(axis) |
+                                    (directions >> axis & 1U) * direction_line(axis));
     }
     if (const std::optional<unsigned> axis = doubled) {
         const unsigned turned = settings.whole(Setting::kSecondInvert) ^ directions;

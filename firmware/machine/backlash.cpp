@@ -62,14 +62,13 @@ MachineLimits Backlash::left_of(const MachineLimits& limits, const AxisVecf& pla
 {
     MachineLimits left = limits;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        // An axis that the machine lacks keeps the limits of X.
-        const unsigned of = axis < kLinearAxes || limits.has_rotary ? axis : 0;
-        if (play[of] > 0) {
+        if (play[axis] > 0) {
             left.velocity[axis] *= 1 - kSpeedShare;
             left.acceleration[axis] *= 1 - kShare;
             left.jerk[axis] *= 1 - kShare;
         }
     }
+    left.settle_lacking_axis();
     return left;
 }
 

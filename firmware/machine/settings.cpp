@@ -147,7 +147,7 @@ constexpr std::array<SettingEntry, kSettingCount - kRotarySettings> kWithoutRota
     {852, 3, 0, 0, 1000, 9},
 }};
 
-// Those of A behind those of Z.
+// All settings: each of A stands behind that of Z.
 constexpr std::array<SettingEntry, kSettingCount> make_table() noexcept
 {
     std::array<SettingEntry, kSettingCount> table{};
@@ -362,13 +362,13 @@ Span<std::uint8_t> Settings::bytes() noexcept
 MachineLimits Settings::limits() const noexcept
 {
     MachineLimits limits;
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        const unsigned from = axis < axes() ? axis : 0;
-        limits.velocity[axis] = value(Setting::kMaxRate, from) / kSecondsPerMinute;
-        limits.acceleration[axis] = value(Setting::kAcceleration, from);
-        limits.jerk[axis] = value(Setting::kJerk, from);
+    for (unsigned axis = 0; axis < axes(); ++axis) {
+        limits.velocity[axis] = value(Setting::kMaxRate, axis) / kSecondsPerMinute;
+        limits.acceleration[axis] = value(Setting::kAcceleration, axis);
+        limits.jerk[axis] = value(Setting::kJerk, axis);
     }
     limits.set_rotary(has_rotary());
+    limits.settle_lacking_axis();
     return limits;
 }
 

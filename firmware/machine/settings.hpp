@@ -127,8 +127,8 @@ struct SettingEntry {
     float standard;         // the default: a 3-axis mill
     float least;
     float most;
-    std::uint8_t since{
-        1};  // the layout of stored settings that has it first; kLayoutWithRotary: of A
+    // The layout of stored settings that has it first; kLayoutWithRotary: it is of A.
+    std::uint8_t since{1};
 };
 
 // The version of the stored record. A new setting raises it and has it as its `since`; then records of

@@ -54,7 +54,7 @@ public:
     Vec3d place() const noexcept;
     // Position to which the second motor has moved the slide, on the first one's scale.
     double second_place() const noexcept;
-    // Steps taken since the start, both ways, and their balance. Of A they are those of the fourth motor.
+    // Steps taken since the start, both ways, and their balance. A has those of the fourth motor.
     const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }
     const PerAxis<std::int64_t>& steps() const noexcept { return steps_; }
     const OutputLevels& outputs() const noexcept { return outputs_; }

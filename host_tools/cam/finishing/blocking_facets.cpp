@@ -17,20 +17,10 @@ constexpr double kUpright = 1e-9;  // z of a normal
 
 double square(double a) { return a * a; }
 
-toolpath::Tool ball_of(double radius)
-{
-    toolpath::Tool ball;
-    ball.radius = ball.corner_radius = radius;
-    return ball;
-}
-
 }  // namespace
 
-BlockingFacets::BlockingFacets(Vec3d point, double radius, double contact_radius)
-    : point_{point},
-      radius_{radius},
-      contact_radius_{contact_radius},
-      profile_{ball_of(contact_radius)}
+BlockingFacets::BlockingFacets(Vec3d point, double radius, const part_model::ToolProfile& contact)
+    : point_{point}, radius_{radius}, contact_{contact}, contact_radius_{contact.radius()}
 {
 }
 
@@ -137,7 +127,7 @@ bool BlockingFacets::is_cut(const Blocking& blocking, const Bounds& bounds, Vec3
         return true;
     }
     const Vec3d at = point_ + centre;
-    const auto rest = part_model::drop_on_facet(*blocking.facet, profile_, at.x, at.y, at.z);
+    const auto rest = part_model::drop_on_facet(*blocking.facet, contact_, at.x, at.y, at.z);
     return rest && rest->centre > at.z;
 }
 

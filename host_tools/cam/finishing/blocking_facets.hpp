@@ -18,10 +18,10 @@ public:
     static constexpr std::size_t kMost = 256;
     using Set = std::bitset<kMost>;
 
-    // point           on the ball's surface
-    // radius          mm, of the ball that cuts
-    // contact_radius  mm, >= radius: of the ball that must not cut into a facet
-    BlockingFacets(Vec3d point, double radius, double contact_radius);
+    // point    on the ball's surface
+    // radius   mm, of the ball that cuts
+    // contact  of the ball that must not cut into a facet, of that radius or more; must outlive this
+    BlockingFacets(Vec3d point, double radius, const part_model::ToolProfile& contact);
 
     // The facet must live as long as this. Those beyond kMost are left out.
     void add(const part_model::Facet& facet);
@@ -76,8 +76,8 @@ private:
 
     Vec3d point_;
     double radius_;
+    const part_model::ToolProfile& contact_;
     double contact_radius_;
-    part_model::ToolProfile profile_;
     std::vector<Blocking> facets_;
     std::vector<Bounds> bounds_;  // of those that were asked closely
 };

@@ -30,15 +30,14 @@ std::vector<Triangle> fan(Vec3d towards)
     const double rise = std::max(towards.z, kLeastRise * norm(towards));
     const Vec3d raised = unit({towards.x, towards.y, rise});
     std::vector<Triangle> out;
-    const Vec3d first{1, 0, 0};
-    Vec3d horizontal = first;
+    Vec3d horizontal{1, 0, 0};
     for (int k = 0; k < 8; ++k) {
-        const Vec3d next = k == 7 ? first
-                                  : Vec3d{kEighth * (horizontal.x - horizontal.y),
-                                          kEighth * (horizontal.x + horizontal.y), 0};
+        const Vec3d next{kEighth * (horizontal.x - horizontal.y),
+                         kEighth * (horizontal.x + horizontal.y), 0};
         out.push_back({Direction{raised}, Direction{horizontal}, Direction{next}});
         horizontal = next;
     }
+    out.back()[2] = out.front()[1];
     return out;
 }
 
@@ -78,7 +77,8 @@ LowerPositionProof::LowerPositionProof(const GougeFreePathFitter& path_fitter, d
     : path_fitter_{path_fitter},
       pitch_{pitch},
       radius_{path_fitter.tool().radius},
-      contact_radius_{path_fitter.offset_tool().radius}
+      contact_radius_{path_fitter.offset_tool().radius},
+      profile_{path_fitter.offset_tool()}
 {
 }
 
@@ -120,7 +120,7 @@ LowerPositionProof::Block LowerPositionProof::facets_near(Vec3d point)
 
 LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d centre)
 {
-    BlockingFacets facets{point, radius_, contact_radius_};
+    BlockingFacets facets{point, radius_, profile_};
     for (const Facet* facet : facets_near(point)) {
         facets.add(*facet);
     }

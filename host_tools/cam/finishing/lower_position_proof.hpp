@@ -41,6 +41,7 @@ private:
     double pitch_;
     double radius_;
     double contact_radius_;  // mm: of the ball grown by the band's offset, which touches the model
+    part_model::ToolProfile profile_;  // of that ball
     std::unordered_map<std::uint64_t, Block> blocks_;
 };
 

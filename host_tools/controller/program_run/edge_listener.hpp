@@ -9,11 +9,11 @@
 
 namespace cusp::program_run {
 
-// Those of so many axes, X first. Those of A may be those of a second motor, which is not traced.
+// The lines of so many axes, X first. A second motor has the lines of A and is not traced.
 constexpr unsigned traced_lines(unsigned axes) { return axes > kLinearAxes ? 0xFFU : 0x3FU; }
 
-// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z and those of A, counted from 0. Edges of one pulse tick are ordered by axis,
-// the direction of each before its step.
+// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z and those of A, counted from 0. Edges of one pulse tick
+// are ordered by axis, the direction of each before its step.
 //
 // `Own` is the derived class (CRTP). It has edge(tick, wire, level), called for each edge, and may have
 // frame_begins(tick). No virtual call: a second of machine time has some 10^5 edges.

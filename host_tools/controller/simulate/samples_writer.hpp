@@ -9,9 +9,9 @@
 
 namespace cusp::simulate {
 
-// Rows `t_us,x_nm,y_nm,z_nm,line`, with `a_udeg` before the line where there are four axes: the machine position at t_us on the clock of the pulse trace,
-// and the line of the program that it executes; 0 before the first. In laser mode `,power_ppm` follows:
-// the duty cycle of the laser in the millisecond that ends at t_us, in parts of a million.
+// Rows `t_us,x_nm,y_nm,z_nm,line`, with `a_udeg` before the line where there are four axes: the machine position at
+// t_us on the clock of the pulse trace, and the line of the program that it executes; 0 before the first. In laser
+// mode `,power_ppm` follows: the duty cycle of the laser in the millisecond that ends at t_us, in parts of a million.
 class SamplesWriter {
 public:
     // Errors: all members throw InputError if the file cannot be written.

@@ -11,7 +11,8 @@
 namespace cusp::simulate {
 
 // Wires step_x dir_x step_y dir_y step_z dir_z (logical levels: a step is a rising edge, dir 1 is
-// plus), spindle and coolant; step_a and dir_a where there are four `axes`. Spindle and coolant change at the start of a servo tick.
+// plus), spindle and coolant; step_a and dir_a where there are four `axes`. Spindle and coolant change at
+// the start of a servo tick.
 class VcdWriter : public program_run::EdgeListener<VcdWriter> {
 public:
     // Records the outputs of `mill`, which must outlive it. Throws InputError.

@@ -281,7 +281,7 @@ private:
         return static_cast<int>(std::count(loops.begin(), loops.end(), 1));
     }
 
-    // Of the points `here` the place of the one that is farthest away.
+    // The place of the point that is farthest away, among those `here`.
     Vec3d farthest(const std::vector<char>& here, const std::vector<double>& away) const
     {
         std::size_t best = 0;

@@ -36,8 +36,8 @@ struct WallFaults {
 // Stock beside the walls of a pocket, a profile, a v_carve or a chamfer, and cuts into these walls; the greatest
 // distance from its curves of the path of an engraving or of a profile on its loops.
 //
-// Stock: a place of a wall is judged where the operation's tool fits with 0.02 mm, or its tolerance, to spare: at the floor, of a round
-// end where it has the full radius, of a cone at the top, of a chamfer at its upper edge.
+// Stock: a place of a wall is judged where the operation's tool fits with 0.02 mm, or its tolerance, to spare: at
+// the floor, of a round end where it has the full radius, of a cone at the top, of a chamfer at its upper edge.
 // Cuts: how deep a place of the wall is within a moving tool, less how deep it is within the region of another
 // operation, as high as it is a wall.
 //
