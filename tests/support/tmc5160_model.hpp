@@ -50,6 +50,7 @@ public:
                       {0x6D, 0},          {0x6E, 0},          {kPwmconf, 0xC40C001E}};
         answer_ = 0;
         count_ = 0;
+        damaged_ = 0;
     }
     // Bits of DRV_STATUS.
     void set_status(std::uint32_t bits)
@@ -88,7 +89,7 @@ public:
 
     const Registers& registers() const { return registers_; }
     std::uint64_t answers() const { return answers_; }  // datagrams taken
-    std::uint64_t damaged() const { return damaged_; }  // that were not of 40 bits
+    std::uint64_t damaged() const { return damaged_; }  // that were not of 40 bits, since power-up
     std::uint64_t writes() const { return writes_; }
     // Writes that the data sheet does not allow.
     const std::vector<std::string>& violations() const { return violations_; }

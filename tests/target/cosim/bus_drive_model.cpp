@@ -79,7 +79,8 @@ void BusDriveModel::judge_times(bool selects, bool clocks)
     }
     const Picoseconds passed = circuit_.now - last_edge_;
     const bool was_deselected = selects && !was_selected_;
-    if (passed < (was_deselected ? kLeastDeselected : kLeastPhase)) {
+    const bool by_driver = selects ? select_.driven() : clock_.driven();
+    if (by_driver && passed < (was_deselected ? kLeastDeselected : kLeastPhase)) {
         circuit_.violate(name_ + ": " + std::to_string(passed / kNanosecond) + " ns between edges");
     }
     last_edge_ = circuit_.now;

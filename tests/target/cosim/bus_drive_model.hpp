@@ -16,6 +16,7 @@ public:
         unsigned pin;
 
         bool high() const { return port.wire_high(pin); }
+        bool driven() const { return port.driven(pin); }
     };
 
     // The chip's pins for CSN, SCK, SDI and SDO.
@@ -51,6 +52,7 @@ public:
 private:
     // The levels of the wires may have changed.
     void look();
+    // An edge of a pin that the chip lets go, at its reset, is no edge of the driver's.
     void judge_times(bool selects, bool clocks);
     void answer();
 

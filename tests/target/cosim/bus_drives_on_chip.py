@@ -164,6 +164,18 @@ def trial_faults_in_motion(chip):
                           (0, "missing", "there", "Drive X does not answer")), 200)
 
 
+def trial_cut_short(chip):
+    """Power that fails amid datagrams: the drives are set all the same once it is back."""
+    ready(chip)
+    for part in range(20):
+        chip.command("power cycle")
+        chip.run(80 + 1.0137 * part)
+    chip.command("power cycle")
+    chip.boot()
+    for drive in range(3):
+        check_registers(chip, drive, drive, STANDARD)
+
+
 def trial_mixed(chip):
     """A TMC2209 between two TMC5160: each is set as its kind asks for."""
     if "ALARM" in (heard := ready(chip, "$798=5 $140=2000")):

@@ -155,10 +155,10 @@ void ChipUnderTest::power_cycle()
     writes_left_ = -1;
     held_ = false;
     serial().unplug();
+    reset(Start::kPowerUp);
     for (const auto& drive : drives_) {
         drive->reset();
     }
-    reset(Start::kPowerUp);
 }
 
 }  // namespace cusp::cosim
