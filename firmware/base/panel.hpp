@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
 
 namespace cusp {
@@ -19,8 +20,8 @@ enum InputBit : std::uint16_t {
     kResetButton = 1U << 7U,
     kEmergencyStop = 1U << 8U,
     kMotorFault = 1U << 9U,
-    kSecondLimit =
-        1U << 10U,  // the switch of the second motor; read where settings 793 and 794 say so
+    // The fourth motor's switch: the second one of an axis, or that of A; read where settings 793 and 794 say so.
+    kSecondLimit = 1U << 10U,
     kAtSpeed =
         1U
         << 11U,  // the spindle's drive: closed to ground at speed; read where setting 797 says so
@@ -28,6 +29,12 @@ enum InputBit : std::uint16_t {
 
 inline constexpr unsigned kInputCount = 12;
 inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ | kSecondLimit;
+// The switch of an axis, X first; that of A is the fourth motor's.
+constexpr std::uint16_t limit_input(unsigned axis) noexcept
+{
+    return static_cast<std::uint16_t>(axis < kLinearAxes ? unsigned{kLimitX} << axis
+                                                         : unsigned{kSecondLimit});
+}
 
 // Outputs that settings 15 and 16 may invert.
 enum OutputBit : std::uint8_t {

@@ -94,10 +94,12 @@ OutputLevels output_levels(const Accessories& accessories,
     constexpr unsigned kAxes = 7;
     // A drive that no axis has goes with all of them.
     const std::optional<unsigned> doubled = settings.second_motor_axis();
-    const bool second = doubled ? drives.contains(*doubled) : drives.bits == kAxes;
-    constexpr unsigned kSecondDrive = 1U << kLinearAxes;
+    const bool fourth = doubled                 ? drives.contains(*doubled)
+                        : settings.has_rotary() ? drives.contains(kLinearAxes)
+                                                : (drives.bits & kAxes) == kAxes;
+    constexpr unsigned kFourthDrive = 1U << kLinearAxes;
     levels.drives_on =
-        static_cast<std::uint8_t>((drives.bits & kAxes) | (second ? kSecondDrive : 0U));
+        static_cast<std::uint8_t>((drives.bits & kAxes) | (fourth ? kFourthDrive : 0U));
     const unsigned steps = settings.whole(Setting::kStepInvert);
     const unsigned directions = settings.whole(Setting::kDirectionInvert);
     levels.inverted_lines = 0;

@@ -158,7 +158,7 @@ constexpr std::array<SettingName, 84> kNames{{
     {792, Group::kGeneral, Type::kSwitch, "Hold at an error", "", ""},
     {793, Group::kSecondMotor, Type::kChoice, "Axis with a second motor", "",
      kHasRotaryAxis ? "None,X-axis,Y-axis,Z-axis,none: it is A" : "None,X-axis,Y-axis,Z-axis"},
-    {794, Group::kSecondMotor, Type::kSwitch, "Second motor has a switch", "", ""},
+    {794, Group::kSecondMotor, Type::kSwitch, "Fourth motor has a switch", "", ""},
     {795, Group::kControls, Type::kSwitch, "Optional stop", "", ""},
     {796, Group::kGeneral, Type::kSwitch, "Hold if the sender leaves USB", "", ""},
     {797, Group::kSpindle, Type::kSwitch, "Wait for the at-speed input", "", ""},

@@ -8,8 +8,9 @@
 namespace cusp::machine {
 namespace {
 
-// Distances of search, as in Grbl: over the travel, and over the pull-off.
+// Distances of search, as in Grbl: over the travel, a turn where it has no end, and over the pull-off.
 constexpr float kSeekOverTravel = 1.5F;
+constexpr float kTurn = 360.0F;
 constexpr float kLocateOverPullOff = 5.0F;
 
 std::int64_t nanometres(float mm) noexcept { return to_nanometres(static_cast<double>(mm)); }
@@ -90,7 +91,7 @@ auto Homing::step(Motion& motion, const Settings& settings) noexcept -> Progress
 // The switches of the axis, or that of the motor that is squared.
 std::uint16_t Homing::switches(const Settings& settings) const noexcept
 {
-    const unsigned first = unsigned{kLimitX} << axis_;
+    const unsigned first = limit_input(axis_);
     if (phase_ == Phase::kSquare) {
         return static_cast<std::uint16_t>(lagging_ == Motors::kFirst ? first
                                                                      : unsigned{kSecondLimit});
@@ -105,7 +106,7 @@ void Homing::note_contact(const Motion& motion) noexcept
         return;
     }
     contact_ = (*motion.contact())[axis_];
-    const bool first = (motion.contact_inputs() >> axis_ & 1U) != 0;
+    const bool first = (motion.contact_inputs() & limit_input(axis_)) != 0;
     lagging_ = first ? Motors::kSecond : Motors::kFirst;
     later_contact_.reset();
     const bool both = first && (motion.contact_inputs() & kSecondLimit) != 0;
@@ -150,7 +151,8 @@ auto Homing::start_phase(Motion& motion, const Settings& settings) noexcept -> P
 bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
 {
     const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
-    std::int64_t distance = nanometres(kSeekOverTravel * settings.value(Setting::kTravel, axis_));
+    const float travel = settings.has_ends(axis_) ? settings.value(Setting::kTravel, axis_) : kTurn;
+    std::int64_t distance = nanometres(kSeekOverTravel * travel);
     if (phase_ == Phase::kLocate) {
         distance = nanometres(kLocateOverPullOff * settings.pull_off(axis_));
     } else if (phase_ == Phase::kSquare) {
@@ -197,7 +199,7 @@ auto Homing::finish_search(const Motion& motion, const Settings& settings) noexc
     } else {
         // A switch that closes while the axis stops may be seen after the watch has ended.
         const unsigned later =
-            lagging_ == Motors::kFirst ? unsigned{kLimitX} << axis_ : unsigned{kSecondLimit};
+            lagging_ == Motors::kFirst ? unsigned{limit_input(axis_)} : unsigned{kSecondLimit};
         const bool known = later_contact_.has_value() || closed(motion, later);
         phase_ = known ? Phase::kAlign : Phase::kSquare;
     }

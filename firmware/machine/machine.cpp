@@ -360,9 +360,10 @@ void Machine::report_status() noexcept
     status.feed = motion_.speed() * kSecondsPerMinute;
     status.spindle = outputs_.spindle_speed();
     status.inputs = motion_.inputs().steady();
-    if (input_on(kSecondLimit)) {  // by the letter of its axis
-        const unsigned axis = stored_.settings.second_motor_axis().value_or(0);
-        status.inputs = static_cast<std::uint16_t>(status.inputs | unsigned{kLimitX} << axis);
+    const std::optional<unsigned> axis = stored_.settings.second_motor_axis();
+    if (axis && input_on(kSecondLimit)) {  // by the letter of its axis
+        const unsigned others = status.inputs & ~unsigned{kSecondLimit};
+        status.inputs = static_cast<std::uint16_t>(others | limit_input(*axis));
     }
     status.overrides = outputs_.overrides();
     status.accessories = outputs_.accessories();

@@ -205,7 +205,9 @@ void Machine::start_homing(AxisMask axes) noexcept
         return;
     }
     homes_all_ = axes.empty();
-    homing_axes_ = homes_all_ ? stored_.settings.homed_axes() : axes;
+    const unsigned wanted = homes_all_ ? stored_.settings.homed_axes().bits : axes.bits;
+    homing_axes_.bits =
+        static_cast<std::uint8_t>(wanted & stored_.settings.axes_with_switches().bits);
     if (homing_axes_.empty()) {
         finish_line(Error::kSettingDisabled);
         return;

@@ -64,8 +64,7 @@ void Motion::configure(const Settings& settings) noexcept
     const unsigned control_bits = control_inputs(settings.whole(Setting::kControlInvert));
     inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits | kAtSpeed);
     second_motor_axis_ = settings.second_motor_axis();
-    const bool squares = second_motor_axis_ && settings.squares(*second_motor_axis_);
-    const unsigned unused = (squares ? 0U : unsigned{kSecondLimit}) |
+    const unsigned unused = (settings.has_fourth_switch() ? 0U : unsigned{kSecondLimit}) |
                             (settings.on(Setting::kAtSpeedInput) ? 0U : unsigned{kAtSpeed});
     used_inputs_ = static_cast<std::uint16_t>(0xFFFFU & ~unused);
     laser_.configure(settings);

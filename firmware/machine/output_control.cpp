@@ -19,10 +19,10 @@ OutputLevels OutputControl::levels(bool stopped) const noexcept
     constexpr std::uint32_t kAlwaysOn = 255;
     const std::uint32_t idle_lock = settings_.whole(Setting::kIdleLock);
     const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;
-    constexpr AxisMask kAllAxes{7};
+    const AxisMask axes{static_cast<std::uint8_t>((1U << settings_.axes()) - 1)};
     const bool all = idle_lock == kAlwaysOn || (has_moved_ && !still);
     const AxisMask kept{static_cast<std::uint8_t>(settings_.whole(Setting::kKeepCurrent))};
-    const AxisMask drives = stopped ? AxisMask{} : all ? kAllAxes : kept;
+    const AxisMask drives = stopped ? AxisMask{} : all ? axes : kept;
     return output_levels(accessories_, overrides_.spindle, drives, settings_);
 }
 

@@ -18,17 +18,20 @@ constexpr float kMostVibration = 200.0F;
 constexpr float kMostDamping = 0.99F;
 constexpr float kLongestFilter = 0.250F;  // s: the longest filter of the interpolator
 
-// Settings of A: steps/degree, degrees/min, degrees/s^2, its drive, degrees/s^3.
-constexpr std::size_t kRotarySettings = kHasRotaryAxis ? 8 : 0;
-constexpr std::array<SettingEntry, 8> kOfRotary{
+// Settings of A: steps/degree, degrees/min, degrees/s^2, travel, its drive, play, degrees/s^3, pull-off.
+constexpr std::size_t kRotarySettings = kHasRotaryAxis ? 11 : 0;
+constexpr std::array<SettingEntry, 11> kOfRotary{
     {{103, 3, 88.889F, kLeastPositive, 10000, kLayoutWithRotary},
      {113, 3, 3600, kLeastPositive, 120000, kLayoutWithRotary},
      {123, 3, 500, kLeastPositive, kMostAny, kLayoutWithRotary},
+     {133, 3, 0, 0, kMostAny, kLayoutWithRotary},
      {143, 0, 500, 50, 3000, kLayoutWithRotary},
      {153, 0, 16, 1, 256, kLayoutWithRotary},
+     {163, 3, 0, 0, 10, kLayoutWithRotary},
      {213, 0, 50, 5, 100, kLayoutWithRotary},
      {843, 3, 0, 0, 120000, kLayoutWithRotary},
-     {803, 3, 25000, kLeastPositive, kMostJerk, kLayoutWithRotary}}};
+     {803, 3, 25000, kLeastPositive, kMostJerk, kLayoutWithRotary},
+     {853, 3, 0, 0, 1000, kLayoutWithRotary}}};
 
 constexpr std::array<SettingEntry, kSettingCount - kRotarySettings> kWithoutRotary{{
     {0, 0, 2, 1, 100},
@@ -74,10 +77,10 @@ constexpr std::array<SettingEntry, kSettingCount - kRotarySettings> kWithoutRota
     {34, 3, 0, 0, 100, 7},
     {35, 3, 0, 0, 100, 7},
     {36, 3, 100, 0, 100, 7},
-    {37, 0, 0, 0, 7, 9},
-    {44, 0, 4, 0, 7, 9},
-    {45, 0, 3, 0, 7, 9},
-    {46, 0, 0, 0, 7, 9},
+    {37, 0, 0, 0, kAllAxes, 9},
+    {44, 0, 4, 0, kAllAxes, 9},
+    {45, 0, 3, 0, kAllAxes, 9},
+    {46, 0, 0, 0, kAllAxes, 9},
     {140, 0, 500, 50, 3000, 8},
     {141, 0, 500, 50, 3000, 8},
     {142, 0, 500, 50, 3000, 8},
@@ -374,8 +377,11 @@ MachineLimits Settings::limits() const noexcept
 
 AxisVecf Settings::backlash() const noexcept
 {
-    return Vec3f{value(Setting::kBacklash, 0), value(Setting::kBacklash, 1),
-                 value(Setting::kBacklash, 2)};
+    AxisVecf play;
+    for (unsigned axis = 0; axis < axes(); ++axis) {
+        play[axis] = value(Setting::kBacklash, axis);
+    }
+    return play;
 }
 
 vfd::VfdSetup Settings::vfd() const noexcept

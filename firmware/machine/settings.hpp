@@ -49,25 +49,25 @@ enum class Setting : std::uint8_t {
     kStepsPerMillimetre,                          // $100
     kMaxRate = kStepsPerMillimetre + kAxisCount,  // $110 mm/min
     kAcceleration = kMaxRate + kAxisCount,        // $120 mm/s^2
-    kTravel = kAcceleration + kAxisCount,         // $130 mm
+    kTravel = kAcceleration + kAxisCount,         // $130 mm; of A 0: it turns for ever
     kSecondInvert =
-        kTravel + kLinearAxes,  // $8 mask: the second motor turns the other way than $3 says
-    kControlInvert,             // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
-                                // 64 emergency stop, 256 motor fault
-    kCoolantInvert,             // $15 mask: 1 flood, 2 mist
-    kSpindleInvert,             // $16 mask: 1 on, 2 reverse, 4 pulses
-    kDirectionSetup,            // $29 us
-    kSpindleFrequency,          // $33 Hz, of the spindle's pulses
-    kSpindleOffDuty,            // $34 %: of the time that they are high while it is off
-    kSpindleLeastDuty,          // $35 %: and at $31
-    kSpindleMostDuty,           // $36 %: and at $30
-    kKeepCurrent,               // $37 mask: axes whose drives stay on, whatever $1 says
-    kHomingPass,                // $44 to $46 masks: axes that are homed first, second, third
+        kTravel + kAxisCount,  // $8 mask: the second motor turns the other way than $3 says
+    kControlInvert,            // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                               // 64 emergency stop, 256 motor fault
+    kCoolantInvert,            // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,            // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,           // $29 us
+    kSpindleFrequency,         // $33 Hz, of the spindle's pulses
+    kSpindleOffDuty,           // $34 %: of the time that they are high while it is off
+    kSpindleLeastDuty,         // $35 %: and at $31
+    kSpindleMostDuty,          // $36 %: and at $30
+    kKeepCurrent,              // $37 mask: axes whose drives stay on, whatever $1 says
+    kHomingPass,               // $44 to $46 masks: axes that are homed first, second, third
     kMotorCurrent =
         kHomingPass + kHomingPasses,           // $140 mA rms, of a drive that is set over its wires
     kMicrosteps = kMotorCurrent + kAxisCount,  // $150: of a full step, a power of two
     kBacklash = kMicrosteps + kAxisCount,      // $160 mm: the play of the axis
-    kSquareOffset = kBacklash + 3,             // $170 mm: offset of the second motor towards plus
+    kSquareOffset = kBacklash + kAxisCount,    // $170 mm: offset of the second motor towards plus
     kHoldCurrent = kSquareOffset + 3,          // $210 %: of $140, at rest
     kSetDrives =
         kHoldCurrent + kAxisCount,  // $338 mask: axes whose drives are set over their wires
@@ -99,7 +99,7 @@ enum class Setting : std::uint8_t {
     kLinkWatchdog,                  // $791 ms; 0: off
     kStopOnError,                   // $792
     kSecondMotor,  // $793, of the fourth motor: 0 none, 1 to 3 the second one of X, Y or Z, 4 axis A
-    kSquaring,     // $794: the second motor has a switch of its own
+    kSquaring,     // $794: the fourth motor has a switch of its own
     kOptionalStop,                          // $795: M1 stops
     kHoldWhenLeft,                          // $796: a sender that leaves while something moves
     kAtSpeedInput,                          // $797: the spindle's drive says when it is at speed
@@ -111,7 +111,7 @@ enum class Setting : std::uint8_t {
     kStealthSpeed = kShaperDamping + 3,  // $840 mm/min: up to which a drive runs silent; 0: never
     kAxisPullOff =
         kStealthSpeed + kAxisCount,  // $850 mm: of this axis in place of $27; 0: as $27 says
-    kCount = kAxisPullOff + 3,
+    kCount = kAxisPullOff + kAxisCount,
 };
 
 inline constexpr std::size_t kSettingCount = static_cast<std::size_t>(Setting::kCount);
@@ -239,6 +239,20 @@ public:
     {
         return on(Setting::kSquaring) && second_motor_axis() == axis;
     }
+
+    // The fourth motor has a switch, which is read.
+    bool has_fourth_switch() const noexcept
+    {
+        return on(Setting::kSquaring) && whole(Setting::kSecondMotor) > 0;
+    }
+    // Axes that homing can find: those with a switch.
+    AxisMask axes_with_switches() const noexcept
+    {
+        const unsigned all = has_rotary() && has_fourth_switch() ? kAxisCount : kLinearAxes;
+        return {static_cast<std::uint8_t>((1U << all) - 1)};
+    }
+    // False of A where it turns for ever.
+    bool has_ends(unsigned axis) const noexcept { return value(Setting::kTravel, axis) > 0; }
 
     // Limits of the motors.
     MachineLimits limits() const noexcept;

@@ -56,10 +56,11 @@ void write_pins(std::uint16_t inputs, ReplyQueue& out) noexcept
         InputBit bit;
         char letter;
     };
-    constexpr std::array<Pin, 10> kPins{{{kProbe, 'P'},
+    constexpr std::array<Pin, 11> kPins{{{kProbe, 'P'},
                                          {kLimitX, 'X'},
                                          {kLimitY, 'Y'},
                                          {kLimitZ, 'Z'},
+                                         {kSecondLimit, 'A'},
                                          {kDoor, 'D'},
                                          {kHoldButton, 'H'},
                                          {kResetButton, 'R'},

@@ -47,10 +47,13 @@ void include_turns(Extent& extent, const path::Arc& arc, unsigned axis, Position
 // A control point in float may lie a rounding outside.
 constexpr std::int64_t kRounding = 10;
 
-// True if it lies between -travel and 0, or not beyond `edge`. A rotary axis may turn for ever.
+// True if it lies between -travel and 0, or not beyond `edge`, on each axis that has ends.
 bool holds(const Extent& extent, const Extent& edge, const Settings& settings) noexcept
 {
-    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
+    for (unsigned axis = 0; axis < settings.axes(); ++axis) {
+        if (!settings.has_ends(axis)) {
+            continue;
+        }
         const std::int64_t travel =
             to_nanometres(static_cast<double>(settings.value(Setting::kTravel, axis)));
         const std::int64_t least = std::min(-travel - kRounding, edge.least[axis]);

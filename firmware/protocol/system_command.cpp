@@ -13,7 +13,7 @@ struct Word {
     AxisMask axes;
 };
 
-constexpr std::array<Word, 22> kWords{{
+constexpr std::array<Word, 23> kWords{{
     {"", SystemCommandKind::kHelp, {}},
     {"$", SystemCommandKind::kSettings, {}},
     {"#", SystemCommandKind::kParameters, {}},
@@ -26,6 +26,7 @@ constexpr std::array<Word, 22> kWords{{
     {"HX", SystemCommandKind::kHome, {1}},
     {"HY", SystemCommandKind::kHome, {2}},
     {"HZ", SystemCommandKind::kHome, {4}},
+    {"HA", SystemCommandKind::kHome, {8}},
     {"SLP", SystemCommandKind::kSleep, {}},
     {"RST=$", SystemCommandKind::kRestoreSettings, {}},
     {"RST=#", SystemCommandKind::kRestoreParameters, {}},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "firmware/base/pulse_frame.hpp"
 
@@ -54,6 +55,11 @@ std::uint16_t SimulatedMill::inputs() const noexcept
         const double travel = geometry_.travel[*geometry_.second_motor];
         const double beyond = geometry_.switch_distance;
         bits |= second >= beyond || second <= -travel - beyond ? unsigned{kSecondLimit} : 0U;
+    }
+    if (geometry_.rotary) {
+        constexpr double kTurn = 360.0;
+        const double turned = angle() - kTurn * std::floor(angle() / kTurn);
+        bits |= turned < geometry_.rotary->flag ? unsigned{kSecondLimit} : 0U;
     }
     if (geometry_.plate_above_start &&
         at.z - geometry_.start.z <= *geometry_.plate_above_start + 1e-9) {
@@ -142,6 +148,12 @@ double SimulatedMill::second_place() const noexcept
     const unsigned axis = geometry_.second_motor.value_or(0);
     return geometry_.start[axis] + geometry_.second_ahead +
            static_cast<double>(second_steps_) / geometry_.steps_per_mm[axis];
+}
+
+double SimulatedMill::angle() const noexcept
+{
+    const MillGeometry::RotaryTable& table = *geometry_.rotary;
+    return table.start + static_cast<double>(second_steps_) / table.steps_per_degree;
 }
 
 void SimulatedMill::take_second_step() noexcept

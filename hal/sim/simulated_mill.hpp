@@ -35,6 +35,13 @@ struct MillGeometry {
     double second_ahead{0.0};  // its lead towards plus at the start, mm
     // Lead of its switches towards plus over those of the first motor, mm; none: it has none.
     std::optional<double> second_switch{0.0};
+    // The table that the fourth motor turns, with a flag that closes kSecondLimit from 0 degrees on.
+    struct RotaryTable {
+        double steps_per_degree{0.0};
+        double start{0.0};  // degrees
+        double flag{10.0};  // its length, degrees
+    };
+    std::optional<RotaryTable> rotary;
 };
 
 // The contract's Panel; what follows it belongs to the simulation.
@@ -54,6 +61,8 @@ public:
     Vec3d place() const noexcept;
     // Position to which the second motor has moved the slide, on the first one's scale.
     double second_place() const noexcept;
+    // Angle of the table, degrees. Precondition: there is one.
+    double angle() const noexcept;
     // Steps taken since the start, both ways, and their balance. A has those of the fourth motor.
     const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }
     const PerAxis<std::int64_t>& steps() const noexcept { return steps_; }

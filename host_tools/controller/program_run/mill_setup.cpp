@@ -26,6 +26,11 @@ hal::MillGeometry mill_geometry(const machine::Settings& settings,
     }
     geometry.plate_above_start = probe_z;
     geometry.second_motor = settings.second_motor_axis();
+    if (settings.has_rotary()) {
+        constexpr double kStart = -30.0;
+        geometry.rotary = hal::MillGeometry::RotaryTable{
+            static_cast<double>(settings.value(Setting::kStepsPerMillimetre, kLinearAxes)), kStart};
+    }
     return geometry;
 }
 
