@@ -95,6 +95,11 @@ class MillDriver:
         return self.heard()
 
 
+def attempts(arguments):
+    """A state that passes by itself may be over before a busy machine has looked; the co-simulation looks in time."""
+    return 3 if arguments[0] in live_model.UNSTEADY else 1
+
+
 def run(cusp, trials, failures, lock):
     driver = MillDriver(cusp)
     try:
@@ -103,10 +108,13 @@ def run(cusp, trials, failures, lock):
                 if not trials:
                     return
                 function, *arguments = trials.pop()
-            try:
-                function(driver, *arguments)
-            except (live_model.Differs, TimeoutError) as error:
-                failures.append(f"{arguments}: {error}")
+            for attempts_left in reversed(range(attempts(arguments))):
+                try:
+                    function(driver, *arguments)
+                    break
+                except (live_model.Differs, TimeoutError) as error:
+                    if not attempts_left:
+                        failures.append(f"{arguments}: {error}")
     finally:
         driver.close()
 
