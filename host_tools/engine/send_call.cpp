@@ -1,7 +1,6 @@
 // cusp stream without its port: what goes to a controller for a program, from its beginning or from a line that the tool had reached.
 #include <cmath>
 
-#include "firmware/machine/tool_changer.hpp"
 #include "host_tools/controller/dialect/program_lines.hpp"
 #include "host_tools/controller/dialect/refusal.hpp"
 #include "host_tools/controller/stream/approach.hpp"
@@ -33,10 +32,10 @@ Position place_of(const Call& call, const char* key)
 {
     const std::vector<double> place = call.arguments.find_numbers(key);
     constexpr double kFarthest = 1e7;  // mm
-    if (!place.empty() && place.size() != kLinearAxes) {
+    if (!place.empty() && place.size() != kLinearAxes && place.size() != kAxisCount) {
         throw InputError{fmt::format("send: {}: needs a number for each axis", key)};
     }
-    Vec3d at;
+    AxisVecd at;
     for (unsigned axis = 0; axis < place.size(); ++axis) {
         if (!(std::abs(place[axis]) <= kFarthest)) {
             throw InputError{fmt::format("send: {}: is no place of a machine", key)};
@@ -79,10 +78,7 @@ stream::TransferRecord record_of(const Call& call, double line)
 {
     const ControllerFacts start = facts_of(call.arguments.find_texts("start"));
     stream::TransferRecord record;
-    record.start = {
-        place_of(call, "start_place"), start.modal(), start.parameters(),
-        start.settings().value(machine::Setting::kPathTolerance),
-        machine::tool_change_mode(start.settings()) == machine::ToolChangeMode::kTouchOff};
+    record.start = start.start_at(place_of(call, "start_place"));
     record.executed_line = static_cast<std::uint64_t>(line);
     return record;
 }

@@ -36,11 +36,14 @@ std::optional<double> decimal(std::string_view text)
     return number ? std::optional{number->value} : std::nullopt;
 }
 
-std::optional<Vec3d> vector_of(std::string_view text)
+std::optional<AxisVecd> vector_of(std::string_view text)
 {
-    Vec3d vector;
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    AxisVecd vector;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         constexpr double kFarthest = 1e7;  // mm; a damaged number may be any
+        if (axis >= kLinearAxes && text.empty()) {
+            break;
+        }
         const auto number = decimal(split_off(text, ','));
         if (!number || std::abs(*number) > kFarthest) {
             return std::nullopt;

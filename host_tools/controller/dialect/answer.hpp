@@ -14,9 +14,10 @@ namespace cusp::dialect {
 struct ControllerStatus {
     std::string state;  // "Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep"
     int substate{-1};
-    std::optional<Vec3d> machine_position;  // as reported: mm, or inches with $13=1
-    std::optional<Vec3d> work_position;
-    std::optional<Vec3d> work_offset;
+    // As reported: mm, or inches with $13=1, and degrees of A; 0 where the machine has none.
+    std::optional<AxisVecd> machine_position;
+    std::optional<AxisVecd> work_position;
+    std::optional<AxisVecd> work_offset;
     std::optional<std::uint32_t> line;
     std::optional<double> feed;
     std::optional<int> feed_override;  // per cent

@@ -23,9 +23,16 @@ std::string words_of(std::int64_t nanometres)
                        size % kMillimetre);
 }
 
-std::string place(Position at)
+// The word of A; nothing where the machine has none.
+std::string turn(Position at, unsigned axes)
 {
-    return fmt::format("X{}Y{}Z{}", words_of(at.x), words_of(at.y), words_of(at.z));
+    return axes > kLinearAxes ? "A" + words_of(at[kLinearAxes]) : "";
+}
+
+std::string place(Position at, unsigned axes)
+{
+    return fmt::format("X{}Y{}Z{}{}", words_of(at.x), words_of(at.y), words_of(at.z),
+                       turn(at, axes));
 }
 
 void restore_offsets(const ResumePoint& point,
@@ -37,7 +44,7 @@ void restore_offsets(const ResumePoint& point,
     for (std::size_t i = 0; i < gcode::kCoordinateSystems; ++i) {
         const Position wanted = point.parameters.work_offsets[i];
         if (wanted != before.work_offsets[i]) {
-            lines.push_back(fmt::format("G10L2P{}{}", i + 1, place(wanted)));
+            lines.push_back(fmt::format("G10L2P{}{}", i + 1, place(wanted, point.axes)));
         }
     }
     if (point.parameters.tool_length_offset_nm != 0) {
@@ -117,7 +124,8 @@ Approach make_approach(const ResumePoint& point,
     approach.lines.emplace_back(gcode::kCoordinateSystemNames[system]);
     restore_offsets(point, before, approach.lines);
     approach.lines.push_back("G0Z" + words_of(travel_z));
-    approach.lines.push_back("G0X" + words_of(goal.x) + "Y" + words_of(goal.y));
+    approach.lines.push_back("G0X" + words_of(goal.x) + "Y" + words_of(goal.y) +
+                             turn(goal, point.axes));
     // Rapid down to the program's own travel height; at the plunge feed from there.
     const std::int64_t down_z = std::max(wanted_z, goal.z);
     if (down_z < travel_z) {
@@ -125,7 +133,9 @@ Approach make_approach(const ResumePoint& point,
     }
     restore_accessories(point.modal, approach.lines);
     if (shift != Position{}) {
-        approach.lines.push_back("G92" + place(Position{goal.x, goal.y, down_z} - shift));
+        Position above = goal;
+        above.z = down_z;
+        approach.lines.push_back("G92" + place(above - shift, point.axes));
     }
     approach.plunges = down_z > goal.z;
     approach.plunge_feed = static_cast<double>(point.plunge_feed.value_or(kPlungeFeed));
@@ -134,7 +144,7 @@ Approach make_approach(const ResumePoint& point,
             fmt::format("G1Z{}F{:.4f}", words_of(goal.z - shift.z), approach.plunge_feed));
     }
     restore_modal(point.modal, approach.lines);
-    approach.point = xyz(to_millimetres(goal - shift));
+    approach.point = to_millimetres(goal - shift);
     approach.safe_z = xyz(to_millimetres(Position{0, 0, travel_z - shift.z})).z;
     return approach;
 }

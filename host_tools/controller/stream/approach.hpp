@@ -12,14 +12,14 @@ namespace cusp::stream {
 
 struct Approach {
     std::vector<std::string> lines;
-    // In the program's coordinates, mm.
-    Vec3d point;
+    // In the program's coordinates, mm, and degrees of A.
+    AxisVecd point;
     double safe_z{0};
     bool plunges{false};
     double plunge_feed{0};  // mm/min
 };
 
-// Raises the tool, moves over the point, starts spindle and coolant, descends at the plunge feed,
+// Raises the tool, moves over the point, A with it, starts spindle and coolant, descends at the plunge feed,
 // and restores units, plane, distance, feed, path, tool length and G92. Precondition: the
 // controller has been reset.
 //

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "firmware/machine/tool_changer.hpp"
 #include "host_tools/controller/dialect/leading_number.hpp"
 
 namespace cusp::stream {
@@ -37,8 +38,8 @@ double distance_in(std::string_view text)
 
 Position position_in(std::string_view text)
 {
-    Vec3d place;
-    for (unsigned axis = 0; axis < 3; ++axis) {
+    AxisVecd place;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         place[axis] = distance_in(text);
         const std::size_t comma = text.find(',');
         text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
@@ -48,7 +49,11 @@ Position position_in(std::string_view text)
 
 Position in_millimetres(Position inches)
 {
-    return {inches.x * 254 / 10, inches.y * 254 / 10, inches.z * 254 / 10};
+    Position place = inches;  // A is degrees
+    for (unsigned axis = 0; axis < kLinearAxes; ++axis) {
+        place[axis] = inches[axis] * 254 / 10;
+    }
+    return place;
 }
 
 }  // namespace
@@ -142,6 +147,16 @@ gcode::Parameters ControllerFacts::parameters() const
         }
     }
     return parameters;
+}
+
+TransferStart ControllerFacts::start_at(Position machine) const
+{
+    return {machine,
+            modal_,
+            parameters(),
+            settings_.axes(),
+            settings_.value(Setting::kPathTolerance),
+            machine::tool_change_mode(settings_) == machine::ToolChangeMode::kTouchOff};
 }
 
 }  // namespace cusp::stream

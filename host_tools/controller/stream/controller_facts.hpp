@@ -8,6 +8,7 @@
 
 #include "firmware/gcode/modal_state.hpp"
 #include "firmware/machine/settings.hpp"
+#include "host_tools/controller/stream/transfer_record.hpp"
 
 namespace cusp::stream {
 
@@ -30,6 +31,9 @@ public:
 
     // Offsets and stored positions as `$#` gives them: to a thousandth of a millimetre.
     gcode::Parameters parameters() const;
+
+    // What a record keeps of a transfer that begins at this place of the machine.
+    TransferStart start_at(Position machine) const;
 
 private:
     void take_parameter(std::string_view name, std::string_view value);

@@ -28,9 +28,9 @@ Vec3d position_of(const StreamProgress& progress)
 {
     const ControllerStatus& status = progress.status;
     if (status.work_position) {
-        return *status.work_position;
+        return xyz(*status.work_position);
     }
-    return status.machine_position.value_or(Vec3d{}) - progress.work_offset;
+    return xyz(status.machine_position.value_or(AxisVecd{}) - progress.work_offset);
 }
 
 std::string bar(double fraction, unsigned cells)

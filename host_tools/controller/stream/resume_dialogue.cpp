@@ -70,6 +70,9 @@ std::string ResumeDialogue::text_of(const Approach& way, bool homes, bool lost) 
     }
     text += fmt::format("  travels at Z {:.3f} to X {:.3f} Y {:.3f}", way.safe_z, way.point.x,
                         way.point.y);
+    if (point_.axes > kLinearAxes) {
+        text += fmt::format(" A {:.3f}", way.point[kLinearAxes]);
+    }
     if (point_.modal.spindle != gcode::SpindleMode::kOff) {
         text += fmt::format(", spindle at {:.0f}", point_.modal.spindle_speed);
     }

@@ -40,8 +40,9 @@ bool can_be_first(const gcode::ModalState& before, const std::string& text)
 class Reading {
 public:
     Reading(const std::string& program, const TransferStart& start)
-        : program_{program}, touches_off_{start.touches_off}
+        : program_{program}, touches_off_{start.touches_off}, axes_{start.axes}
     {
+        interpreter_.set_axes(axes_);
         interpreter_.set_default_tolerance(start.default_tolerance);
         interpreter_.reset();
         interpreter_.set_parameters(start.parameters);
@@ -63,9 +64,9 @@ public:
 
     ResumePoint point(std::uint64_t line) const
     {
-        return {
-            line,          interpreter_.modal(), interpreter_.parameters(), interpreter_.position(),
-            highest_z_nm_, plunge_feed_};
+        return {line,        interpreter_.modal(),    interpreter_.parameters(),
+                axes_,       interpreter_.position(), highest_z_nm_,
+                plunge_feed_};
     }
 
     // Returns whether the line pauses for the user: no resume point lies before it.
@@ -119,6 +120,7 @@ private:
 
     std::string program_;
     bool touches_off_;
+    unsigned axes_;
     gcode::Interpreter interpreter_;
     std::int64_t highest_z_nm_{0};
     std::optional<float> plunge_feed_;

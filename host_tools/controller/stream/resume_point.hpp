@@ -20,6 +20,7 @@ struct ResumePoint {
     // Before that line:
     gcode::ModalState modal;
     gcode::Parameters parameters;
+    unsigned axes{kLinearAxes};    // 4 with A
     Position position;             // machine
     std::int64_t highest_z_nm{0};  // the tool's highest since the start of the program, machine
     // Feed of the last feed move straight down, mm/min; none if there was none.

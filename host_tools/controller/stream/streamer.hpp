@@ -68,7 +68,7 @@ struct StreamProgress {
     double sent_fraction{0.0};         // of the file's bytes
     dialect::ControllerStatus status;  // the latest
     std::uint64_t lines_resent{0};
-    Vec3d work_offset;
+    AxisVecd work_offset;
     int feed_override{100};
     bool done{false};  // all of it, and the machine is at rest
 };

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "firmware/base/inch.hpp"
-#include "firmware/machine/tool_changer.hpp"
 #include "host_tools/controller/stream/streamer.hpp"
 
 namespace cusp::stream {
@@ -166,20 +165,20 @@ void Streamer::home()
 Position Streamer::machine_position() const
 {
     const ControllerStatus& status = progress_.status;
-    Vec3d at = status.machine_position.value_or(Vec3d{});
+    AxisVecd at = status.machine_position.value_or(AxisVecd{});
     if (!status.machine_position && status.work_position) {
         at = *status.work_position + progress_.work_offset;
     }
     const bool inches = facts_.settings().on(machine::Setting::kReportInches);
-    return to_position(inches ? at * kMillimetresPerInch : at);
+    for (unsigned axis = 0; inches && axis < kLinearAxes; ++axis) {
+        at[axis] *= kMillimetresPerInch;
+    }
+    return to_position(at);
 }
 
 void Streamer::prepare_record()
 {
-    const machine::Settings& settings = facts_.settings();
-    record_.start = {machine_position(), facts_.modal(), facts_.parameters(),
-                     settings.value(machine::Setting::kPathTolerance),
-                     machine::tool_change_mode(settings) == machine::ToolChangeMode::kTouchOff};
+    record_.start = facts_.start_at(machine_position());
     executed_.begin_at(1);
 }
 

@@ -13,12 +13,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(Position at) { return Json::array({at.x, at.y, at.z}); }
+Json json_of(Position at)
+{
+    Json place = Json::array();
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        place.push_back(at[axis]);
+    }
+    return place;
+}
 
+// Records of earlier versions have no A.
 Position position_of(const Json& json)
 {
-    return {json.at(0).get<std::int64_t>(), json.at(1).get<std::int64_t>(),
-            json.at(2).get<std::int64_t>()};
+    Position at;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        const bool has = axis < kLinearAxes || axis < json.size();
+        at[axis] = has ? json.at(axis).get<std::int64_t>() : 0;
+    }
+    return at;
 }
 
 Json json_of(const gcode::Parameters& parameters)
@@ -71,6 +83,7 @@ Json json_of(const TransferRecord& record)
             {"start",
              {{"machine_nm", json_of(record.start.machine)},
               {"modal", record.start.modal},
+              {"axes", record.start.axes},
               {"default_tolerance_mm", record.start.default_tolerance},
               {"touches_off", record.start.touches_off},
               {"parameters_nm", json_of(record.start.parameters)}}}};
@@ -87,6 +100,7 @@ TransferRecord record_of(const Json& json)
     const Json& start = json.at("start");
     record.start.machine = position_of(start.at("machine_nm"));
     record.start.modal = start.at("modal").get<std::string>();
+    record.start.axes = start.value("axes", kLinearAxes);
     record.start.default_tolerance = start.at("default_tolerance_mm").get<float>();
     record.start.touches_off = start.value("touches_off", false);
     record.start.parameters = parameters_of(start.at("parameters_nm"));

@@ -15,6 +15,7 @@ struct TransferStart {
     Position machine;
     std::string modal;  // words of `$G`
     gcode::Parameters parameters;
+    unsigned axes{kLinearAxes};       // 4 with A
     float default_tolerance{0.010F};  // $11, mm
     bool touches_off{false};          // M6 measures the tool: $341=3
 };

@@ -34,6 +34,14 @@ TEST(Answer, ReadsAStatusReport)
     LONGS_EQUAL(90, *answer.status.feed_override);
 }
 
+TEST(Answer, ReadsTheRotaryAxisWhereItIsReported)
+{
+    const Answer with = parse_answer("<Idle|MPos:1.000,2.000,3.000,-45.500|FS:0,0>");
+    DOUBLES_EQUAL(-45.5, (*with.status.machine_position)[cusp::kLinearAxes], 0.0);
+    const Answer without = parse_answer("<Idle|MPos:1.000,2.000,3.000|FS:0,0>");
+    DOUBLES_EQUAL(0.0, (*without.status.machine_position)[cusp::kLinearAxes], 0.0);
+}
+
 TEST(Answer, LeavesOutWhatADamagedReportDoesNotSay)
 {
     const Answer answer = parse_answer("<Run|MPos:1.0,xx,3|Ln:-4|FS:|Ov>");

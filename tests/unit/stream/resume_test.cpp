@@ -147,3 +147,34 @@ TEST(Resume, PutsOffsetsBackThatTheProgramHasSet)
     CHECK(lines.find("|G92X0.000000Y0.000000Z2.000000|") != std::string::npos);
     CHECK(lines.find("G43.1") == std::string::npos);
 }
+
+TEST(Resume, TurnsTheRotaryAxisBackOverThePoint)
+{
+    record.start.axes = kAxisCount;
+    const ResumePoint point = point_at(4, "G0 Z5 A20\nG1 Z-1 F100\nX10 A30\nX20 A45\nX30\n");
+    LONGS_EQUAL(3, point.line);
+    DOUBLES_EQUAL(20, to_millimetres(point.position)[kLinearAxes], 0);
+    const std::string lines = approach(point, {0, 0, 0});
+    CHECK_TEXT(lines.find("|G0X0.000000Y0.000000A20.000000|") != std::string::npos, lines.c_str());
+}
+
+TEST(Resume, PutsTheOffsetsOfTheRotaryAxisBack)
+{
+    record.start.axes = kAxisCount;
+    const std::string text = "G10 L2 P1 A5\nG92 A100\nG0 Z5\nG1 X10 A110 F100\nX20\nX30\n";
+    const ResumePoint point = point_at(6, text);
+    const std::string lines = approach(point, {0, 0, 0});
+    CHECK_TEXT(lines.find("|G10L2P1X0.000000Y0.000000Z0.000000A5.000000|") != std::string::npos &&
+                   lines.find("|G92X10.000000Y0.000000Z5.000000A110.000000|") != std::string::npos,
+               lines.c_str());
+}
+
+TEST(Resume, KeepsTheRotaryAxisInTheRecord)
+{
+    const std::string program = folder.with("turned.ngc", "G0 X1\n");
+    record.start.axes = kAxisCount;
+    record.start.machine = to_position(AxisVecd{1, 2, 3, 4});
+    CHECK(write_record(program, record));
+    const std::optional<TransferRecord> read = read_record(program);
+    CHECK(read && read->start.axes == kAxisCount && read->start.machine == record.start.machine);
+}

@@ -26,7 +26,7 @@ export function keptRecord(): CutRecord | null {
   try {
     const found = JSON.parse(localStorage.getItem(kStore) ?? "null") as (Omit<Partial<CutRecord>, "startPlace"> & { startPlace?: unknown[] }) | null;
     const good = typeof found?.name === "string" && typeof found.crc === "string" && Number.isInteger(found.line) && (found.line ?? 0) >= 1 &&
-      Array.isArray(found.start) && found.start.every((line) => typeof line === "string") && Array.isArray(found.startPlace) && found.startPlace.length === 3 && found.startPlace.every(Number.isFinite);
+      Array.isArray(found.start) && found.start.every((line) => typeof line === "string") && Array.isArray(found.startPlace) && [3, 4].includes(found.startPlace.length) && found.startPlace.every(Number.isFinite);
     return good ? found as unknown as CutRecord : null;
   } catch {
     return null;

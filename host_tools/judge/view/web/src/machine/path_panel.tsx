@@ -26,7 +26,10 @@ export function PathPanel(): JSX.Element {
         view.show(path);
         view.look3d();
       }, (reason: unknown) => { if (!isAbort(reason)) note.value = textOf(reason); });
-    }), effect(() => view.mark(now.value.link === "open" ? now.value.work : null))];
+    }), effect(() => {
+      const [x, y, z] = now.value.work;
+      view.mark(now.value.link === "open" ? [x, y, z] : null);
+    })];
     return () => {
       stop.abort();
       for (const end of ends) end();

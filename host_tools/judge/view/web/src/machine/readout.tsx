@@ -5,7 +5,7 @@ import { codes } from "../studio/store";
 import { commands, isBusy, isOpen, mayMove, now, resetNow, running } from "./machine";
 import { alarmText, endText, stateText, waitText } from "./words";
 
-const kAxes = ["X", "Y", "Z"];
+const kAxes = ["X", "Y", "Z", "A"];
 
 // A line as the program has it, with the comment that stands before it.
 function rawLine(line: number): string {
@@ -49,7 +49,7 @@ export function Readout(): JSX.Element {
     {end ? <p class={run?.phase === "done" ? "note" : "fault"} role="status">{end}</p> : null}
     <AlarmButtons />
     <table><thead><tr><th scope="col">Axis</th><th scope="col">Work, mm</th><th scope="col">Machine</th><th scope="col">Zero</th></tr></thead>
-      <tbody>{kAxes.map((axis, k) => <tr key={axis}><th scope="row">{axis}</th><td class="place">{fixed(n.work[k], 3)}</td><td>{fixed(n.machine[k], 3)}</td>
+      <tbody>{kAxes.slice(0, n.machine.length).map((axis, k) => <tr key={axis}><th scope="row">{axis === "A" ? "A, deg" : axis}</th><td class="place">{fixed(n.work[k]!, 3)}</td><td>{fixed(n.machine[k]!, 3)}</td>
         <td><button type="button" disabled={!mayMove.value} title={`Work zero of ${axis} is here`} onClick={() => void commands(`G10L20P0${axis}0`)}>{`${axis} = 0`}</button></td></tr>)}</tbody></table>
     <p class="note">{`${figure(n.feed, 4)} mm/min, spindle ${figure(n.spindle, 5)}${on}${n.pins ? `, inputs ${n.pins}` : ""}`}</p>
     {run ? <><p class="note">{`Line ${run.at || run.line}; ${run.answered} of ${run.lines} lines taken; ${duration(run.seconds)}`}</p>

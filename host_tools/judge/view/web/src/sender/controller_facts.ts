@@ -29,10 +29,10 @@ export class ControllerFacts {
     else if (name === "TLO") this.toolLength = Number(value.split(",").at(-1));
     else if (name === "PRB") {
       const [place, touched] = value.split(":"), at = place.split(",").map(Number);
-      this.probe = { at: [at[0], at[1], at[2]], touched: touched === "1" };
+      this.probe = { at: at.slice(0, 4) as Place, touched: touched === "1" };
     } else if (/^G\d/.test(name)) {
       const at = value.split(",").map(Number);
-      if (at.length >= 3 && at.every(Number.isFinite)) this.places.set(name, [at[0], at[1], at[2]]);
+      if (at.length >= 3 && at.every(Number.isFinite)) this.places.set(name, at.slice(0, 4) as Place);
     }
   }
 

@@ -13,7 +13,9 @@ const kHoldLimit = 10_000;   // ms in which any machine stops
 const kMostMessages = 30;
 const kInch = 25.4;
 
-const scaled = (at: Place, by: number): Place => [at[0] * by, at[1] * by, at[2] * by];
+// Lengths alone: A is degrees.
+const scaled = (at: Place, by: number): Place => at.map((n, axis) => axis < 3 ? n! * by : n) as Place;
+const moved = (at: Place, by: Place, sign: number): Place => at.map((n, axis) => n! + sign * (by[axis] ?? 0)) as Place;
 
 /** Why a program can't begin. */
 export class Refusal extends Error {}
@@ -31,7 +33,7 @@ export class Session {
   private alarm = 0;
   private messages: string[] = [];
   private offset: Place = [0, 0, 0];
-  private overrides: Place = [100, 100, 100];
+  private overrides: [number, number, number] = [100, 100, 100];
   private accessories = "";
   private startListing: string[] = [];
   private startPlace: Place = [0, 0, 0];
@@ -190,7 +192,7 @@ export class Session {
     return {
       link: this.link, why: this.why, port: this.name, ready: dialogue.ready, checked: dialogue.checked, version: dialogue.facts.version,
       state: dialogue.state, substate: last?.substate ?? -1, alarm: dialogue.state === "Alarm" ? this.alarm : 0,
-      machine, work: [machine[0] - this.offset[0], machine[1] - this.offset[1], machine[2] - this.offset[2]], offset: this.offset,
+      machine, work: moved(machine, this.offset, -1), offset: this.offset,
       feed: (last?.feed ?? 0) * this.unit, spindle: last?.spindle ?? 0, pins: last?.pins ?? "", overrides: this.overrides, accessories: this.accessories,
       modal: dialogue.facts.modal, settings: Object.fromEntries(dialogue.facts.settings), places: this.places(), probe: this.probe(), toolLength: dialogue.facts.toolLength * this.unit,
       held: this.heldByUs, stopping: this.stopping !== null, messages: this.messages, refused: dialogue.refused, resent: dialogue.resent,
@@ -223,8 +225,8 @@ export class Session {
   private get unit(): number { return this.dialogue?.facts.setting(13) ? kInch : 1; }
 
   private machinePlace(): Place {
-    const last = this.dialogue?.last, at = last?.machine ?? last?.work ?? [0, 0, 0], shift = last?.machine ? [0, 0, 0] : this.offset;
-    return [at[0] * this.unit + shift[0], at[1] * this.unit + shift[1], at[2] * this.unit + shift[2]];
+    const last = this.dialogue?.last, at = scaled(last?.machine ?? last?.work ?? [0, 0, 0], this.unit);
+    return last?.machine ? at : moved(at, this.offset, 1);
   }
 
   private readyDialogue(): Dialogue {
@@ -244,7 +246,7 @@ export class Session {
       this.link = "open";
       this.changed();
     }
-    if (report.offset) this.offset = [report.offset[0] * unit, report.offset[1] * unit, report.offset[2] * unit];
+    if (report.offset) this.offset = scaled(report.offset, unit);
     if (report.overrides) this.overrides = report.overrides;
     if (report.accessories !== null) this.accessories = report.accessories;
     this.resumed = false;

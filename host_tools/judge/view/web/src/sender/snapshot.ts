@@ -21,7 +21,7 @@ export interface Snapshot {
   feed: number;
   spindle: number;
   pins: string;
-  overrides: Place;
+  overrides: [number, number, number];
   accessories: string;
   modal: string[];
   settings: Partial<Record<number, number>>;

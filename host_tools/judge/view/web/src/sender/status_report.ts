@@ -1,6 +1,7 @@
 // A status report of Grbl 1.1, read strictly: a text that lost bytes is none.
 
-export type Place = [number, number, number];
+/** X, Y, Z in mm, or inches with $13, and where the machine has it A in degrees. */
+export type Place = [number, number, number, number?];
 
 /** Fields that a report may leave out are null. Lengths as reported: mm, or inches with $13. */
 export interface StatusReport {
@@ -15,7 +16,7 @@ export interface StatusReport {
   feed: number | null;
   spindle: number | null;
   pins: string;
-  overrides: Place | null;
+  overrides: [number, number, number] | null;
   /** Letters of what is on; null: the report does not say. */
   accessories: string | null;
 }
@@ -26,7 +27,7 @@ const kStates = /^(Idle|Run|Jog|Alarm|Check|Home|Sleep|Hold:[01]|Door:[0-3])$/;
 // Of three to six axes, all with as many decimals.
 const placeOf = (text: string): Place | null => {
   const axes = text.split(","), decimals = new Set(axes.map((n) => kNumber.exec(n)?.[1].length ?? 0));
-  return axes.length >= 3 && axes.length <= 6 && decimals.size === 1 && !decimals.has(0) ? [Number(axes[0]), Number(axes[1]), Number(axes[2])] : null;
+  return axes.length >= 3 && axes.length <= 6 && decimals.size === 1 && !decimals.has(0) ? axes.slice(0, 4).map(Number) as Place : null;
 };
 const numbersOf = (text: string, form: RegExp): number[] | null => form.test(text) ? text.split(",").map(Number) : null;
 
@@ -71,7 +72,7 @@ function takeField(report: StatusReport, key: string, value: string): boolean {
       report.pins = value;
       return /^[PXYZDHRSEMABC]+$/.test(value);
     case "Ov":
-      report.overrides = numbersOf(value, /^\d{1,3},\d{1,3},\d{1,3}$/) as Place | null;
+      report.overrides = numbersOf(value, /^\d{1,3},\d{1,3},\d{1,3}$/) as [number, number, number] | null;
       return report.overrides !== null;
     case "A":
       report.accessories = value;
