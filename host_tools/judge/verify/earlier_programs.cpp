@@ -26,11 +26,7 @@ constexpr double kCurveStep = 0.05;     // mm: of NURBS
 [[noreturn]] void refuse_tool(const Job& job, const std::string& file, int number)
 {
     if (number == 0) {
-        throw InputError(
-            fmt::format("{}: its tool is not known: there is neither a T word nor a comment such "
-                        "as \"(tool 1 flat "
-                        "diameter 6 mm)\" before its first cut, and {} has {} tools",
-                        file, job.file, job.tools.size()));
+        refuse_unnamed_tool(job, file);
     }
     throw InputError(
         fmt::format("{}: tool {} is not known: there is no comment such as \"(tool {} flat "
@@ -45,7 +41,7 @@ const Tool& tool_of_program(const Job& job,
                             int number)
 {
     if (const auto described = program.tools.find(number); described != program.tools.end()) {
-        return described->second;
+        return described->second.tool;
     }
     for (const Tool& tool : job.tools) {
         if (tool.number == number || (number == 0 && job.tools.size() == 1)) {
@@ -67,6 +63,14 @@ double spacing_for(const path::Move& move)
 }
 
 }  // namespace
+
+void refuse_unnamed_tool(const Job& job, const std::string& file)
+{
+    throw InputError(
+        fmt::format("{}: its tool is not known: there is neither a T word nor a comment such as "
+                    "\"(tool 1 flat diameter 6 mm)\" before its first cut, and {} has {} tools",
+                    file, job.file, job.tools.size()));
+}
 
 std::vector<EarlierCut> straight_cuts(const Program& program,
                                       const std::function<const Tool&(int)>& tool_of)

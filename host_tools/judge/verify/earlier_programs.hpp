@@ -22,6 +22,9 @@ struct EarlierCut {
     std::uint32_t line{};  // of its program
 };
 
+// Errors: InputError, always: the program names no tool before its first cut, and the job has several.
+[[noreturn]] void refuse_unnamed_tool(const job::Job& job, const std::string& file);
+
 // The feed moves of a program as straight moves, with the tool that `tool_of` has for each number.
 //
 // The first move is left out: the place before it is not known.

@@ -184,8 +184,9 @@ private:
         if (!tool) {
             return;
         }
-        const auto [known, is_new] = program_.tools.emplace(tool->number, *tool);
-        if (!is_new && !is_same_cutter(known->second, *tool)) {
+        const auto [known, is_new] =
+            program_.tools.try_emplace(tool->number, DescribedTool{*tool, number_});
+        if (!is_new && !is_same_cutter(known->second.tool, *tool)) {
             throw InputError(fmt::format("{}:{}: tool {} is another one than in a comment before",
                                          file_, number_, tool->number),
                              {file_, number_});

@@ -18,11 +18,17 @@ struct ProgramMove {
     int tool;  // the last T word before it, else the last comment "(tool N ..."; 0 if none
 };
 
+// A tool as a comment describes it.
+struct DescribedTool {
+    toolpath::Tool tool;
+    std::uint32_t line;  // of the comment
+};
+
 struct Program {
     std::vector<ProgramMove> moves;
-    std::set<int> offsets;                // of its moves: 54 for G54, to 59; 60 for G59.1 to G59.3
-    std::map<int, toolpath::Tool> tools;  // that comments describe: tool_comment.hpp
-    toolpath::MoveCounts counts;          // a NURBS of many pieces counts once
+    std::set<int> offsets;               // of its moves: 54 for G54, to 59; 60 for G59.1 to G59.3
+    std::map<int, DescribedTool> tools;  // by number: tool_comment.hpp
+    toolpath::MoveCounts counts;         // a NURBS of many pieces counts once
 };
 
 inline constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "host_tools/job/job/finish_keys.hpp"
+#include "host_tools/judge/verify/earlier_programs.hpp"
 #include "host_tools/judge/verify/path_positions.hpp"
 #include "host_tools/judge/verify/stock_grid.hpp"
 #include "host_tools/judge/verify/verify_stages.hpp"
@@ -67,13 +68,13 @@ Scene scene_of(const Job& job)
 
 const Tool& tool_of(const Job& job, int number, const std::string& program)
 {
-    if (number == 0) {
-        return job.tools.front();
-    }
     for (const Tool& tool : job.tools) {
-        if (tool.number == number) {
+        if (tool.number == number || (number == 0 && job.tools.size() == 1)) {
             return tool;
         }
+    }
+    if (number == 0) {
+        refuse_unnamed_tool(job, program);
     }
     throw InputError(fmt::format("{}: T{} is no tool of the job {}", program, number, job.file));
 }
@@ -118,11 +119,13 @@ void read_positions(Verifying& work)
     int current = -1;
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
         const ProgramMove& m = program.moves[k];
+        const bool rapid = m.move.kind == path::MoveKind::kRapid;
+        const Tool& tool = rapid && m.tool == 0 ? work.job.tools.front()
+                                                : tool_of(work.job, m.tool, work.program_file);
         if (m.tool != current) {
             current = m.tool;
-            runs.push_back({tool_of(work.job, m.tool, work.program_file), {}, {}});
+            runs.push_back({tool, {}, {}});
         }
-        const bool rapid = m.move.kind == path::MoveKind::kRapid;
         ToolPositions& run = runs.back();
         if (k == 0) {  // the machine's start position is unknown
             run.tips.push_back(xyz(to_millimetres(m.move.end)));

@@ -152,8 +152,14 @@ std::optional<Tool> ToolComments::tool_after(std::string_view line)
 
 bool is_same_cutter(const Tool& a, const Tool& b)
 {
-    return a.shape == b.shape && a.radius == b.radius && a.corner_radius == b.corner_radius &&
-           a.tip_angle == b.tip_angle && a.tip_radius == b.tip_radius;
+    constexpr double kSameSize = 1e-3;   // mm
+    constexpr double kSameAngle = 1e-3;  // radians
+    const auto is_same = [](double one, double other) {
+        return std::abs(one - other) < kSameSize;
+    };
+    return a.shape == b.shape && is_same(a.radius, b.radius) &&
+           is_same(a.corner_radius, b.corner_radius) && is_same(a.tip_radius, b.tip_radius) &&
+           std::abs(a.tip_angle - b.tip_angle) < kSameAngle;
 }
 
 }  // namespace cusp::verify

@@ -25,7 +25,7 @@ private:
     std::string begun_;  // of a comment on a tool whose sizes are not complete yet
 };
 
-// True if shape and sizes are equal.
+// True if shape and sizes are equal, within what the digits of a comment and of a job may differ.
 bool is_same_cutter(const toolpath::Tool& a, const toolpath::Tool& b);
 
 }  // namespace cusp::verify

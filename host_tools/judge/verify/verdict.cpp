@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "host_tools/geometry/toolpath/gcode_text.hpp"
+#include "host_tools/judge/verify/tool_comment.hpp"
+
 #include "fmt/format.h"
 
 namespace cusp::verify {
@@ -65,6 +68,21 @@ void judge_contacts(Verification& result)
     }
 }
 
+// Where the program describes another tool than the job's, one of the two is not in the spindle.
+void judge_tools(const Job& job, Verification& result)
+{
+    for (const ToolFigures& f : result.figures.tools) {
+        const auto described = result.program.tools.find(f.tool.number);
+        if (described != result.program.tools.end() &&
+            !is_same_cutter(described->second.tool, f.tool)) {
+            result.broken.push_back(fmt::format("{} by its comment in line {}, {} by {}",
+                                                tool_sizes(described->second.tool, 1, "mm"),
+                                                described->second.line, tool_sizes(f.tool, 1, "mm"),
+                                                job.file));
+        }
+    }
+}
+
 }  // namespace
 
 void judge(const Job& job, std::optional<double> scallop, Verification& result)
@@ -91,6 +109,7 @@ void judge(const Job& job, std::optional<double> scallop, Verification& result)
                                             *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
     }
     judge_contacts(result);
+    judge_tools(job, result);
     if (f.between_sides && is_too_thin(job, *f.between_sides)) {
         result.broken.push_back(sentence_of(job, *f.between_sides));
     }

@@ -33,7 +33,8 @@ struct Scene {
     bool has_floor() const { return !surfaces.empty() || !mesh.empty(); }
 };
 
-// The job's tool of this number; 0 is its first. Errors: InputError, naming the program, for one that it has not.
+// The job's tool of this number. Errors: InputError, naming the program, for one that it has not, and for 0, that of a
+// program that names no tool, where the job has several.
 const toolpath::Tool& tool_of(const job::Job& job, int number, const std::string& program);
 
 struct Verifying {

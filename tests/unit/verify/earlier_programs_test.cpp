@@ -103,7 +103,7 @@ TEST(ToolComment, has_all_sizes_in_every_form_of_program)
         write_program(out, form, {{path, {}}});
         const Program program = read_program({}, folder.with("p.ngc", out.str()), 5);
         LONGS_EQUAL(1, program.tools.size());
-        const Tool& tool = program.tools.begin()->second;
+        const Tool& tool = program.tools.begin()->second.tool;
         LONGS_EQUAL(path.tool.number, tool.number);
         CHECK(path.tool.shape == tool.shape);
         DOUBLES_EQUAL(path.tool.radius, tool.radius, kSame);
