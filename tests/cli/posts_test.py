@@ -18,6 +18,7 @@ import unittest
 
 import numpy
 
+from cusp_case import share_of
 from pocket_case import PocketCase
 
 EXAMPLES = "--examples" in sys.argv
@@ -43,6 +44,21 @@ WORDS = {
     "marlin": {"G0", "G1", "G20", "G21", "G90", "M0", "M3", "M5", "M8", "M9"},
 }
 VALUES = {"X", "Y", "Z", "I", "J", "K", "R", "F", "S", "N"}
+SQUARE = ("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\no\n90\n4\n70\n1\n" +
+          "".join(f"10\n{x}\n20\n{y}\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))) + "0\nENDSEC\n0\nEOF\n")
+LEVEL = """units = "inch"
+[tool]
+{tool}
+[cutting]
+feed = 30
+[stock]
+top = 0
+bottom = -0.5
+[[operation]]
+strategy = "pocket"
+boundary = "square.dxf#o"
+depth = {depth}
+"""
 NEAR = 0.0029  # mm: between set points of two readers' paths
 SAME = 0.0009  # mm: between their ends; to both is added what rs274 rounds, 0.0001 mm, in inches 0.0022
 
@@ -161,6 +177,16 @@ class Posts(PocketCase):
         self.write("job.toml", job + "floor_tolerance = 0.003\n")
         self.assertIn('floor_tolerance is 0.003 mm, but the post "fanuc" rounds to 3 decimals',
                       self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
+
+    def test_level_pockets_of_few_decimals_hold(self):
+        for post in ("fanuc", "haas"):
+            for depth in share_of([f"0.{k}" for k in range(11906, 12006, 9)]):
+                for tool in ('shape = "flat"\ndiameter = 0.16', 'shape = "bull"\ndiameter = 0.2\ncorner_radius = 0.03'):
+                    with self.subTest(post=post, depth=depth, tool=tool):
+                        self.write("square.dxf", SQUARE)
+                        self.write("job.toml", LEVEL.format(depth=depth, tool=tool))
+                        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--post", post)
+                        self.cusp(0, "verify", "job.toml", "p.ngc")
 
     def test_what_the_target_lacks_is_refused_by_name(self):
         self.job("nurbs")

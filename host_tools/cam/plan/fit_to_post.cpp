@@ -14,6 +14,7 @@ using job::Operation;
 using job::OutputForm;
 using toolpath::added_rounding;
 using toolpath::Coolant;
+using toolpath::last_decimal_of;
 using toolpath::Post;
 using toolpath::Tool;
 
@@ -77,6 +78,15 @@ void check_words(const Job& job, double blend)
     }
 }
 
+// mm: paths over a level floor lie half of this above it, and half of the last decimal higher at most: both together
+// are the tolerance that verify() holds them to, however few the decimals.
+double level_floor_tolerance(const Job& job, const Operation& operation)
+{
+    constexpr double kLeast = 5e-4;  // mm
+    const double floor = operation.tolerance.floor;
+    return std::clamp(2 * floor - last_decimal_of(job.post, job.inch), kLeast, floor);
+}
+
 // Takes what the post's rounding adds off the tolerances, so that the written path holds them. Throws InputError if
 // a tolerance is too small for that.
 void leave_room_for_rounding(Job& job)
@@ -97,15 +107,18 @@ void leave_room_for_rounding(Job& job)
         value -= by;
     };
     for (Operation& operation : job.operations) {
-        if (operation.tolerance.default_floor) {
-            operation.tolerance.floor = std::max(operation.tolerance.floor, 3 * added);
+        const bool is_level = operation.tolerance.default_floor;
+        if (is_level) {
+            operation.tolerance.floor = level_floor_tolerance(job, operation);
         }
         if (operation.tolerance.default_scallop) {
             operation.tolerance.scallop =
-                std::max(*operation.tolerance.scallop, 2 * operation.tolerance.floor);
+                std::max(*operation.tolerance.scallop, 2 * (operation.tolerance.floor + added));
         }
-        // twice: half of a floor tolerance has been spent on the height field of a mesh
-        reduce(operation, "floor_tolerance", operation.tolerance.floor, 2 * added);
+        if (!is_level) {
+            // twice: half of a floor tolerance has been spent on the height field of a mesh
+            reduce(operation, "floor_tolerance", operation.tolerance.floor, 2 * added);
+        }
         reduce(operation, "plan_tolerance", operation.tolerance.plan, added);
         if (operation.tolerance.scallop) {
             reduce(operation, "scallop", *operation.tolerance.scallop, added);

@@ -27,10 +27,15 @@ std::string in_form(const std::string& text, CommentForm form)
 
 }  // namespace
 
-double rounding_of(const Post& post, bool inch)
+double last_decimal_of(const Post& post, bool inch)
 {
     const double unit = inch ? kMillimetresPerInch : 1.0;
-    return kMostRounding * unit * elementary::power_of_ten(-post.decimals(inch));
+    return unit * elementary::power_of_ten(-post.decimals(inch));
+}
+
+double rounding_of(const Post& post, bool inch)
+{
+    return kMostRounding * last_decimal_of(post, inch);
 }
 
 double added_rounding(const Post& post, bool inch)

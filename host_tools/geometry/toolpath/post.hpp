@@ -52,6 +52,9 @@ struct Post {
     int decimals(bool inch) const { return inch ? inch_decimals : mm_decimals; }
 };
 
+// mm: the last decimal.
+double last_decimal_of(const Post& post, bool inch);
+
 // mm: bound on the error of rounding to the post's decimals. Each axis moves by half of the last
 // decimal. Rounding the centre or radius of an arc adds an error that the writer measures and keeps
 // below 1.5 of the last decimal.

@@ -81,7 +81,7 @@ struct CutOutline {
 struct CutTolerance {
     double plan{};   // across walls
     double floor{};  // of the path against the floor
-    // The floor's is a level floor's default: a post with fewer decimals may raise it.
+    // The floor's is a level floor's default, which a post's decimals make smaller for the path: fit_to_post.
     bool default_floor{false};
     ToleranceSide side{ToleranceSide::kOutside};
     std::optional<double> scallop;

@@ -141,7 +141,8 @@ def verify(folder, program):
 def sound(job, folder, seed):
     post = POSTS[seed % len(POSTS)]
     planned = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc", "--post", post)
-    if planned.returncode == 2 and any(text in planned.stderr + planned.stdout for text in ("no room", "has no G2 and G3")):
+    if planned.returncode == 2 and any(
+            text in planned.stderr + planned.stdout for text in ("no room", "has no G2 and G3", "has no {offset}")):
         return None
     if planned.returncode:
         return f"plan by {post}: {planned.stdout[-200:]}{planned.stderr[-400:]}"
