@@ -12,7 +12,7 @@ using toolpath::Toolpath;
 
 std::vector<RapidInStock> rapids_in_stock(const Job& job, const std::vector<const Toolpath*>& paths)
 {
-    // Twice verify()'s pitch and spacing: an eighth of its work.
+    // Twice verify()'s spacing, half of its work. Its pitch: what stands beside two cuts may be thinner than twice that.
     constexpr double kCoarser = 2;
     const double spacing = kCoarser * position_spacing(job);
     std::vector<ToolPositions> runs;
@@ -20,10 +20,10 @@ std::vector<RapidInStock> rapids_in_stock(const Job& job, const std::vector<cons
         runs.push_back(positions_on(*path, spacing));
     }
     const PartBox floors = floors_box(job);
-    const double pitch = kCoarser * stock_grid(job, floors, std::nullopt, kUnbounded).pitch;
     std::vector<RapidInStock> rapids;
-    for (const RapidOfRun& rapid : deep_rapids(
-             job, runs, spacing, stock_grid(job, floors, pitch, kUnbounded), RapidCut::kAtEnd)) {
+    for (const RapidOfRun& rapid :
+         deep_rapids(job, runs, spacing, stock_grid(job, floors, std::nullopt, kUnbounded),
+                     RapidCut::kAtEnd)) {
         rapids.push_back({rapid.run, rapid.line, rapid.depth, rapid.tip, rapid.end_depth});
     }
     return rapids;

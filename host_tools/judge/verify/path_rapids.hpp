@@ -20,7 +20,7 @@ struct RapidInStock {
 };
 
 // The rapid moves that cut deeper than kRapidCutAllowed, in order. The paths are cut one after the other from the
-// job's stock and what earlier programs leave of it, at twice the pitch and the spacing of verify(), whatever the
+// job's stock and what earlier programs leave of it, at the pitch and twice the spacing of verify(), whatever the
 // stock's size. A move that is
 // found counts as one that comes to its end from above, at feed: later ones are judged after that. Only the
 // surroundings of rapid moves below the stock's top are cut: it costs nothing where there are none.
