@@ -70,6 +70,18 @@ class Machines(CuspCase):
         self.plan()
         self.assertNotIn("M6", (self.folder / "p.ngc").read_text())
 
+    def test_what_no_controller_reaches_is_refused(self):
+        outline = "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\no\n10\n{x}\n20\n{y}\n40\n{r}\n0\nENDSEC\n0\nEOF\n"
+        for units, unit in (("mm", 1), ("inch", 25.4)):
+            for x, y, goes in ((99900, 0, ""), (100000, 0, "x 100023"), (5, -412300, "y -412323"), (-2e5, 1, "x -200023")):
+                self.write("far.dxf", outline.format(x=x / unit, y=y / unit, r=20 / unit))
+                call = ("plan", "far.dxf", "--units", units, "--tool", f"flat:{6 / unit}", "--depth", f"{1 / unit}", "-o", "p.ngc")
+                with self.subTest(units=units, x=x, y=y):
+                    said = self.cusp(2 if goes else 0, *call)
+                    self.assertEqual(bool(goes), "controllers take 100000 mm from the origin at most" in said, said)
+                    self.assertIn(f"goes to {goes}" if goes else "wrote p.ngc", said)
+                    self.cusp(0, *call, "--origin", "corner")
+
     def test_rates_beyond_it_are_refused_where_they_are_given(self):
         for given, words in (
                 (dict(feed=4001), "job.toml:8: cutting: feed: is 4001 mm/min, above the 4000 mm/min of mill.toml:3: max_rate"),

@@ -1,7 +1,9 @@
 // The machine's rates and its travel.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "firmware/gcode/decimal.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cam/plan/stages.hpp"
 
@@ -77,6 +79,19 @@ std::string words_of(const PlannedOperation& operation)
     return fmt::format("operation {}, {}", operation.operation, operation.stats.strategy);
 }
 
+// Errors: InputError where the controller, and with it verify() and the run for the times, would refuse the target.
+void refuse_far(const Job& job, const Reached& reached, unsigned axis)
+{
+    constexpr double kNanometres = 1e6;  // of a millimetre
+    constexpr double kFarthest = static_cast<double>(gcode::kMaxCoordinateNm) / kNanometres;
+    if (reached.by != nullptr && !(std::abs(reached.at) <= kFarthest)) {
+        throw InputError(fmt::format(
+            "{}: {} goes to {} {:.10g} mm, controllers take {:g} mm from the origin at most: "
+            "origin = \"corner\" in [placing] (--origin corner) moves the part there",
+            job.file, words_of(*reached.by), "xyz"[axis], reached.at, kFarthest));
+    }
+}
+
 void put_limit(const std::optional<MachineLimit>& limit,
                Setting setting,
                unsigned axis,
@@ -113,13 +128,11 @@ void prove_travel(Planning& planning)
 {
     const Job& job = planning.job;
     const job::AxisValues& travel = job.machine.travel;
-    if (std::none_of(travel.begin(), travel.end(),
-                     [](const auto& limit) { return limit.has_value(); })) {
-        return;
-    }
     const Extents extents = extents_of(planning.program, job.stock_top + job.clearance);
     for (unsigned axis = 0; axis < kAxes; ++axis) {
         const auto& [low, high] = extents[axis];
+        refuse_far(job, low, axis);
+        refuse_far(job, high, axis);
         if (!travel[axis] || high.at - low.at <= travel[axis]->value) {
             continue;
         }
