@@ -28,14 +28,14 @@ boundary = "disc.dxf#c"
 side = "{side}"
 depth = {depth}
 lead_in = {lead}
-tabs = {{ count = {count}, width = 4, height = {height}{more} }}
+tabs = {{ count = {count}, width = {width}, height = {height}{more} }}
 """
 
 
 class Tabs(CuspCase):
     def plan(self, radius, **job):
         self.write("disc.dxf", f"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nc\n10\n0\n20\n0\n40\n{radius}\n0\nENDSEC\n0\nEOF\n")
-        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, **job}))
+        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, "width": 4, **job}))
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
         return (self.folder / "p.ngc").read_text()
 
@@ -52,13 +52,45 @@ class Tabs(CuspCase):
         for count in (1, 3):
             for left in (0.1, 0.3, 0.8):
                 with self.subTest(count=count, left=left):
-                    program = self.plan(12, diameter=4, side="outside", depth=3, height=1, count=count)
+                    program = self.plan(12, diameter=4, side="outside", depth=3, height=1, count=count, more=', shape = "square"')
                     higher = re.sub(r"Z-3\b", f"Z-{3 - left:.1f}", program)
                     self.assertNotEqual(program, higher)
                     self.write("q.ngc", higher)
                     said = self.cusp(1, "verify", "job.toml", "q.ngc", "--stats", "v.json")
                     figures = json.loads((self.folder / "v.json").read_text())
                     self.assertAlmostEqual(left, figures["level_left_mm"], delta=0.01, msg=said)
+
+    def test_a_tab_is_as_long_as_its_width_and_its_slopes(self):
+        ramp, square = ', shape = "ramp"', ', shape = "square"'
+        cases = ((4, ramp, 4, ramp, 0), (4, square, 4, ramp, 0), (4, ramp, 4, square, 1), (7, ramp, 4, ramp, 1), (7, square, 4, square, 1))
+        for diameter, side in ((4, "outside"), (4, "inside"), (6, "outside")):
+            job = dict(diameter=diameter, side=side, depth=3, height=1.5, count=2)
+            for width, more, wanted, wanted_more, status in cases:
+                with self.subTest(diameter=diameter, side=side, width=width, more=more, wanted=wanted_more):
+                    self.plan(14, **job, width=width, more=more)
+                    self.write("job.toml", JOB.format(**{"lead": 1, "width": wanted, "more": wanted_more, **job}))
+                    said = self.cusp(status, "verify", "job.toml", "p.ngc")
+                    self.assertEqual(status == 1, "over the level of operation 1 (profile)" in said, said)
+
+    def test_a_missing_last_level_is_no_tab(self):
+        program = self.plan(14, diameter=4, side="outside", depth=3, height=1, count=1)
+        self.write("q.ngc", re.sub(r"Z-3\b", "Z-2", program))
+        self.assertIn("left 1 mm over the level", self.cusp(1, "verify", "job.toml", "q.ngc"))
+
+    def test_a_cut_through_the_tabs_of_another_operation_is_named(self):
+        self.plan(14, diameter=4, side="outside", depth=3, height=1, count=4)
+        drawing = (self.folder / "disc.dxf").read_text()
+        job = (self.folder / "job.toml").read_text()
+        for x, y, cut in ((16, 0, True), (11.3, 11.3, False)):
+            self.write("disc.dxf", drawing.replace("0\nENDSEC", f"0\nCIRCLE\n8\nd\n10\n{x}\n20\n{y}\n40\n2.5\n0\nENDSEC"))
+            for depth, order in ((4, 1), (1.5, 1), (4, -1)):
+                parts = job.split("[[operation]]")
+                pocket = f'\nstrategy = "pocket"\nboundary = "disc.dxf#d"\ndepth = {depth}\n'
+                self.write("job.toml", "[[operation]]".join([parts[0], *[parts[1], pocket][::order]]))
+                with self.subTest(x=x, y=y, depth=depth, order=order):
+                    said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+                    self.assertEqual(cut and depth > 2, ": cuts a tab of operation" in said, said)
+                    self.cusp(1 if cut and depth > 2 else 0, "verify", "job.toml", "p.ngc")
 
 
 if __name__ == "__main__":

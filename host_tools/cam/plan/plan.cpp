@@ -29,6 +29,7 @@ constexpr Stage kStages[]{
     prove_reach,
     find_air,
     warn,
+    warn_of_cut_tabs,
     find_engagement,
     write_gcode,
     put_times,

@@ -39,6 +39,8 @@ void prove_reach(Planning& planning);
 void find_air(Planning& planning);
 // Warns of what may not be meant: air, overlaps, levels, tools that are too short.
 void warn(Planning& planning);
+// Warns of an operation that cuts the tabs of another.
+void warn_of_cut_tabs(Planning& planning);
 // Measures the engagement of the tools where the job bounds it, or feeds by it.
 void find_engagement(Planning& planning);
 // Writes the G-code, unless it is written.

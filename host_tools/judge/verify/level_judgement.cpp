@@ -21,6 +21,9 @@ using job::ProfileSide;
 
 namespace {
 
+constexpr double kSlopeRun = 2;  // of a ramped tab's end, over its height
+constexpr char kTooLong = 2;     // in a map of tops of tabs
+
 class LevelJudge {
 public:
     LevelJudge(const LevelQuestion& question, VerifyFigures& figures)
@@ -251,11 +254,14 @@ private:
                 }
             }
         }
+        mark_long_tops(region, near, tops);
         const std::vector<double> away = distances_from(tops, q_.grid);
         if (!of_tabs.empty()) {
             const double foot = tab_foot(region.operation());
             for (const std::size_t at : of_tabs) {
-                high[at] = away[at] <= foot ? 0 : high[at];
+                const bool is_tab = tops[at] != kTooLong && away[at] <= foot &&
+                                    !is_over_slope(region, at, full, away[at]);
+                high[at] = is_tab ? 0 : high[at];
             }
         }
         const int wanted = cut.tabs->count > 0 ? loops_at(region, here) * cut.tabs->count
@@ -294,14 +300,71 @@ private:
         return {x(best), y(best), q_.cut[best]};
     }
 
+    // Marks the points of tops that are longer than a tab, where the tool's axis passes.
+    void mark_long_tops(const CutRegion& region, std::ptrdiff_t near, std::vector<char>& tops) const
+    {
+        std::vector<char> open = tops;
+        std::vector<std::size_t> top;
+        for (std::size_t k = 0; k < open.size(); ++k) {
+            if (open[k] == 0) {
+                continue;
+            }
+            top.assign(1, k);
+            open[k] = 0;
+            for (std::size_t n = 0; n < top.size(); ++n) {
+                add_neighbours(top[n], near, open, top);
+            }
+            top.erase(std::remove_if(top.begin(), top.end(),
+                                     [&](std::size_t at) { return !is_on_way(region, at); }),
+                      top.end());
+            if (static_cast<double>(top.size()) * q_.grid.pitch > most_width(region)) {
+                for (const std::size_t at : top) {
+                    tops[at] = kTooLong;
+                }
+            }
+        }
+    }
+
+    // The points that the tool's axis passes when it goes along the wall, in a row one pitch wide: there a tab is as long
+    // as it should be, and no sliver is left beside its ends.
+    bool is_on_way(const CutRegion& region, std::size_t k) const
+    {
+        const double radius = region.operation().tool.radius;
+        const double room = region.room(x(k), y(k));
+        return region.operation().prismatic->side != ProfileSide::kOn &&
+               room > radius - q_.grid.pitch && room <= radius;
+    }
+
+    // mm: the length of a tab's top along the way of the tool, with what the row of points may be wrong by.
+    double most_width(const CutRegion& region) const
+    {
+        constexpr double kWider = 1.25;
+        constexpr double kPitches = 6;
+        const Operation& operation = region.operation();
+        return kWider * operation.prismatic->tabs->width + 2 * operation.tool.corner_radius +
+               kPitches * q_.grid.pitch;
+    }
+
+    // Whether stock on the tool's way is higher than a tab's end is, so far from its top.
+    bool is_over_slope(const CutRegion& region, std::size_t k, double full, double away) const
+    {
+        constexpr double kPitches = 3;  // the top's last point, and positions on the slope
+        const Operation& operation = region.operation();
+        const double beyond = away - kPitches * q_.grid.pitch - operation.tool.corner_radius;
+        if (!is_on_way(region, k) || beyond <= 0) {
+            return false;
+        }
+        return !operation.prismatic->tabs->ramped ||
+               q_.cut[k] > full - beyond / kSlopeRun + q_.floor_tolerance;
+    }
+
     // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.
     // Stock left farther away is no tab, even if it is joined to one.
     static double tab_foot(const Operation& operation)
     {
-        constexpr double kRun = 2;   // of a slope, over its height
         constexpr double kWall = 2;  // a wall is longer than the path inside it
         const job::Tabs& tabs = *operation.prismatic->tabs;
-        return 2 * operation.tool.radius + (tabs.ramped ? kWall * kRun * tabs.height : 0.0);
+        return 2 * operation.tool.radius + (tabs.ramped ? kWall * kSlopeRun * tabs.height : 0.0);
     }
 
     // Between a wall and the circle that the tool leaves beside an vertical end of a tab stock gets narrow as a square.
