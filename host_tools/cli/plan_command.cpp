@@ -58,8 +58,8 @@ bool explain_jobs(const PlanArguments& options)
         fmt::print("{}", import::job_help(strategies::all(), options.help_name));
     }
     if (options.list_posts) {
-        for (const std::string& name : import::post_names()) {
-            fmt::print("{}: {}\n", name, import::post_text(import::read_post(name, "")));
+        for (const toolpath::Post& post : import::all_posts()) {
+            fmt::print("{}: {}\n", post.name, import::post_text(post));
         }
     }
     return options.schema || options.help_job || options.list_posts;

@@ -18,7 +18,7 @@ import unittest
 
 import numpy
 
-from cusp_case import share_of
+from cusp_case import CUSP, share_of
 from pocket_case import PocketCase
 
 EXAMPLES = "--examples" in sys.argv
@@ -131,6 +131,12 @@ class Posts(PocketCase):
         self.assertEqual(list(POSTS), re.findall(r"^(\w+): ", said, re.M))
         self.assertRegex(said, r"haas: Haas mills\n.*3 and 4 decimals.*G81 G83.*tool change T M06 G43.*coolant M08")
         self.assertRegex(said, r"marlin: Marlin 2\n.*no arcs")
+
+    def test_a_program_that_was_copied_without_its_posts_says_so(self):
+        alone = shutil.copy(CUSP, self.folder)
+        done = subprocess.run([alone, "plan", "--list-posts"], capture_output=True, text=True)
+        self.assertEqual(2, done.returncode)
+        self.assertIn("the posts that come with cusp are not found: share/cusp/posts", done.stderr)
 
     def test_feeds_speeds_and_coolant_are_those_of_the_tool(self):
         self.job()

@@ -31,6 +31,18 @@ std::vector<std::string> data_names(const DataKind& kind)
     return names;
 }
 
+std::vector<std::string> data_names_or_refuse(const DataKind& kind)
+{
+    std::vector<std::string> names = data_names(kind);
+    if (names.empty()) {
+        throw InputError(
+            fmt::format("the {0} that come with cusp are not found: share/cusp/{0} stands beside "
+                        "the folder bin of the program",
+                        kind.folder));
+    }
+    return names;
+}
+
 fs::path data_file(const DataKind& kind, const std::string& name, const fs::path& folder)
 {
     if (path_ending(name) == ".toml") {
@@ -39,7 +51,7 @@ fs::path data_file(const DataKind& kind, const std::string& name, const fs::path
     const bool plain = name.find('/') == std::string::npos;
     const auto found = plain ? files::program_data(kind.folder, name + ".toml") : std::nullopt;
     if (!found) {
-        const std::vector<std::string> names = data_names(kind);
+        const std::vector<std::string> names = data_names_or_refuse(kind);
         const auto nearest = nearest_names(name, names, 1);
         throw InputError(fmt::format(
             "{} \"{}\": there is none of that name{}; there are: {}; a {} of one's own is a path "

@@ -18,6 +18,9 @@ struct DataKind {
 // Their names, in alphabetical order.
 std::vector<std::string> data_names(const DataKind& kind);
 
+// The same. Errors: InputError if there are none: the program was copied without them.
+std::vector<std::string> data_names_or_refuse(const DataKind& kind);
+
 // The file of that name; or `name` itself, relative to `folder`, if it ends in .toml.
 //
 // Errors: InputError with the nearest name and all of them.

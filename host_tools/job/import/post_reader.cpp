@@ -173,6 +173,15 @@ std::string post_text(const Post& post)
 
 std::vector<std::string> post_names() { return data_names(kPosts); }
 
+std::vector<Post> all_posts()
+{
+    std::vector<Post> posts;
+    for (const std::string& name : data_names_or_refuse(kPosts)) {
+        posts.push_back(read_post(name, ""));
+    }
+    return posts;
+}
+
 Post read_post(const std::string& name, const fs::path& folder)
 {
     if (name == kPosts.always) {

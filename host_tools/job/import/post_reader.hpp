@@ -21,6 +21,9 @@ toolpath::Post read_post(const std::string& name, const std::filesystem::path& f
 // Names of the built-in posts, in alphabetical order.
 std::vector<std::string> post_names();
 
+// They themselves. Errors: InputError if the program was copied without them.
+std::vector<toolpath::Post> all_posts();
+
 // Two lines: the controller, and what programs for it hold.
 std::string post_text(const toolpath::Post& post);
 
