@@ -2,9 +2,9 @@
 # Installs what is missing, builds, cross-builds the images and runs the tests. See docs/testing.md.
 # usage: ./test.sh [--all | --release]
 #   --all, or CI=true: also the long tests, with a fifth of the random cases, the unit tests under ASan and UBSan, loops on
-#   several threads under ThreadSanitizer, bounded fuzzing, the packages, and the demo and the packages in bare roots
-#   --release: all of that with all random cases, the tests labelled `release`, programs beside LinuxCNC's rs274, a build with clang,
-#     make and neither Eigen nor Open CASCADE, and the studio in one file made anew
+#   several threads under ThreadSanitizer, bounded fuzzing, the packages, and a clone and the packages in bare roots
+#   --release: all of that with all random cases, the demo in that clone, the tests labelled `release`, programs beside LinuxCNC's
+#     rs274, a build with clang, make and neither Eigen nor Open CASCADE, and the studio in one file made anew
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -84,7 +84,7 @@ packages_and_roots() {
     echo "making the packages"
     quietly build/package.log .ci/package ci
     step packages tests/fresh/lint.sh out/packages
-    step "bare roots" tests/fresh/fresh_test.sh out/packages
+    step "bare roots" tests/fresh/fresh_test.sh $([ "$release" = yes ] || echo --quick) out/packages
 }
 
 # beside COMMAND: runs it while what follows goes on, up to join_beside, which shows its output and adds its steps

@@ -36,7 +36,8 @@ if [ ! -d "$root/etc" ]; then
     # The sources of this machine: where it gets its packages, the bare one can.
     sources=/etc/apt/sources.list.d/debian.sources
     [ -f "$sources" ] || sources=/etc/apt/sources.list
-    mmdebstrap --quiet --variant=minbase --include=ca-certificates,git,sudo bookworm "$root" "$sources"
+    # A root that goes again need not wait for its disk after each file.
+    mmdebstrap --quiet --variant=minbase --dpkgopt=force-unsafe-io --include=ca-certificates,git,sudo bookworm "$root" "$sources"
 fi
 # The root has device nodes of its own, from mmdebstrap: this machine's /dev is never reached from it.
 mount -t proc proc "$root/proc"
