@@ -29,13 +29,14 @@ side = "{side}"
 depth = {depth}
 lead_in = {lead}
 tabs = {{ count = {count}, width = {width}, height = {height}{more} }}
+allowance = {allowance}
 """
 
 
 class Tabs(CuspCase):
     def plan(self, radius, **job):
         self.write("disc.dxf", f"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nc\n10\n0\n20\n0\n40\n{radius}\n0\nENDSEC\n0\nEOF\n")
-        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, "width": 4, **job}))
+        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, "width": 4, "allowance": 0, **job}))
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
         return (self.folder / "p.ngc").read_text()
 
@@ -68,9 +69,22 @@ class Tabs(CuspCase):
             for width, more, wanted, wanted_more, status in cases:
                 with self.subTest(diameter=diameter, side=side, width=width, more=more, wanted=wanted_more):
                     self.plan(14, **job, width=width, more=more)
-                    self.write("job.toml", JOB.format(**{"lead": 1, "width": wanted, "more": wanted_more, **job}))
+                    self.write("job.toml", JOB.format(**{"lead": 1, "allowance": 0, "width": wanted, "more": wanted_more, **job}))
                     said = self.cusp(status, "verify", "job.toml", "p.ngc")
                     self.assertEqual(status == 1, "over the level of operation 1 (profile)" in said, said)
+
+    def test_a_pass_with_allowance_leaves_the_tabs_of_the_last_one(self):
+        for radius, diameter, side, count in ((12, 4, "inside", 3), (12, 4, "outside", 3), (16.85, 6, "outside", 1), (20, 4, "outside", 3)):
+            for lead in (0, 1.5):
+                with self.subTest(radius=radius, diameter=diameter, side=side, count=count, lead=lead):
+                    self.plan(radius, diameter=diameter, side=side, depth=3.84, lead=lead, count=count, height=1.2, allowance=0.3)
+                    self.cusp(0, "verify", "job.toml", "p.ngc")
+
+    def test_a_round_end_goes_over_tabs_near_the_top(self):
+        self.plan(15, diameter=4, side="outside", depth=2, height=1.8)
+        self.write("job.toml", (self.folder / "job.toml").read_text().replace('"flat"', '"bull"\ncorner_radius = 0.5'))
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        self.cusp(0, "verify", "job.toml", "p.ngc")
 
     def test_a_missing_last_level_is_no_tab(self):
         program = self.plan(14, diameter=4, side="outside", depth=3, height=1, count=1)

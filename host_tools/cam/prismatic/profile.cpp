@@ -1,6 +1,7 @@
 // Offset the material, choose a start with room for the leads, and go around level by level.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host_tools/base/input_error/counted.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
@@ -90,6 +91,7 @@ public:
         if (operation_.passes.allowance > 0) {
             const double away = radius + operation_.passes.allowance;
             const Region2d rough = centres_at(away);
+            share_tabs(centres, radius);
             cut_around(rough, away, {});
             cut_around(centres, radius, edges_of(rough));
         } else {
@@ -232,6 +234,22 @@ private:
         return roughed.size() > 0 && std::all_of(contour.begin(), contour.end(), near);
     }
 
+    // Counted tabs get their places from the last pass: that with the allowance leaves them at the same.
+    void share_tabs(const Region2d& centres, double away)
+    {
+        if (!cut_.tabs || cut_.tabs->count == 0) {
+            return;
+        }
+        std::vector<Vec2d> places;
+        for (const Contour& contour : centres.contours) {
+            const LeadContour led = led_contour(contour, away, {}, {});
+            for (const double middle : tab_middles(led.run, {})) {
+                places.push_back(led.run.point(middle));
+            }
+        }
+        shared_tabs_ = places;
+    }
+
     // The tabs that the job places on each contour.
     std::vector<std::vector<Vec2d>> places_by_contour(const Region2d& centres) const
     {
@@ -239,7 +257,7 @@ private:
         if (!cut_.tabs || out.empty()) {
             return out;
         }
-        for (const Vec2d place : cut_.tabs->places) {
+        for (const Vec2d place : shared_tabs_ ? *shared_tabs_ : cut_.tabs->places) {
             std::size_t best = 0;
             double nearest = kUnbounded;
             for (std::size_t n = 0; n < out.size(); ++n) {
@@ -248,6 +266,9 @@ private:
                 nearest = std::min(nearest, d);
             }
             const double most = 2 * operation_.tool.radius + cut_.tabs->width;
+            if (nearest > most && shared_tabs_) {
+                continue;  // there the pass with the allowance has no room
+            }
             if (nearest > most) {
                 throw InputError(
                     fmt::format("{}the tab at x {:.6g} y {:.6g} mm is {:.4g} mm from "
@@ -266,8 +287,9 @@ private:
         for (const Vec2d place : places) {
             middles.push_back(run.nearest_to(place));
         }
-        for (int k = 0; k < cut_.tabs->count; ++k) {
-            middles.push_back(run.length() * (k + 0.5) / cut_.tabs->count);
+        const int count = shared_tabs_ ? 0 : cut_.tabs->count;
+        for (int k = 0; k < count; ++k) {
+            middles.push_back(run.length() * (k + 0.5) / count);
         }
         std::sort(middles.begin(), middles.end());
         const double half = half_of_tab(*cut_.tabs, operation_.tool.radius);
@@ -392,6 +414,7 @@ private:
     PlannedOperation planned_;
     ToolpathWriter writer_;
     EdgeForm form_;
+    std::optional<std::vector<Vec2d>> shared_tabs_;  // of both passes, where there is an allowance
     int passes_{0};
     int contours_{0};
     int tabs_{0};

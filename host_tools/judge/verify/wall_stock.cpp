@@ -455,7 +455,9 @@ WallFaults faults_at_walls(const CutRegion& region, const WallQuestion& question
     if (cut.tabs) {
         const double over = cut.top - cut.depth + cut.tabs->height + question.floor_tolerance +
                             end_height(operation.tool);
-        judge.find_stock(std::min(cut.top, over), true);
+        if (over <= cut.top) {  // else a round end goes over a tab with less than its radius
+            judge.find_stock(over, true);
+        }
     }
     if (!follows_curves(operation)) {
         judge.find_gouges();
