@@ -296,7 +296,7 @@ class Plant:
         wide = self.job.length(self.job.diameter)
         more = self.job.length(self.job.diameter + 2 * size)
         path.write_text(path.read_text().replace(f"diameter = {wide}", f"diameter = {more}", 1))
-        self.lines = [re.sub(r"\((tool \d+ flat) diameter [\d.]+", rf"(\1 diameter {more}", line) for line in self.lines]
+        self.lines = [re.sub(r"\((tool 1 flat) diameter [\d.]+", rf"(\1 diameter {more}", line) for line in self.lines]
         self.name = "wall_gouge_max_mm" if size > 0 else None
         return size
 
