@@ -13,7 +13,7 @@ from cusp_case import CuspCase, share_of
 
 JOB = """units = "mm"
 [[tool]]
-shape = "flat"
+shape = "{shape}"
 diameter = {diameter}
 [cutting]
 feed = 800
@@ -36,7 +36,7 @@ allowance = {allowance}
 class Tabs(CuspCase):
     def plan(self, radius, **job):
         self.write("disc.dxf", f"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nc\n10\n0\n20\n0\n40\n{radius}\n0\nENDSEC\n0\nEOF\n")
-        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, "width": 4, "allowance": 0, **job}))
+        self.write("job.toml", JOB.format(**{"more": "", "lead": 1, "count": 3, "width": 4, "allowance": 0, "shape": "flat", **job}))
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
         return (self.folder / "p.ngc").read_text()
 
@@ -69,7 +69,7 @@ class Tabs(CuspCase):
             for width, more, wanted, wanted_more, status in cases:
                 with self.subTest(diameter=diameter, side=side, width=width, more=more, wanted=wanted_more):
                     self.plan(14, **job, width=width, more=more)
-                    self.write("job.toml", JOB.format(**{"lead": 1, "allowance": 0, "width": wanted, "more": wanted_more, **job}))
+                    self.write("job.toml", JOB.format(**{"lead": 1, "allowance": 0, "shape": "flat", "width": wanted, "more": wanted_more, **job}))
                     said = self.cusp(status, "verify", "job.toml", "p.ngc")
                     self.assertEqual(status == 1, "over the level of operation 1 (profile)" in said, said)
 
@@ -85,6 +85,19 @@ class Tabs(CuspCase):
         self.write("job.toml", (self.folder / "job.toml").read_text().replace('"flat"', '"bull"\ncorner_radius = 0.5'))
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
         self.cusp(0, "verify", "job.toml", "p.ngc")
+
+    def test_a_ball_leaves_tabs_that_are_found(self):
+        for radius, diameter, side, more in share_of([(14, 4, "outside", ""), (14, 4, "inside", ""), (12.3, 6, "outside", ', shape = "square"'),
+                                                      (17.2, 2, "outside", "")]):
+            with self.subTest(radius=radius, diameter=diameter, side=side, more=more):
+                job = dict(shape="ball", diameter=diameter, side=side, depth=3.5, height=1.2, more=more)
+                program = self.plan(radius, **job, count=3)
+                self.assertIn("tabs_standing: 3\n", self.cusp(0, "verify", "job.toml", "p.ngc"))
+                self.plan(radius, **job, count=2)
+                self.write("job.toml", (self.folder / "job.toml").read_text().replace("count = 2", "count = 3"))
+                self.assertIn("tabs: 2 found, 3 expected", self.cusp(1, "verify", "job.toml", "p.ngc"))
+                self.write("q.ngc", re.sub(r"Z-3\.5\b", "Z-2.3", program))
+                self.cusp(1, "verify", "job.toml", "q.ngc")
 
     def test_a_missing_last_level_is_no_tab(self):
         program = self.plan(14, diameter=4, side="outside", depth=3, height=1, count=1)

@@ -163,12 +163,32 @@ private:
         }
         const std::vector<double> away = distances_from(centres, q_.grid);
         const double reach = std::max(0.0, flat_radius(operation.tool) - 2 * pitch);
+        const bool traced = is_traced(operation);
         // of a profile, the way of the tool along the wall; a point nearer than its radius is on it
         const double deepest = operation.cuts(job::Region::kOutline) ? radius : kUnbounded;
         for (std::size_t k = 0; k < room.size(); ++k) {
-            out[k] = room[k] > pitch && room[k] <= deepest && away[k] <= reach ? 1 : 0;
+            const bool cut =
+                traced ? room[k] > radius - pitch && room[k] <= radius && away[k] <= traced_reach()
+                       : room[k] > pitch && room[k] <= deepest && away[k] <= reach;
+            out[k] = cut ? 1 : 0;
         }
         return out;
+    }
+
+    // Whether an end without a flat leaves tabs: it cuts the floor where its tip goes alone, in a row one pitch wide.
+    bool is_traced(const Operation& operation) const
+    {
+        return operation.cuts(job::Region::kOutline) && operation.prismatic->tabs &&
+               flat_radius(operation.tool) <= 2 * q_.grid.pitch;
+    }
+
+    // mm: how far the tip passes from a point of that row.
+    double traced_reach() const { return 2 * q_.grid.pitch; }
+
+    // mm: how far such an end cuts a point of that row above its tip.
+    double above_tip(const Operation& operation) const
+    {
+        return is_traced(operation) ? profile_height(operation.tool, traced_reach()) : 0.0;
     }
 
     bool is_inside(const CutRegion& region, std::size_t k) const
@@ -203,7 +223,7 @@ private:
             const RegionAt at = region.at(x(k), y(k), k);
             const double left = q_.cut[k] - at.floor;
             maps_.left[k] = std::isnan(maps_.left[k]) ? left : std::min(maps_.left[k], left);
-            high[k] = left - at.above > q_.floor_tolerance + at.left ? 1 : 0;
+            high[k] = left - at.above > q_.floor_tolerance + at.left + above_tip(operation) ? 1 : 0;
         }
         figures_.cells += cells;
         find_wall_faults(region, high);
@@ -233,6 +253,7 @@ private:
         std::vector<char> tops(high.size(), 0);
         std::vector<std::size_t> of_tabs;
         const std::ptrdiff_t near = points_between_slivers(region.operation().tool.radius);
+        const double top_tolerance = q_.floor_tolerance + above_tip(region.operation());
         int standing = 0;
         for (std::size_t k = 0; k < open.size(); ++k) {
             if (open[k] == 0) {
@@ -245,11 +266,11 @@ private:
                 add_neighbours(island[n], near, open, island);
                 highest = std::max(highest, q_.cut[island[n]]);
             }
-            if (std::abs(highest - full) <= q_.floor_tolerance &&
+            if (std::abs(highest - full) <= top_tolerance &&
                 extent_of(island) >= cut.tabs->width / 2) {
                 ++standing;
                 for (const std::size_t at : island) {
-                    tops[at] = std::abs(q_.cut[at] - full) <= q_.floor_tolerance ? 1 : 0;
+                    tops[at] = std::abs(q_.cut[at] - full) <= top_tolerance ? 1 : 0;
                     of_tabs.push_back(at);
                 }
             }
@@ -355,7 +376,7 @@ private:
             return false;
         }
         return !operation.prismatic->tabs->ramped ||
-               q_.cut[k] > full - beyond / kSlopeRun + q_.floor_tolerance;
+               q_.cut[k] > full - beyond / kSlopeRun + q_.floor_tolerance + above_tip(operation);
     }
 
     // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.
