@@ -32,7 +32,7 @@ public:
     // Offsets and stored positions as `$#` gives them: to a thousandth of a millimetre.
     gcode::Parameters parameters() const;
 
-    // What a record keeps of a transfer that begins at this place of the machine.
+    // The state that a record keeps of a transfer that begins at this place of the machine.
     TransferStart start_at(Position machine) const;
 
 private:

@@ -175,7 +175,7 @@ private:
         return out;
     }
 
-    // Whether an end without a flat leaves tabs: it cuts the floor where its tip goes alone, in a row one pitch wide.
+    // True where an end without a flat leaves tabs: it cuts the floor where its tip goes alone, in a row one pitch wide.
     bool is_traced(const Operation& operation) const
     {
         return operation.cuts(job::Region::kOutline) && operation.prismatic->tabs &&
@@ -366,7 +366,7 @@ private:
                kPitches * q_.grid.pitch;
     }
 
-    // Whether stock on the tool's way is higher than a tab's end is, so far from its top.
+    // True if stock on the tool's way is higher than a tab's end is, so far from its top.
     bool is_over_slope(const CutRegion& region, std::size_t k, double full, double away) const
     {
         constexpr double kPitches = 3;  // the top's last point, and positions on the slope

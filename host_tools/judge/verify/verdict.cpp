@@ -68,7 +68,7 @@ void judge_contacts(Verification& result)
     }
 }
 
-// Where the program describes another tool than the job's, one of the two is not in the spindle.
+// A tool of the program that is not the job's: one of the two is not in the spindle.
 void judge_tools(const Job& job, Verification& result)
 {
     for (const ToolFigures& f : result.figures.tools) {
