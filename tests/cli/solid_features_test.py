@@ -217,6 +217,18 @@ class SolidFeatures(unittest.TestCase):
             self.assertEqual(not breaks, "the vee would gouge the part beside them" in said, said)
             self.assertEqual([], faults_of_ground(SweptHeights(program), block, tools))
 
+    def test_of_a_mouth_near_a_wall_the_rest_is_broken(self):
+        block = FeaturedBlock(FIRST, (3.0,))
+        block.edge, block.shelf = 27.0, 7.0
+        block.holes = [RoundHole(31, 14, [(3.0, 7.0), (1.5, 5.5), (1.5, 0.0)], "countersunk")]
+        said, program = self.plan(block, Tools([7.0], [3.0], [6.0]))
+        self.assertRegex(said, r"1 edge at z 7, 1\.5 mm wide: \d\.\d+ mm of 9\.4\d* broken, vee 6 mm of 90 degrees; the rest "
+                         "stays, such as at x ")
+        cut = SweptHeights(program)
+        self.assertEqual([], faults_of_ground(cut, block, Tools([7.0], [3.0])))
+        self.assertLess(cut.at(31 + 2.25, 14), 6.25 + WITHIN)
+        self.assertGreater(cut.at(31 - 2.9, 14), 7 - WITHIN)
+
     def test_inches(self):
         block, tools = FeaturedBlock(FIRST, DIAMETERS, chamfered=True), Tools([2.5], [4.0], [6.0])
         (self.folder / "part.step").write_text(block.step())

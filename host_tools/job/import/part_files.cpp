@@ -11,9 +11,9 @@
 #include "host_tools/job/import/mesh_file.hpp"
 #include "host_tools/job/import/mesh_holes.hpp"
 #include "host_tools/job/import/nurbs_validity.hpp"
+#include "host_tools/job/import/part_edges.hpp"
 #include "host_tools/job/import/part_regions.hpp"
 #include "host_tools/job/import/path_ending.hpp"
-#include "host_tools/job/import/solid_edges.hpp"
 #include "host_tools/job/job/loop_shape.hpp"
 
 #include "fmt/format.h"
@@ -227,7 +227,10 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
         const DrawnPaths* const drawn = this->drawn(file, millimetres);
         found->second = drawn == nullptr ? read_loops(file, millimetres, gaps, notes_)
                                          : loops_of(file, *drawn, gaps, notes_);
-        keep_broken_edges(file, millimetres, found->second);
+        if (names_broken_edges(file)) {
+            keep_broken_edges(file, millimetres, facets(without_layer(file), millimetres),
+                              found->second);
+        }
         move_loops(placed_drawing(file), found->second);
         repeat(copies(file), found->second);
         for (const FileLoop& loop : found->second) {
@@ -246,7 +249,10 @@ FileShapes PartFiles::shapes(const std::string& file,
     const DrawnPaths* const drawn = this->drawn(file, millimetres);
     FileShapes shapes = drawn == nullptr ? read_shapes(file, layers, millimetres, gaps, notes_)
                                          : shapes_of(file, *drawn, gaps, notes_);
-    keep_broken_edges(file, millimetres, shapes.loops);
+    if (names_broken_edges(file)) {
+        keep_broken_edges(file, millimetres, facets(without_layer(file), millimetres),
+                          shapes.loops);
+    }
     move_loops(move, shapes.loops);
     repeat(copies(file), shapes.loops);
     for (const FileLoop& loop : shapes.loops) {
@@ -299,31 +305,6 @@ const DrawnPaths* PartFiles::drawn(const std::string& name, double millimetres)
                                     filled ? mouths_of(cad_holes(file)) : std::vector<job::Hole>{});
     }
     return &found->second;
-}
-
-// Of a region of broken edges; their depths are those among all loops.
-void PartFiles::keep_broken_edges(const std::string& name,
-                                  double millimetres,
-                                  std::vector<FileLoop>& loops)
-{
-    const auto band = names_part_region(name) ? edge_band(name, millimetres) : std::nullopt;
-    if (!band) {
-        return;
-    }
-    const offset::Region2d broken =
-        SolidEdges{facets(without_layer(name), millimetres)}.loops(*band);
-    const offset::EdgeTree tree{edges_of(broken)};
-    const auto is_other = [&](const FileLoop& loop) {
-        const Vec3d p = loop.loop.front().points.front();
-        return !tree.any_nearer(in_plan(p), 3 * kRegionFit);
-    };
-    loops.erase(std::remove_if(loops.begin(), loops.end(), is_other), loops.end());
-    if (loops.empty()) {
-        throw InputError(fmt::format(
-            "{}: no edge is broken so all around: beside each of its loops the ground would rise "
-            "evenly from z {:g} to {:g} mm within {:g} mm",
-            name, band->low, band->high, band->width));
-    }
 }
 
 // A region is that of the part as it is placed.

@@ -85,12 +85,6 @@ public:
 private:
     // A drawing that is no file, where the name is that of one; null: it is a file.
     const DrawnPaths* drawn(const std::string& name, double millimetres);
-    // Takes out the loops that the name of a region of broken edges does not want.
-    //
-    // Errors: InputError: it wants none of them.
-    void keep_broken_edges(const std::string& name,
-                           double millimetres,
-                           std::vector<FileLoop>& loops);
     // tops  z at which they begin; none: all
     std::vector<job::Hole> model_holes(const std::string& name,
                                        DiameterRange range,

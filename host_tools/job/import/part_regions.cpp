@@ -103,16 +103,6 @@ RegionName read_name(const std::string& name, double millimetres)
                     box.low.z, box.high.z));
 }
 
-nurbs::Curve curve_of(const Edge& edge)
-{
-    if (edge.turn == 0) {
-        return line_curve(edge.start, edge.end);
-    }
-    const Vec2d spoke = edge.start - edge.centre;
-    return arc_curve(edge.centre, edge.radius, elementary::atan2(spoke.y, spoke.x),
-                     edge.turn * sweep(edge));
-}
-
 // The circle that the contour is, to a few of its fits; the border of a round hole is one.
 std::optional<nurbs::Curve> circle_of(const offset::Contour& contour)
 {
@@ -240,12 +230,23 @@ Region2d with_holes_filled(const Region2d& region, const std::vector<job::Hole>&
     return offset::united(region, discs);
 }
 
+nurbs::Curve drawn_curve(const Edge& edge)
+{
+    if (edge.turn == 0) {
+        return line_curve(edge.start, edge.end);
+    }
+    const Vec2d spoke = edge.start - edge.centre;
+    return arc_curve(edge.centre, edge.radius, elementary::atan2(spoke.y, spoke.x),
+                     edge.turn * sweep(edge));
+}
+
 DrawnPaths drawn_region(const Region2d& region)
 {
     DrawnPaths drawn;
     for (const offset::Contour& contour : region.contours) {
         DrawingPath path{{}, true};
-        std::transform(contour.begin(), contour.end(), std::back_inserter(path.curves), curve_of);
+        std::transform(contour.begin(), contour.end(), std::back_inserter(path.curves),
+                       drawn_curve);
         drawn.paths.push_back(std::move(path));
     }
     return drawn;

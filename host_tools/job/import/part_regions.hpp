@@ -77,6 +77,9 @@ offset::Region2d with_holes_filled(const offset::Region2d& region,
 // The rectangle of the box.
 offset::Region2d box_region(const PartExtent& box);
 
+// A line or an arc as a curve.
+nurbs::Curve drawn_curve(const offset::Edge& edge);
+
 // Lines and arcs as closed curves.
 DrawnPaths drawn_region(const offset::Region2d& region);
 

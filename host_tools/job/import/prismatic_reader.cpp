@@ -14,6 +14,7 @@
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
+#include "host_tools/job/import/part_edges.hpp"
 #include "host_tools/job/import/part_extent.hpp"
 #include "host_tools/job/import/path_ending.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
@@ -299,6 +300,12 @@ void read_drawing(JobTable& table,
                                               "holes are those of a drawing",
                                               operation.name()));
         }
+    } else if (operation.cuts(job::Region::kGrooves) && names_broken_edges(file)) {
+        if (!cut.given_top) {
+            table.refuse("top", "is missing: broken edges need the z of their upper side");
+        }
+        cut.chains = edge_ways(file, unit, parts.facets(file.substr(0, layer_mark(file)), unit),
+                               operation.tool, *cut.given_top - cut.depth);
     } else if (operation.cuts(job::Region::kGrooves) || is_beside_lines(table)) {
         cut.chains = choice.takes_all() ? parts.chains(file, unit) : chosen_chains(choice, shapes);
         if (cut.chains.empty()) {

@@ -1,16 +1,16 @@
-// Each band by itself: the first vee of its angle that is wide enough.
+// Each band by itself: the first vee of its angle that breaks all of its edges, else the one that breaks most of them.
 #include "host_tools/job/import/solid_chamfers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/toolpath/tool.hpp"
-#include "host_tools/job/import/solid_edges.hpp"
-#include "host_tools/job/job/chamfer_tip.hpp"
 
 namespace cusp::import {
 
@@ -64,6 +64,30 @@ Region2d strips(const Region2d& loops, double reach)
     return all;
 }
 
+// The ground within `reach` of the ways.
+Region2d strips(const std::vector<std::vector<offset::Edge>>& ways, double reach)
+{
+    Region2d all;
+    for (const std::vector<offset::Edge>& way : ways) {
+        for (const offset::Edge& edge : way) {
+            const double most = edge.turn == 0 ? length(edge) : reach / 2;
+            for (const offset::Edge& piece : offset::pieces_of(edge, most)) {
+                const Vec2d along = offset::unit(piece.end - piece.start) * reach;
+                const Vec2d aside = offset::left_normal(along);
+                const std::array<Vec2d, 4> corners{
+                    piece.start - along - aside, piece.end + along - aside,
+                    piece.end + along + aside, piece.start - along + aside};
+                Contour box;
+                for (std::size_t k = 0; k < corners.size(); ++k) {
+                    box.push_back(offset::line_edge(corners[k], corners[(k + 1) % corners.size()]));
+                }
+                all = offset::united(all, {{box}});
+            }
+        }
+    }
+    return all;
+}
+
 void choose_vee(const SolidEdges& edges,
                 const std::vector<NamedTool>& tools,
                 double unit,
@@ -72,25 +96,37 @@ void choose_vee(const SolidEdges& edges,
     const Region2d centres =
         offset::RegionOffset{offset::reversed(chamfer.loops)}.at(job::kChamferTip);
     const bool fits = has_room(chamfer.loops, centres);
-    for (std::size_t k = 0; k < tools.size() && !chamfer.tool; ++k) {
+    for (std::size_t k = 0; k < tools.size(); ++k) {
         const Tool vee = vee_of(tools[k], unit);
         if (tools[k].shape != name_of(ToolShape::kVee) ||
             std::abs(flank_width(vee, chamfer.band) - chamfer.band.width) > kSameFlank) {
             continue;
         }
-        const double width = flank_width(vee, chamfer.band);
+        EdgeBand band = chamfer.band;
+        band.width = flank_width(vee, band);
         const double tip =
-            chamfer.band.high - (width + job::kChamferTip) / elementary::tan(vee.tip_angle / 2);
-        if (job::kChamferTip + width > vee.radius) {
+            band.high - (band.width + job::kChamferTip) / elementary::tan(vee.tip_angle / 2);
+        if (job::kChamferTip + band.width > vee.radius) {
             chamfer.fault = ChamferFault::kTooNarrow;
-        } else if (!fits) {
-            chamfer.fault = ChamferFault::kNoRoom;
-        } else if (!edges.is_clear(vee, centres, tip)) {
-            chamfer.fault = ChamferFault::kWouldGouge;
-        } else {
+            continue;
+        }
+        const double reach = vee.radius + job::kChamferTip;
+        if (!chamfer.all.has_parts && fits && edges.is_clear(vee, centres, tip)) {
+            chamfer.near = strips(chamfer.loops, reach);
+            chamfer.ways.reset();
+            chamfer.band = band;
             chamfer.tool = k;
-            chamfer.band.width = width;
-            chamfer.near = strips(chamfer.loops, vee.radius + job::kChamferTip);
+            return;
+        }
+        EdgeWays ways = edges.ways(band, vee);
+        if (ways.broken > (chamfer.ways ? chamfer.ways->broken : 0.0)) {
+            chamfer.near = strips(ways.ways, reach);
+            chamfer.ways = std::move(ways);
+            chamfer.band = band;
+            chamfer.tool = k;
+        } else if (!chamfer.tool) {
+            chamfer.fault =
+                centres.contours.empty() ? ChamferFault::kNoRoom : ChamferFault::kWouldGouge;
         }
     }
 }
@@ -111,10 +147,29 @@ std::vector<SolidChamfer> solid_chamfers(const Triangles& facets,
                        std::nullopt,
                        ChamferFault::kNoVee,
                        edges.loops(band),
+                       std::nullopt,
+                       edges.survey(band),
                        {}});
         choose_vee(edges, tools, unit, all.back());
     }
     return all;
+}
+
+std::vector<offset::Edge> SolidChamfer::edges() const
+{
+    if (!ways) {
+        return edges_of(loops);
+    }
+    std::vector<offset::Edge> all;
+    for (const std::vector<offset::Edge>& way : ways->ways) {
+        all.insert(all.end(), way.begin(), way.end());
+    }
+    return all;
+}
+
+double SolidChamfer::depth() const
+{
+    return (band.width + job::kChamferTip) * (band.high - band.low) / band.width;
 }
 
 double least_vee(const SolidChamfer& chamfer)

@@ -6,17 +6,19 @@
 #include <vector>
 
 #include "host_tools/geometry/offset/contour.hpp"
-#include "host_tools/job/import/part_files.hpp"
 #include "host_tools/job/import/part_regions.hpp"
+#include "host_tools/job/import/solid_edges.hpp"
 #include "host_tools/job/import/tool_text.hpp"
+#include "host_tools/job/job/chamfer_tip.hpp"
 
 namespace cusp::import {
 
 enum class ChamferFault : std::uint8_t {
     kNoVee,       // has the angle
     kTooNarrow,   // are those that have it
-    kNoRoom,      // for the tip beside an edge
+    kNoRoom,      // for the tip beside any part of an edge
     kWouldGouge,  // the tool would, other ground of the part
+    kTooWide,     // for parts of loops beside levels that a narrower flat end clears
     kStockBeside  // stands, where the flat end does not come
 };
 
@@ -27,10 +29,20 @@ struct SolidChamfer {
     std::optional<std::size_t> tool;  // place in the call; none: nothing cuts them
     ChamferFault fault;               // then
     offset::Region2d loops;
-    offset::Region2d near;  // within the tool's reach, in plan
+    std::optional<EdgeWays>
+        ways;  // of the tool where it can't break all of the edges; none: it goes along the loops
+    SolidEdges::Survey all;  // edges of the band
+    offset::Region2d near;   // within the tool's reach, in plan
+
+    // Those along which the tool goes, and how far from them the band begins, mm.
+    std::vector<offset::Edge> edges() const;
+    double beside() const { return ways ? job::kChamferTip : 0.0; }
+    // mm: of the tip below the band's upper edge.
+    double depth() const;
 };
 
-// A vee has the angle of the band, is wide enough, and gouges nothing (PartModel::drop_height() along its path).
+// A vee has the angle of the band, is wide enough, and gouges nothing (PartModel::drop_height() along its path). Where it
+// would, or has no room, or where the ground rises beside parts of the loops alone, it breaks what it can.
 //
 // facets  of the whole part
 // tools   of the call

@@ -60,6 +60,7 @@ bool is_one(const EdgeBand& a, const EdgeBand& b)
 struct Slope {
     double low{kUnbounded};  // z, mm
     double high{-kUnbounded};
+    double steepness{};  // height over width, of one of them
     std::vector<Vec3d> corners;
 };
 
@@ -112,6 +113,7 @@ std::vector<Slope> slopes_of(const std::vector<Facet>& facets)
     std::map<std::size_t, Slope> by_set;
     for (std::size_t k = 0; k < slanted.size(); ++k) {
         Slope& slope = by_set[sets.set_of(k)];
+        slope.steepness = slanted[k].second;
         for (const Vec3d& p : *slanted[k].first) {
             slope.low = std::min(slope.low, p.z);
             slope.high = std::max(slope.high, p.z);
@@ -141,16 +143,22 @@ std::vector<EdgeBand> SolidEdges::bands() const
         const Region2d foot = standing(slope.low);
         const EdgeTree tree{edges_of(foot)};
         EdgeBand band{slope.low, slope.high, kUnbounded};
+        // an end of a broken edge is nearer to the next edge
+        const double least = (1 - 2 * kSameSlope) * (slope.high - slope.low) / slope.steepness;
         for (const Vec3d& p : slope.corners) {
-            if (slope.high - p.z <= kSameLevel) {
-                band.width = tree.nearest(in_plan(p), band.width);
+            const double away = tree.nearest(in_plan(p), band.width);
+            if (slope.high - p.z <= kSameLevel && away >= least) {
+                band.width = away;
             }
+        }
+        if (!(band.width < kUnbounded)) {
+            band.width = (slope.high - slope.low) / slope.steepness;
         }
         // the foot is a little higher than the lower edge
         band.width *= (band.high - band.low) / (band.high - band.low - offset::kStandsAbove);
         const bool known = std::any_of(found.begin(), found.end(),
                                        [&](const EdgeBand& other) { return is_one(band, other); });
-        if (!known && band.width > 0 && band.width < kUnbounded && !loops(band).contours.empty()) {
+        if (!known && band.width > 0 && survey(band).count > 0) {
             found.push_back(band);
         }
     }
@@ -171,34 +179,46 @@ bool SolidEdges::is_ground(Vec2d at, double z) const
     return top && std::abs(top->point.z - z) <= kGroundWithin;
 }
 
-bool SolidEdges::rises_beside(const Contour& loop, const EdgeBand& band) const
+std::vector<SolidEdges::Look> SolidEdges::looks_along(const Contour& loop)
 {
-    const EdgeTree tree{loop};
-    const double slope = (band.high - band.low) / band.width;
-    bool goes_on_below = true;
-    bool goes_on_above = true;
+    std::vector<Look> all;
     for (const Edge& edge : loop) {
         const int looks = 1 + static_cast<int>(length(edge) / kLook);
         for (int k = 0; k < looks; ++k) {
             const double share = (k + 0.5) / looks;
-            const Vec2d p = point_on(edge, share);
-            const Vec2d across = offset::left_normal(tangent_on(edge, share)) * band.width;
-            for (const double part : {0.2, 0.5, 0.8}) {
-                const Vec2d at = p + across * part;
-                const double rise = slope * tree.nearest(at, band.width);
-                if (!is_ground(at, band.low + rise)) {
-                    return false;
-                }
-            }
-            constexpr double kBeyond = 0.2;
-            goes_on_below = goes_on_below && is_ground(p - across * kBeyond,
-                                                       band.low - slope * band.width * kBeyond);
-            goes_on_above =
-                goes_on_above && is_ground(p + across * (1 + kBeyond),
-                                           band.low + slope * band.width * (1 + kBeyond));
+            all.push_back({point_on(edge, share), offset::left_normal(tangent_on(edge, share)),
+                           length(edge) / looks});
         }
     }
-    return !goes_on_below && !goes_on_above;
+    return all;
+}
+
+// The ground rises with the distance from the loop, or from the one edge where others of the loop are not broken.
+SolidEdges::Rise SolidEdges::rise_at(const Look& look,
+                                     const EdgeTree& tree,
+                                     const EdgeBand& band) const
+{
+    const double slope = (band.high - band.low) / band.width;
+    const Vec2d across = look.across * band.width;
+    for (const double part : {0.1, 0.5, 0.9}) {
+        const Vec2d at = look.foot + across * part;
+        if (!is_ground(at, band.low + slope * tree.nearest(at, band.width)) &&
+            !is_ground(at, band.low + slope * part * band.width)) {
+            return {false, false, false};
+        }
+    }
+    constexpr double kBeyond = 0.2;
+    const double beyond = slope * band.width * kBeyond;
+    return {true, is_ground(look.foot - across * kBeyond, band.low - beyond),
+            is_ground(look.foot + across * (1 + kBeyond), band.high + beyond)};
+}
+
+bool SolidEdges::rises_beside(const Contour& loop, const EdgeBand& band) const
+{
+    const EdgeTree tree{loop};
+    const std::vector<Look> looks = looks_along(loop);
+    const std::vector<bool> on = on_band(looks, tree, band);
+    return std::find(on.begin(), on.end(), false) == on.end();
 }
 
 Region2d SolidEdges::loops(const EdgeBand& band) const
@@ -230,8 +250,8 @@ bool SolidEdges::is_clear(const toolpath::Tool& tool, const Region2d& centres, d
     return true;
 }
 
-BandGround::BandGround(const EdgeBand& band, const Region2d& loops)
-    : band_{band}, tree_{edges_of(loops)}
+BandGround::BandGround(const EdgeBand& band, const std::vector<Edge>& edges, double beside)
+    : band_{band}, reach_{band.width + beside + kGroundWithin}, tree_{edges}
 {
 }
 
@@ -244,7 +264,7 @@ bool BandGround::has(const Facet& facet) const
                        [&](const Vec3d& p) {
                            return p.z >= band_.low - kSameLevel && p.z <= band_.high + kSameLevel;
                        }) &&
-           tree_.any_nearer(middle, band_.width + kGroundWithin);
+           tree_.any_nearer(middle, reach_);
 }
 
 }  // namespace cusp::import

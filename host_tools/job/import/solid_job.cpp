@@ -36,6 +36,7 @@ namespace {
 
 constexpr double kLeastSlant = 0.05;  // mm^2
 constexpr double kLeastUncut = 1.0;   // mm^2
+constexpr double kLeastLeft = 0.5;    // mm of edges
 constexpr double kPeckFrom = 3;       // diameters
 constexpr std::array<const char*, 3> kFinishing{"ball", "bull", "taper"};
 
@@ -123,7 +124,7 @@ public:
             cuts_.after += hole_operations(found, levels, ground);
         }
         for (const SolidChamfer& chamfer : chamfers) {
-            add_chamfer(chamfer, levels);
+            add_chamfer(chamfer, levels, !ground.openings.empty());
         }
         say_idle_vees();
         if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
@@ -276,7 +277,7 @@ private:
         std::vector<BandGround> made;
         for (const SolidChamfer& chamfer : chamfers) {
             if (chamfer.tool) {
-                made.emplace_back(chamfer.band, chamfer.loops);
+                made.emplace_back(chamfer.band, chamfer.edges(), chamfer.beside());
             }
         }
         const auto all = std::make_shared<const std::vector<BandGround>>(std::move(made));
@@ -287,28 +288,51 @@ private:
     }
 
     // After all others: only then is the ground around it open.
-    void add_chamfer(const SolidChamfer& chamfer, const ClearedGround& levels)
+    void add_chamfer(const SolidChamfer& chamfer, const ClearedGround& levels, bool has_levels)
     {
         const EdgeBand& band = chamfer.band;
+        if (chamfer.ways && chamfer.tool && has_levels && flats_clear() &&
+            across(*chamfer.tool) >= across(flats_.back()) - kSameDiameter) {
+            say_chamfer_left(chamfer, ChamferFault::kTooWide);
+            return;
+        }
         if (!chamfer.tool || !levels.is_open(chamfer.near, band.high)) {
             say_chamfer_left(chamfer, chamfer.tool ? ChamferFault::kStockBeside : chamfer.fault);
             return;
         }
         const std::size_t tool = *chamfer.tool;
         vees_at_work_.insert(tool);
-        cuts_.after +=
-            operation(Region::kEdges, fmt::format("{}#edges:{}:{}:{}", file_, number(band.low),
-                                                  number(band.high), number(band.width))) +
-            fmt::format("tool = {}\ntop = {}\nwidth = {}\noutput = \"{}\"\n", tool + 1,
-                        number(band.high), number(band.width), request_.output);
-        cuts_.said.push_back(fmt::format("{}: chamfer, {}", edge_words(chamfer), tool_words(tool)));
+        const std::string edges = fmt::format("{}#edges:{}:{}:{}", file_, number(band.low),
+                                              number(band.high), number(band.width));
+        const std::string keys = fmt::format("tool = {}\ntop = {}\noutput = \"{}\"\n", tool + 1,
+                                             number(band.high), request_.output);
+        if (!chamfer.ways) {
+            cuts_.after += operation(Region::kEdges, edges) + keys +
+                           fmt::format("width = {}\n", number(band.width));
+            cuts_.said.push_back(
+                fmt::format("{}: chamfer, {}", edge_words(chamfer), tool_words(tool)));
+            return;
+        }
+        cuts_.after += operation(Region::kGrooves, edges) + keys +
+                       fmt::format("depth = {}\n", number(chamfer.depth()));
+        std::string left;
+        if (chamfer.all.length - chamfer.ways->broken > kLeastLeft) {
+            left = fmt::format(
+                "; the rest {}, such as at x {:.6g} y {:.6g}: the vee would gouge the part beside "
+                "it",
+                cuts_.is_all ? "stays" : "is left to the " + finishing_words(),
+                number(chamfer.ways->left_at.x), number(chamfer.ways->left_at.y));
+        }
+        cuts_.said.push_back(fmt::format("{}: {:.4g} {} of {:.4g} broken, {}{}",
+                                         edge_words(chamfer), number(chamfer.ways->broken),
+                                         choice_.unit, number(chamfer.all.length), tool_words(tool),
+                                         left));
     }
 
     // "2 edges at z 12, 1 mm wide".
     std::string edge_words(const SolidChamfer& chamfer) const
     {
-        return fmt::format("{} at z {:.6g}, {:.4g} {} wide",
-                           counted(chamfer.loops.contours.size(), "edge"),
+        return fmt::format("{} at z {:.6g}, {:.4g} {} wide", counted(chamfer.all.count, "edge"),
                            number(chamfer.band.high), number(chamfer.band.width), choice_.unit);
     }
 
@@ -321,10 +345,12 @@ private:
                 ? fmt::format("no vee has their {:g} degrees; {} cuts them", chamfer.angle, vee)
             : fault == ChamferFault::kTooNarrow
                 ? fmt::format("the vee's flank is too narrow; {} cuts them", vee)
+            : fault == ChamferFault::kTooWide
+                ? "parts of loops are broken by a vee that is narrower than the flat end alone"
             : fault == ChamferFault::kNoRoom     ? "the vee's tip has no room beside them"
             : fault == ChamferFault::kWouldGouge ? "the vee would gouge the part beside them"
                                                  : "stock stands there that no flat end reaches";
-        const Vec2d at = chamfer.loops.contours.front().front().start;
+        const Vec2d at = chamfer.all.place;
         cuts_.said.push_back(fmt::format("{}: {}, such as at x {:.6g} y {:.6g}: {}",
                                          edge_words(chamfer),
                                          cuts_.is_all ? "stay" : "left to the " + finishing_words(),
