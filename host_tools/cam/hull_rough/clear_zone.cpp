@@ -17,14 +17,6 @@ double distance(Vec2d p, const Rectangle& box)
     return elementary::hypot(dx, dy);
 }
 
-double distance(Vec2d p, Vec2d a, Vec2d b)
-{
-    const Vec2d along = b - a;
-    const double squared = dot(along, along);
-    const double t = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-    return norm(p - (a + along * t));
-}
-
 // Separating axes of a segment and a rectangle: x, y and the segment's normal.
 bool crosses(Vec2d a, Vec2d b, const Rectangle& box)
 {
@@ -51,7 +43,7 @@ double distance(Vec2d a, Vec2d b, const Rectangle& box)
     double least = std::min(distance(a, box), distance(b, box));
     for (const Vec2d corner : {Vec2d{box.x_min, box.y_min}, Vec2d{box.x_max, box.y_min},
                                Vec2d{box.x_min, box.y_max}, Vec2d{box.x_max, box.y_max}}) {
-        least = std::min(least, distance(corner, a, b));
+        least = std::min(least, distance_to_segment(corner, a, b));
     }
     return least;
 }

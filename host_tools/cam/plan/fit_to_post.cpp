@@ -33,21 +33,6 @@ void check_coolant(const Job& job, const Operation& operation, const Tool& tool)
     }
 }
 
-// A post of one's own may have no field for it.
-void check_offset(const Job& job)
-{
-    const auto has_field = [](const std::string& line) {
-        return line.find("{offset}") != std::string::npos;
-    };
-    if (job.setup && job.setup->offset != kFirstOffset &&
-        std::none_of(job.post.modes.begin(), job.post.modes.end(), has_field)) {
-        throw InputError(
-            fmt::format("{}: the set-up \"{}\" has the offset G{}, but the post \"{}\" has no "
-                        "{{offset}} in its modes",
-                        job.file, job.setup->name, job.setup->offset, job.post.name));
-    }
-}
-
 // Throws InputError if the post has no words for what the job asks: NURBS, coolant, `blend`.
 void check_words(const Job& job, double blend)
 {
@@ -57,7 +42,6 @@ void check_words(const Job& job, double blend)
             fmt::format("--blend {:g}: the post \"{}\" has no word for the tolerance of corners",
                         blend, post.name));
     }
-    check_offset(job);
     for (const Operation& operation : job.operations) {
         if (operation.output == OutputForm::kNurbs && !post.nurbs) {
             throw InputError(fmt::format(
@@ -127,6 +111,21 @@ void leave_room_for_rounding(Job& job)
 }
 
 }  // namespace
+
+// A post of one's own may have no field for it.
+void check_offset(const Job& job)
+{
+    const auto has_field = [](const std::string& line) {
+        return line.find("{offset}") != std::string::npos;
+    };
+    if (job.setup && job.setup->offset != kFirstOffset &&
+        std::none_of(job.post.modes.begin(), job.post.modes.end(), has_field)) {
+        throw InputError(
+            fmt::format("{}: the set-up \"{}\" has the offset G{}, but the post \"{}\" has no "
+                        "{{offset}} in its modes",
+                        job.file, job.setup->name, job.setup->offset, job.post.name));
+    }
+}
 
 void fit_to_post(Planning& planning)
 {

@@ -6,6 +6,8 @@
 
 #include "host_tools/cam/plan/stages.hpp"
 
+#include "fmt/format.h"
+
 namespace cusp::plan {
 
 using job::Job;
@@ -77,6 +79,11 @@ const job::Operation& operation_of(const Job& job, const PlannedOperation& plann
                          [&](const job::Operation& o) { return o.number == planned.operation; });
 }
 
+std::string words_of(const PlannedOperation& planned)
+{
+    return fmt::format("operation {}, {}", planned.operation, planned.stats.strategy);
+}
+
 std::vector<const Toolpath*> paths_of(const PlannedProgram& program)
 {
     std::vector<const Toolpath*> paths;
@@ -105,6 +112,7 @@ void plan_setups(std::vector<Job>& setups,
                  const std::function<PlanOptions(const Job&)>& begin,
                  const std::function<void(const Job&, PlannedProgram)>& done)
 {
+    std::for_each(setups.begin(), setups.end(), check_offset);
     for (std::size_t k = 0; k < setups.size(); ++k) {
         Job& job = setups[k];
         const PlanOptions options = begin(job);

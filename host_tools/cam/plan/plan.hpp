@@ -92,7 +92,7 @@ PlannedProgram plan_job(job::Job& job, const PlanOptions& options, Watcher& watc
 // begin   called before each: what to call its program, and so on
 // done    receives each program
 //
-// Errors: as plan_job().
+// Errors: as plan_job(); before anything is planned, InputError if the post has no field for the offset of a set-up.
 void plan_setups(std::vector<job::Job>& setups,
                  Watcher& watcher,
                  const std::function<PlanOptions(const job::Job&)>& begin,

@@ -57,6 +57,9 @@ struct Planning {
 // The path of each operation, in order; they live as long as the program.
 std::vector<const toolpath::Toolpath*> paths_of(const PlannedProgram& program);
 
+// "operation 2, pocket": in sentences.
+std::string words_of(const toolpath::PlannedOperation& planned);
+
 // The operation of the job that a path is planned for.
 const job::Operation& operation_of(const job::Job& job, const toolpath::PlannedOperation& planned);
 

@@ -41,11 +41,11 @@ void refuse_rapids(const Job& job, const PlannedProgram& program)
     }
     const PlannedOperation& operation = program.operations[rapid->path];
     throw InputError(fmt::format(
-        "{}: operation {}, {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would cut "
+        "{}: {}: a rapid move of tool {} to x {:.3f} y {:.3f} z {:.3f} mm would cut "
         "{:.4g} mm deep into stock that is there by then, the limit is {:g}: let an operation "
         "before it cut that stock away, or begin this one at its top",
-        job.file, operation.operation, operation.stats.strategy, operation.path.tool.number,
-        rapid->tip.x, rapid->tip.y, rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));
+        job.file, words_of(operation), operation.path.tool.number, rapid->tip.x, rapid->tip.y,
+        rapid->tip.z, rapid->depth, verify::kRapidCutAllowed));
 }
 
 // mm: the depth of one cut of the operation.
@@ -95,8 +95,7 @@ void prove_rapids(Planning& planning)
     for (const auto& [path, rapids] : by_path) {
         PlannedOperation& operation = program.operations[path];
         refuse_deep_plunges(job, operation, rapids);
-        const std::string name =
-            fmt::format("operation {}, {}", operation.operation, operation.stats.strategy);
+        const std::string name = words_of(operation);
         operation.path = lifted(operation.path, rapids, job.stock_top + job.clearance);
         operation.stats.retracts += keep_off_fixtures(job, name, operation.path);
         const auto deepest = std::max_element(rapids.begin(), rapids.end(), is_less_deep);

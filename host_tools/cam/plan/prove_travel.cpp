@@ -74,11 +74,6 @@ Extents extents_of(const PlannedProgram& program, double clearance)
     return extents;
 }
 
-std::string words_of(const PlannedOperation& operation)
-{
-    return fmt::format("operation {}, {}", operation.operation, operation.stats.strategy);
-}
-
 // Errors: InputError where the controller, and with it verify() and the run for the times, would refuse the target.
 void refuse_far(const Job& job, const Reached& reached, unsigned axis)
 {

@@ -11,6 +11,8 @@ using Stage = void (*)(Planning&);
 void take_machine(Planning& planning);
 // Takes from the tolerances what the post's rounding adds, refuses words that the post lacks.
 void fit_to_post(Planning& planning);
+// Errors: InputError if the job's set-up has an offset for which the post has no field.
+void check_offset(const job::Job& job);
 // Reads the programs that were cut before.
 void read_earlier_programs(Planning& planning);
 // Plans each operation by its strategy.

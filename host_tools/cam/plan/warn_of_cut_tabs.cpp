@@ -81,14 +81,6 @@ void add_tabs(const Operation& operation, const PlannedOperation& planned, std::
     }
 }
 
-double distance(Vec2d p, Vec2d a, Vec2d b)
-{
-    const Vec2d way = b - a;
-    const double squared = dot(way, way);
-    const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0.0;
-    return norm(p - (a + share * way));
-}
-
 // The place of the tab that a straight move cuts away, as deep as its lower end goes.
 std::optional<Vec3d> cut_of(const Tab& tab, const Tool& tool, Vec3d from, Vec3d to)
 {
@@ -97,7 +89,7 @@ std::optional<Vec3d> cut_of(const Tab& tab, const Tool& tool, Vec3d from, Vec3d 
         return std::nullopt;
     }
     for (const Vec2d p : tab.places) {
-        const double away = distance(p, in_plan(from), in_plan(to));
+        const double away = distance_to_segment(p, in_plan(from), in_plan(to));
         if (away < tool.radius - kLow && low + profile_height(tool, away) < tab.top - kLow) {
             return Vec3d{p.x, p.y, low + profile_height(tool, away)};
         }
@@ -119,10 +111,11 @@ std::optional<CutTab> first_cut(const PlannedOperation& planned, const std::vect
             const double length = norm(to - from);
             const int pieces = from.z == to.z ? 1 : 1 + static_cast<int>(length / kPiece);
             for (const Tab& tab : tabs) {
-                const bool is_near =
-                    !tab.places.empty() && tab.by->operation != planned.operation &&
-                    distance(tab.places[tab.places.size() / 2], in_plan(from), in_plan(to)) <
-                        tool.radius + norm(tab.places.front() - tab.places.back());
+                const bool is_near = !tab.places.empty() &&
+                                     tab.by->operation != planned.operation &&
+                                     distance_to_segment(tab.places[tab.places.size() / 2],
+                                                         in_plan(from), in_plan(to)) <
+                                         tool.radius + norm(tab.places.front() - tab.places.back());
                 for (int k = 0; is_near && k < pieces; ++k) {
                     const auto place = [&](int n) {
                         return from + static_cast<double>(n) / pieces * (to - from);
@@ -157,11 +150,10 @@ void warn_of_cut_tabs(Planning& planning)
         if (const auto cut = first_cut(planned, tabs)) {
             const PlannedOperation& other = *cut->tab->by;
             program.warnings.push_back(
-                fmt::format("operation {}, {}: cuts a tab of operation {}, {}, at x {:.3f} y "
-                            "{:.3f}: its top is "
-                            "at z {:.4g} mm, the cut at {:.4g}",
-                            planned.operation, planned.stats.strategy, other.operation,
-                            other.stats.strategy, cut->at.x, cut->at.y, cut->tab->top, cut->at.z));
+                fmt::format("{}: cuts a tab of {}, at x {:.3f} y {:.3f}: its top is at z {:.4g} "
+                            "mm, the cut at {:.4g}",
+                            words_of(planned), words_of(other), cut->at.x, cut->at.y, cut->tab->top,
+                            cut->at.z));
         }
     }
 }

@@ -1,6 +1,7 @@
 // Vectors in the plan, beside those in space of firmware/base.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,6 +32,14 @@ struct Vec2d {
 inline double dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 inline double norm(Vec2d a) { return std::sqrt(dot(a, a)); }
+// From a point to a segment.
+inline double distance_to_segment(Vec2d p, Vec2d begin, Vec2d end)
+{
+    const Vec2d way = end - begin;
+    const double squared = dot(way, way);
+    const double share = squared > 0 ? std::clamp(dot(p - begin, way) / squared, 0.0, 1.0) : 0.0;
+    return norm(p - (begin + way * share));
+}
 // Seen from above.
 inline Vec2d in_plan(Vec3d p) { return {p.x, p.y}; }
 
