@@ -4,6 +4,7 @@ usage: bad_operations_test.py CUSP
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -268,6 +269,24 @@ class BadOperations(unittest.TestCase):
             self.warned("operation 1, .*: it begins below stock that stands by then", text)
         self.assertNotIn("stands by then", self.said(0, operation("pocket", "pocket", depth=5, max_depth=1.5) +
                                                      at(-5, max_depth=1.5)))
+
+    def test_walls_that_end_within_the_round_of_the_tool(self):
+        ball = HEAD.replace('"flat"', '"ball"')
+        bull = HEAD.replace('"flat"', '"bull"\ncorner_radius = 1')
+        for strategy, layer, head, depth, left in (("profile", "outline", ball, 1.2, 0.6), ("pocket", "pocket", ball, 2.4, 0.06061),
+                                                   ("profile", "inner", bull, 0.4, 0.2), ("profile", "outline", ball, 3, 0),
+                                                   ("profile", "inner", ball, 2.7, 0.01505), ("pocket", "pocket", HEAD, 0.1, 0)):
+            job = operation(strategy, layer, depth=depth, **({"side": "inside"} if layer == "inner" else {}))
+            said = self.said(0, job, head=head)
+            with self.subTest(strategy=strategy, depth=depth):
+                self.assertEqual(left > 0.02, f"operation 1, {strategy}: {left:.4g} mm are left on the upper edge" in said, said)
+                self.assertEqual(left > 0.02, "round end" in said, said)
+                judged = subprocess.run([CUSP, "verify", "job.toml", "p.ngc"], cwd=self.folder, capture_output=True, text=True,
+                                        timeout=600).stdout
+                found = re.search(r"broken: wall_stock_max_mm ([\d.]+)", judged)
+                self.assertEqual(left > 0.02, found is not None, judged)
+                if found:  # a pocket's path keeps some of the tolerance from its walls
+                    self.assertAlmostEqual(left, float(found[1]), delta=0.012)
 
     def test_stock_and_faces(self):
         self.refused("bottom: is -10 mm, not below the top at -20 mm", operation("profile", "outline", depth=1),

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host_tools/cam/plan/stages.hpp"
+#include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/geometry/toolpath/toolpath_measure.hpp"
 #include "host_tools/job/job/level_warnings.hpp"
 #include "host_tools/job/job/overlap_warnings.hpp"
@@ -173,6 +174,45 @@ std::vector<std::string> stick_out_warnings(const Job& job, const PlannedProgram
     return texts;
 }
 
+bool cuts_walls(const Operation& operation)
+{
+    return operation.cuts(job::Region::kLevelPocket) ||
+           (operation.cuts(job::Region::kOutline) &&
+            operation.prismatic->side != job::ProfileSide::kOn);
+}
+
+// A warning for each operation whose walls end within the round of its tool: there the tool is narrower than the
+// radius that it keeps from the wall.
+std::vector<std::string> round_end_warnings(const Job& job)
+{
+    std::map<int, std::string> warnings;  // by the number of the operation
+    for (const Operation& operation : job.operations) {
+        const toolpath::Tool& tool = operation.tool;
+        if (!operation.prismatic || !cuts_walls(operation)) {
+            continue;
+        }
+        const double depth = operation.prismatic->depth;
+        const double left = tool.radius - radius_at_height(tool, depth);
+        // The path of a pocket keeps half of the tolerance from its walls.
+        const double most =
+            operation.tolerance.plan * (operation.cuts(job::Region::kLevelPocket) ? 0.5 : 1.0);
+        if (depth < end_height(tool) && left > most) {
+            warnings[operation.number] = fmt::format(
+                "operation {}, {}: {:.4g} mm are left on the upper edge of its walls "
+                "(plan_tolerance is {:g} mm): it is {:g} mm deep, but the round end of tool {} is "
+                "{:g} mm high; cut deeper, "
+                "or use a flat end",
+                operation.number, operation.name(), left, operation.tolerance.plan, depth,
+                tool.number, end_height(tool));
+        }
+    }
+    std::vector<std::string> texts;
+    for (const auto& [number, text] : warnings) {
+        texts.push_back(text);
+    }
+    return texts;
+}
+
 }  // namespace
 
 void warn(Planning& planning)
@@ -184,7 +224,8 @@ void warn(Planning& planning)
     }
     for (const std::vector<std::string>& more :
          {job::overlap_warnings(job), job::level_warnings(job),
-          reach_warnings(job, planning.program), stick_out_warnings(job, planning.program)}) {
+          reach_warnings(job, planning.program), stick_out_warnings(job, planning.program),
+          round_end_warnings(job)}) {
         warnings.insert(warnings.end(), more.begin(), more.end());
     }
 }
