@@ -102,26 +102,38 @@ void plan_files(std::vector<Job>& setups, const PlanOptions& common, const PlanF
         }
         return own;
     };
-    plan::plan_setups(
-        setups, watcher,
-        [&](const Job& job) {
-            PlanOptions options = common;
-            options.name = files_of(job).program;
-            options.measures_engagement = !files.stats.empty();
-            if (job.setup) {
-                options.title += ", " + description_of(*job.setup);
-                fmt::print(files.said, "{}\n", description_of(*job.setup));
-            }
-            return options;
-        },
-        [&](const Job& job, const plan::PlannedProgram& program) {
-            const PlanFiles own = files_of(job);
-            write_files(job, program, own);
-            fmt::print(own.said, "{}", plan::summary_text(program));
-            print_warnings(job.notes);
-            print_warnings(program.all_warnings());
-            fmt::print(own.said, "wrote {}\n", own.program);
-        });
+    std::vector<std::string>
+        unsaid;  // notes of the job that is planned: a refusal may come of what they say
+    const auto plan_all = [&] {
+        plan::plan_setups(
+            setups, watcher,
+            [&](const Job& job) {
+                unsaid = job.notes;
+                PlanOptions options = common;
+                options.name = files_of(job).program;
+                options.measures_engagement = !files.stats.empty();
+                if (job.setup) {
+                    options.title += ", " + description_of(*job.setup);
+                    fmt::print(files.said, "{}\n", description_of(*job.setup));
+                }
+                return options;
+            },
+            [&](const Job& job, const plan::PlannedProgram& program) {
+                const PlanFiles own = files_of(job);
+                write_files(job, program, own);
+                fmt::print(own.said, "{}", plan::summary_text(program));
+                print_warnings(job.notes);
+                unsaid.clear();
+                print_warnings(program.all_warnings());
+                fmt::print(own.said, "wrote {}\n", own.program);
+            });
+    };
+    try {
+        plan_all();
+    } catch (const InputError&) {
+        print_warnings(unsaid);
+        throw;
+    }
 }
 
 int run_plan(PlanArguments& options)

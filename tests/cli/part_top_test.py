@@ -92,12 +92,14 @@ class PartTop(CuspCase):
         self.assertGreater(sum(finish), 4 * 4 * (WIDE * DEEP - 16) / 4)
 
     def test_a_plate_as_high_as_the_stock_is_said_to_need_nothing(self):
-        _, said = self.planned(stl(plate(squares(TOP))))
-        self.assertIn("no surface is below the stock's top, z = 12 mm", said)
+        for hole, words in (((), ""), ({(4, 3)}, "1 hole of the part open above: 4 x 4 mm at x 18 y 14 z 12 mm")):
+            self.write("p.stl", stl(plate(squares(TOP), hole)))  # a closed hole is no ground to finish
+            said = self.cusp(2, "plan", *CALL, "-o", "p.ngc")
+            self.assertIn("there is nothing to cut: no surface is below the stock's top, z = 12 mm", said)
+            self.assertIn(words, said)
 
     def test_holes_of_a_mesh_are_closed_and_named(self):
         for heights, hole, words in (
-                (squares(TOP), {(4, 3)}, "1 hole of the part open above: 4 x 4 mm at x 18 y 14 z 12 mm"),
                 (POCKET, {(4, 3), (5, 3)}, "1 hole of the part open above: 8 x 4 mm at x 20 y 14 z 6 mm"),
                 (POCKET, {(4, 3), (9, 7)}, "2 holes of the part open above: 4 x 4 mm at x "),
                 (STEP, {(0, 3)}, "1 hole of the part open above: 4 x 4 mm at x 2 y 14 z 8 mm")):

@@ -71,7 +71,7 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
 std::vector<PlannedOperation> nothing_roughed(const std::string& why)
 {
     PlannedOperation none;
-    none.stats.warnings = {"nothing is roughed: " + why + "; the finish cuts all of it"};
+    none.stats.warnings = {"nothing is roughed: " + why};
     return {std::move(none)};
 }
 

@@ -373,7 +373,10 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound, 
     keep_in_stock(rules.stay_down, stats);
     leave_out_idle(rules.stay_down);
     stats.passes = static_cast<int>(passes_.size());
-    LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
+    LinkedPasses linked;
+    if (!passes_.empty()) {
+        linked = link_passes(std::move(passes_), rules, *path_fitter_);
+    }
     stats.levels = 1;
     stats.cl_points = linked.points;
     stats.retracts = linked.retracts;
@@ -403,15 +406,13 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
         return;
     }
     const double over = job_.stock_top - kSameTip;
-    std::vector<SurfacePass> low = passes_in_stock(
+    passes_ = passes_in_stock(
         passes_, [&](Vec3d a, Vec3d b) { return std::min(a.z, b.z) >= over; }, linked);
-    if (!low.empty()) {
-        passes_ = std::move(low);
-    } else {
-        stats.warnings.push_back(fmt::format(
-            "no surface is below the stock's top, z = {:.6g} mm: the finish removes nothing; "
-            "if the stock is higher, give its height (top in [stock], --stock-top)",
-            job_.stock_top));
+    if (passes_.empty()) {
+        stats.warnings.push_back(
+            fmt::format("no surface is below the stock's top, z = {:.6g} mm: nothing is finished; "
+                        "if the stock is higher, give its height (top in [stock], --stock-top)",
+                        job_.stock_top));
     }
 }
 
