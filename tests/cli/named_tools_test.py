@@ -62,7 +62,8 @@ class NamedTools(CuspCase):
                 with self.subTest(inch=inch, post=post, tool=tool, word=word):
                     said = self.cusp(1, "verify", "job.toml", "q.ngc")
                     line = next(k for k, text in enumerate(other.splitlines(), 1) if re.search(pattern, text))
-                    self.assertRegex(said, rf"broken: tool {tool} .* by its comment in line {line}, tool {tool} .*job.toml")
+                    self.assertRegex(said, rf"broken: tool {tool} .* by its comment in line {line}, tool {tool} .*job.toml: "
+                                     rf"first cut by tool {tool[0]} at x [-\d.]+ y [-\d.]+ z [-\d.]+, line \d+")
 
     def test_a_program_without_a_tool_fits_no_job_of_several(self):
         program = self.planned(False, "grbl")

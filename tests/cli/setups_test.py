@@ -221,6 +221,20 @@ class Setups(CuspCase):
         self.assertNotIn("T2", self.text("p-b.ngc"))
         self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "p-b.ngc", "--after", "p-a.ngc"))
 
+    def test_what_the_first_has_cut_is_no_gouge_of_the_second(self):
+        pocket, drill = OPERATIONS.split("[[operation]]")[1:3]
+        self.job('[[setup]]\nname = "a"\n[[setup]]\nname = "b"\n', f'[[operation]]{pocket}[[operation]]\nsetup = "b"\n{drill}')
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        judge = "verify", "job.toml"
+        self.assertIn("all bounds hold", self.cusp(0, *judge, "p-b.ngc", "--after", "p-a.ngc"))
+        self.write("p.toml", HEAD.replace("y = [-10, 30]", 'y = [-10, 30]\nprogram = "p-a.ngc"') + "[[operation]]" + drill)
+        self.cusp(0, "plan", "p.toml", "-o", "own.ngc")
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "p.toml", "own.ngc"))
+        # a hole through the first one's pocket counts from the pocket's floor, z -2; one beside it in full
+        for place, depth, words in (("X10 Y8", 1.5, r"gouge_max_mm 1\.(48\d|49\d|5) by tool 2"), ("X10 Y-5", 4.5, r"gouge_max_mm 4\.(48\d|49\d|5) by tool 2")):
+            self.write("deep.ngc", self.text("p-b.ngc").replace("\nM5", f"\nG0 {place}\nG1 Z-3.5\nG0 Z6\nM5", 1))
+            self.assertRegex(self.cusp(1, *judge, "deep.ngc", "--after", "p-a.ngc"), words)
+
     def test_sim_runs_it_in_its_offset(self):
         self.job()
         self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
@@ -288,6 +302,7 @@ class Setups(CuspCase):
         self.write("own.toml", post.read_text().replace("{offset}", "G54"))
         self.assertIn('the set-up "back" has the offset G55, but the post "own" has no {offset} in its modes',
                       self.cusp(2, "plan", "job.toml", "-o", "p.ngc", "--post", "own.toml"))
+        self.assertFalse(list(self.folder.glob("*.ngc")))  # nor is the first set-up's program there
 
     def test_fixtures_of_one_set_up(self):
         clamp = '[[fixture]]\nsetup = "{}"\nx = [8, 12]\ny = [8, 12]\ntop = 4\n'

@@ -147,6 +147,8 @@ class Threads(CuspCase):
         self.planned()
         self.cusp(0, "verify", "job.toml", "p.ngc")
         good = self.program()
+        self.write("air.ngc", good.replace("\nM5", "\nG0 Z5\nG0 X22 Y30\nG0 Z1\nG1 Z0.1 F200\nG0 Z5\nM5", 1))
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "air.ngc"))  # over the hole, at the thread's radius
         head, thread = good[:good.index("\nT1\n")], good[good.index("\nT1\n"):]
         lines = thread.splitlines(keepends=True)
         arcs = [k for k, line in enumerate(lines) if line.startswith("G3") or (re.match(r"[XYIJZ]", line) and "I" in line)]

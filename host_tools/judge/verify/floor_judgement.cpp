@@ -244,9 +244,24 @@ struct Sums {
     std::size_t cells{};  // that are judged
     std::size_t unreachable{};
     std::size_t uncovered{};
+    std::size_t highest{};  // the point with most left, of those
     double total{};
     std::vector<std::size_t> seen;  // points where some stock was cut
 };
+
+// mm square to the part: what the program, not one before it, cut away below it.
+double cut_below(const FloorQuestion& q, const PartHeights& part, std::size_t k)
+{
+    const double stood = q.stock.height(k);
+    return q.cut[k] < stood ? std::max(0.0, std::min(part.z[k], stood) - q.cut[k]) * part.cosine[k]
+                            : 0.0;
+}
+
+void add_uncovered(const std::vector<double>& left, std::size_t k, Sums& sums)
+{
+    sums.highest = sums.uncovered == 0 || left[k] > left[sums.highest] ? k : sums.highest;
+    ++sums.uncovered;
+}
 
 // mm from the stock's top at a point to what no tool can cut, by columns around the point that are
 // nearer together than the grid's: an eighth of the distance, which is too high by no more.
@@ -328,6 +343,12 @@ void fill_figures(const FloorQuestion& q,
     const double without_cells = sums.part > 0 && sums.owed == 0 ? 0.0 : 1.0;
     figures.uncut_share = cells > 0 ? 1 - share(sums.seen.size(), cells) : without_cells;
     figures.uncovered_share = cells > 0 ? share(sums.uncovered, cells) : without_cells;
+    if (sums.uncovered > 0) {
+        const std::size_t k = sums.highest;
+        figures.uncovered_at =
+            FaultPlace{{q.grid.x(k / q.grid.ny, k % q.grid.ny),
+                        q.grid.y(k / q.grid.ny, k % q.grid.ny), std::min(q.cut[k], q.top)}};
+    }
     if (sums.seen.empty()) {
         return;
     }
@@ -391,11 +412,9 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         }
         ++sums.part;
         const bool touched = q.cut[k] < q.top;
-        if (touched) {
-            const double below = (part.z[k] - q.cut[k]) * part.cosine[k];
-            figures.gouge_max = std::max(figures.gouge_max, below);
-            gouge[k] = clear[k] >= 0 ? std::max(0.0, below) : 0.0;
-        }
+        const double below = cut_below(q, part, k);
+        figures.gouge_max = std::max(figures.gouge_max, below);
+        gouge[k] = clear[k] >= 0 ? below : 0.0;
         const bool reached = clear[k] >= radius;
         sums.unreachable += reached && ideal.unfit[k] != 0 ? 1U : 0U;
         const bool owed = is_owed(q, part, k);
@@ -412,7 +431,9 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
             continue;
         }
         ++sums.cells;
-        sums.uncovered += left[k] <= bound ? 0U : 1U;
+        if (!(left[k] <= bound)) {
+            add_uncovered(left, k, sums);
+        }
         if (done) {
             sums.seen.push_back(k);
             sums.total += left[k];

@@ -11,6 +11,7 @@
 #include "host_tools/judge/verify/owed_ground.hpp"
 #include "host_tools/judge/verify/part_heights.hpp"
 #include "host_tools/judge/verify/pocket_boundaries.hpp"
+#include "host_tools/judge/verify/standing_stock.hpp"
 #include "host_tools/judge/verify/verify.hpp"
 
 namespace cusp::verify {
@@ -23,6 +24,7 @@ struct FloorQuestion {
     const HeightGrid& grid;
     const std::vector<double>& cut;  // heights of the stock after cutting; NaN: no stock to judge
     double top;                      // of the uncut stock
+    const StandingStock& stock;      // before the program
     const OwedGround& owed;
     std::optional<double> scallop;
     double path_clearance;  // mm: largest distance that the path may keep from the floor
@@ -34,7 +36,7 @@ struct FloorQuestion {
 struct FloorMaps {
     // mm above the reachable height; NaN outside the floor, +infinity where nothing was cut.
     std::vector<double> left;
-    // mm cut below the part inside the walls; 0 where none is.
+    // mm that the program cut below the part inside the walls; 0 where none is.
     std::vector<double> gouge;
     // z of the part; NaN where it has none. Beyond walls the stock's top.
     std::vector<double> part;

@@ -130,8 +130,8 @@ void judge_surfaces(Verifying& work)
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, top, figures.ball_gouge_at);
     FloorMaps maps = judge_floor(
-        {scene.surfaces, scene.mesh, tools, walls, result.grid, work.heights, top, owed,
-         scene.scallop, scene.path_clearance, runs, most_left(scene, tools, work.spacing)},
+        {scene.surfaces, scene.mesh, tools, walls, result.grid, work.heights, top, *work.before,
+         owed, scene.scallop, scene.path_clearance, runs, most_left(scene, tools, work.spacing)},
         figures);
     result.left = std::move(maps.left);
     result.gouge = std::move(maps.gouge);

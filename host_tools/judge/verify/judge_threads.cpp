@@ -59,7 +59,7 @@ private:
     void look_at(Vec3d tip, std::uint32_t line)
     {
         const Vec2d from = in_plan(tip) - hole_.at;
-        if (std::abs(norm(from) - wall_) > allowed_) {
+        if (tip.z >= operation_.prismatic->top || std::abs(norm(from) - wall_) > allowed_) {
             return;
         }
         const double pitch = thread_.form.pitch;

@@ -64,10 +64,10 @@ private:
                         maps_.part[k] = std::min(maps_.part[k], here[n].floor);
                     }
                 }
-                if (!(q_.cut[k] < q_.job.stock_top)) {
+                if (!(q_.cut[k] < q_.stock.height(k))) {
                     continue;
                 }
-                const Cuts cuts = cuts_at(here, q_.cut[k], q_.job.stock_top);
+                const Cuts cuts = cuts_at(here, q_.cut[k], q_.stock.height(k));
                 worst[band].gouge = std::max(worst[band].gouge, cuts.gouge);
                 if (cuts.wall > worst[band].wall) {
                     worst[band].wall = cuts.wall;
@@ -214,6 +214,7 @@ private:
         const Prismatic& cut = *operation.prismatic;
         std::vector<char> high(q_.grid.size(), 0);
         const std::vector<char> here = required(region);
+        const double tolerance = q_.floor_tolerance + above_tip(operation);
         std::size_t cells = 0;
         for (std::size_t k = 0; k < here.size(); ++k) {
             if (here[k] == 0 || std::isnan(q_.cut[k])) {
@@ -223,7 +224,7 @@ private:
             const RegionAt at = region.at(x(k), y(k), k);
             const double left = q_.cut[k] - at.floor;
             maps_.left[k] = std::isnan(maps_.left[k]) ? left : std::min(maps_.left[k], left);
-            high[k] = left - at.above > q_.floor_tolerance + at.left + above_tip(operation) ? 1 : 0;
+            high[k] = left - at.above > tolerance + at.left ? 1 : 0;
         }
         figures_.cells += cells;
         find_wall_faults(region, high);
@@ -281,7 +282,7 @@ private:
             const double foot = tab_foot(region.operation());
             for (const std::size_t at : of_tabs) {
                 const bool is_tab = tops[at] != kTooLong && away[at] <= foot &&
-                                    !is_over_slope(region, at, full, away[at]);
+                                    !is_over_slope(region, at, full + top_tolerance, away[at]);
                 high[at] = is_tab ? 0 : high[at];
             }
         }
@@ -366,8 +367,10 @@ private:
                kPitches * q_.grid.pitch;
     }
 
-    // True if stock on the tool's way is higher than a tab's end is, so far from its top.
-    bool is_over_slope(const CutRegion& region, std::size_t k, double full, double away) const
+    // True if stock on the tool's way is higher than a tab's end may be, so far from its top.
+    //
+    // most  z of the top, with what it may be wrong by
+    bool is_over_slope(const CutRegion& region, std::size_t k, double most, double away) const
     {
         constexpr double kPitches = 3;  // the top's last point, and positions on the slope
         const Operation& operation = region.operation();
@@ -375,8 +378,7 @@ private:
         if (!is_on_way(region, k) || beyond <= 0) {
             return false;
         }
-        return !operation.prismatic->tabs->ramped ||
-               q_.cut[k] > full - beyond / kSlopeRun + q_.floor_tolerance + above_tip(operation);
+        return !operation.prismatic->tabs->ramped || q_.cut[k] > most - beyond / kSlopeRun;
     }
 
     // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.

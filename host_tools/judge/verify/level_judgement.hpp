@@ -35,8 +35,8 @@ struct LevelMaps {
 
 // Fills gouge_max, wall_gouge_max, level_left, wall_stock and the tabs of the figures.
 //
-// A point of the grid may be cut where some operation may cut, no deeper than that operation. A
-// point has to be cut where its operation's tool comes, away from its walls by more than a pitch.
+// A point of the grid may be cut where some operation may cut, no deeper than that operation; what earlier programs cut
+// is theirs. A point has to be cut where its operation's tool comes, away from its walls by more than a pitch.
 LevelMaps judge_levels(const LevelQuestion& question, VerifyFigures& figures);
 
 }  // namespace cusp::verify

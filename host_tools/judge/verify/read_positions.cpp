@@ -127,6 +127,13 @@ void read_positions(Verifying& work)
             runs.push_back({tool, {}, {}});
         }
         ToolPositions& run = runs.back();
+        if (!rapid && k > 0) {
+            ToolFigures& of_tool = figures_of(tool, figures);
+            of_tool.first_cut =
+                of_tool.first_cut.line > 0
+                    ? of_tool.first_cut
+                    : FaultPlace{xyz(to_millimetres(m.move.end)), m.move.line, tool.number};
+        }
         if (k == 0) {  // the machine's start position is unknown
             run.tips.push_back(xyz(to_millimetres(m.move.end)));
         } else {

@@ -16,6 +16,9 @@ public:
     {
     }
 
+    // z at a point of the grid; kNoValue or -kUnbounded where there is no stock.
+    double height(std::size_t k) const { return heights_[k]; }
+
     // True where all points of the grid within a pitch of a place are higher than z: there is no doubt. On the
     // stock's own edge it is never true.
     bool is_over(Vec2d place, double z) const

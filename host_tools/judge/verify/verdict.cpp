@@ -75,10 +75,10 @@ void judge_tools(const Job& job, Verification& result)
         const auto described = result.program.tools.find(f.tool.number);
         if (described != result.program.tools.end() &&
             !is_same_cutter(described->second.tool, f.tool)) {
-            result.broken.push_back(fmt::format("{} by its comment in line {}, {} by {}",
-                                                tool_sizes(described->second.tool, 1, "mm"),
-                                                described->second.line, tool_sizes(f.tool, 1, "mm"),
-                                                job.file));
+            result.broken.push_back(
+                fmt::format("{} by its comment in line {}, {} by {}: first cut{}",
+                            tool_sizes(described->second.tool, 1, "mm"), described->second.line,
+                            tool_sizes(f.tool, 1, "mm"), job.file, words_of(f.first_cut)));
         }
     }
 }
@@ -133,7 +133,7 @@ void judge(const Job& job, std::optional<double> scallop, Verification& result)
             fmt::format("tabs: {} found, {} expected{}", f.tabs_standing, f.tabs_wanted, lost));
     }
     if (scallop) {
-        bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
+        bound("uncovered_share", f.uncovered_share, bounds.uncovered_share, f.uncovered_at);
         if (f.thickest_left) {
             const auto [thickness, at] = *f.thickest_left;
             result.broken.push_back(

@@ -65,7 +65,8 @@ struct WallStock {
 // Figures of one tool of the program.
 struct ToolFigures {
     toolpath::Tool tool;
-    double cut_length{};  // mm
+    FaultPlace first_cut{};  // the end of its first move at feed
+    double cut_length{};     // mm
     // mm: the deepest cut, along the axis, at one position
     double cut_depth_max{};
 };
@@ -119,6 +120,7 @@ struct VerifyFigures {
     double left_volume{};                       // mm^3
     std::optional<ThickestLeft> thickest_left;  // if it is more than scallop and tolerance
     double uncovered_share{};                   // of the floor: left above the scallop bound
+    std::optional<FaultPlace> uncovered_at{};   // where most of that is left
     // For 2.5-D operations: the most stock left over the tolerance, and the tabs of all profiles.
     std::optional<LevelLeft> level_left;
     std::optional<WallStock> wall_stock;  // the thickest over the tolerance

@@ -23,7 +23,7 @@ struct Cuts {
 // two distances counts, not the whole depth.
 //
 // regions  what each has at the point
-// top      z: of the stock
+// top      z: of the stock before the cut
 Cuts cuts_at(const std::vector<RegionAt>& regions, double z, double top);
 
 struct WallGouge {

@@ -439,6 +439,8 @@ TEST(Verify, JudgesEachOfSeveralPocketsByItsOwnWalls)
     // the second pocket is left out
     const Verification half = verdict("G21 G90\n" + pocketed(0) + "G0 Z5\nM30\n", both);
     CHECK(half.figures.uncovered_share > 0.3);
+    CHECK(half.figures.uncovered_at->place.x > 16);
+    CHECK(half.broken.front().find(" at x ") != std::string::npos);
 
     // through the web of 2 mm between them, whose middle is 1 mm from either
     const Verification through =
