@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host_tools/geometry/part_model/part_model.hpp"
+#include "host_tools/job/job/finish_keys.hpp"
 #include "host_tools/judge/verify/floor_judgement.hpp"
 #include "host_tools/judge/verify/pocket_boundaries.hpp"
 #include "host_tools/judge/verify/verdict.hpp"
@@ -76,13 +77,30 @@ double most_left(const Scene& scene, const std::vector<Tool>& tools, double spac
            spacing * spacing / (8 * least);
 }
 
-double wall_gouge(const PocketBoundaries& walls,
+// True if all operations on surfaces that use the tool stay within walls.
+bool is_walled_in(const Job& job, const Tool& tool)
+{
+    return std::none_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
+        const auto is_it = [&](const Tool& other) {
+            return other.number == tool.number;
+        };
+        return !o.prismatic &&
+               (is_it(o.tool) || std::any_of(o.tools.begin(), o.tools.end(), is_it)) &&
+               (!o.outline.boundary || job::finishes_ground(o));
+    });
+}
+
+double wall_gouge(const Job& job,
+                  const PocketBoundaries& walls,
                   const std::vector<ToolPositions>& runs,
                   double top,
                   std::optional<FaultPlace>& at)
 {
     double worst = 0;
     for (const ToolPositions& run : runs) {
+        if (!is_walled_in(job, run.tool)) {
+            continue;
+        }
         for (std::size_t k = 0; k < run.tips.size(); ++k) {
             const Vec3d tip = run.tips[k];
             const double depth =
@@ -126,7 +144,7 @@ void judge_surfaces(Verifying& work)
     Verification& result = work.result;
     VerifyFigures& figures = result.figures;
     if (!walls.empty()) {
-        figures.wall_gouge_max = wall_gouge(walls, runs, top, figures.wall_gouge_at);
+        figures.wall_gouge_max = wall_gouge(work.job, walls, runs, top, figures.wall_gouge_at);
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, top, figures.ball_gouge_at);
     FloorMaps maps = judge_floor(

@@ -448,6 +448,29 @@ TEST(Verify, JudgesEachOfSeveralPocketsByItsOwnWalls)
     DOUBLES_EQUAL(3 + 1, *through.figures.wall_gouge_max, 0.05);
 }
 
+TEST(Verify, WallsOfOnePocketBindNoToolOfAnOperationWithoutBoundary)
+{
+    folder.with("left.json", pocket_at(0));
+    folder.with("right.json", pocket_at(16));
+    const std::string rough =
+        "boundary = \"left.json\"\n[[operation]]\nstrategy = \"hull_rough\"\nfloor = "
+        "\"plane.json\"\n"
+        "max_depth = 2\n";
+    const std::string second = "tool = 2\n[[tool]]\nshape = \"flat\"\ndiameter = 6\n";
+    const std::string pocket = "G21 G90\nT1\n" + pocketed(0);
+    const std::string beyond = pocket + "G1 X27\nG0 Z5\nM30\n";
+    DOUBLES_EQUAL(0, *verdict(beyond, rough).figures.wall_gouge_max, 1e-9);
+    const auto judged = [&](const std::string& program) {
+        const Job job =
+            read_job(folder.with("job.toml", "[[tool]]" + kPocketJob.substr(7) + rough + second),
+                     cusp::strategies::all());
+        return *verify::verify(job, folder.with("p.ngc", program), settings, [](double) {
+                }).figures.wall_gouge_max;
+    };
+    CHECK(judged(beyond) > 6);
+    DOUBLES_EQUAL(0, judged(pocket + "G0 Z5\nT2\nG0 X25 Y8\nG1 Z-2\nG0 Z5\nM30\n"), 1e-9);
+}
+
 TEST(Verify, RefusesAToolThatTheJobLacks)
 {
     STRCMP_CONTAINS("T7 is no tool of the job",
