@@ -14,10 +14,10 @@ const folder = fs.mkdtempSync(path.join(os.tmpdir(), "cusp-sender-"));
 after(() => fs.rmSync(folder, { recursive: true, force: true }));
 const bundle = path.join(folder, "sender.mjs");
 await require("esbuild").build({
-  stdin: { contents: ["sender/session", "sender/status_report", "sender/crc32", "sender/line_window", "port/mill_core"].map((name) => `export * from "./src/${name}";`).join("\n"),
+  stdin: { contents: ["sender/session", "sender/status_report", "sender/crc32", "sender/line_window", "sender/controller_facts", "port/mill_core"].map((name) => `export * from "./src/${name}";`).join("\n"),
     resolveDir: web }, bundle: true, format: "esm", outfile: bundle, logLevel: "error",
 });
-const { Session, MillCore, statusReport, ReportFilter, crc32 } = await import(pathToFileURL(bundle));
+const { Session, MillCore, statusReport, ReportFilter, ControllerFacts, crc32 } = await import(pathToFileURL(bundle));
 const module = await WebAssembly.compile(fs.readFileSync(core));
 const seed = Number(process.env.SEED ?? 20261129);
 console.log(`SEED=${seed}`);
@@ -269,4 +269,24 @@ test("checks stay on through long moves and holds, and an overnight hold fills n
   await port.run(10_000);
   const { run, checked, refused, messages } = session.snapshot();
   assert.deepEqual([run.phase, checked, refused, messages], ["done", true, 0, ["Pgm End"]]);
+});
+
+test("a damaged line of a listing is no place, no length and no setting", () => {
+  const whole = ["[G54:1.500,2.250,-3.000]", "[PRB:-1.000,0.500,-7.125:1]", "[TLO:-1.250]", "$110=500.000", "$10=1"], facts = new ControllerFacts();
+  facts.take(whole);
+  assert.deepEqual([facts.places.get("G54"), facts.probe, facts.toolLength, facts.setting(110), facts.setting(10)],
+    [[1.5, 2.25, -3], { at: [-1, 0.5, -7.125], touched: true }, -1.25, 500, 1]);
+  facts.take(["[TLO:0.000,0.000,-2.500]"]);
+  assert.equal(facts.toolLength, -2.5);
+  const damaged = new ControllerFacts();
+  damaged.take(["[G54:1.500,,-3.000]", "[G55:1.500,2.250]", "[G56:1.500,0x10,-3.000]", "[G57:1.500,2.25,-3.000]", "[G58:1e9,2.250,-3.000]", "[PRB:-1.000,0.5.00,-7.125:1]", "[TLO:-1.2]", "$110=500.0.0", "$111=--5", "$112=5x"]);
+  assert.deepEqual([damaged.places.size, damaged.probe, damaged.toolLength, damaged.settings.size], [0, null, 0, 0]);
+  const random = numbers(seed);
+  for (let round = 0; round < 20_000; ++round) {
+    const line = [...whole[Math.floor(whole.length * random())]], any = new ControllerFacts();
+    for (let k = 0; k < 3; ++k) line.splice(Math.floor(line.length * random()), Math.floor(3 * random()), ...(random() < 0.5 ? [String.fromCharCode(Math.floor(256 * random()))] : []));
+    any.take([line.join("")]);
+    const all = [...any.settings.values(), ...[...any.places.values()].flat(), ...(any.probe?.at ?? []), any.toolLength];
+    assert.ok(all.every(Number.isFinite), line.join(""));
+  }
 });

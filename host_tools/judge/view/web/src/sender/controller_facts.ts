@@ -1,5 +1,9 @@
-// A controller's description of itself: the answers to $I, $$, $G and $#.
+// A controller's description of itself: the answers to $I, $$, $G and $#. A line of another form, as lost bytes make it, says nothing.
+import { placeOf } from "./status_report";
 import type { Place } from "./status_report";
+
+// Of one axis, or the last of several; null: a text of another form.
+const lengthOf = (text: string): number | null => placeOf(text)?.at(-1) ?? placeOf(`${text},${text},${text}`)?.[2] ?? null;
 
 export class ControllerFacts {
   /** As they were listed, one after the other: what the planners' call `send` reads. */
@@ -21,18 +25,18 @@ export class ControllerFacts {
   }
 
   private takeLine(line: string): void {
-    const setting = /^\$(\d+)=(-?[\d.]+)/.exec(line), [, name, value] = /^\[([^:\]]+):(.*)\]$/.exec(line) ?? ["", "", ""];
+    const setting = /^\$(\d+)=(-?\d+(?:\.\d*)?)(?: \(.*)?$/.exec(line), [, name, value] = /^\[([^:\]]+):(.*)\]$/.exec(line) ?? ["", "", ""];
     if (setting) this.settings.set(Number(setting[1]), Number(setting[2]));
     else if (name === "VER") this.version = value.replace(/:+$/, "");
     else if (name === "OPT") this.buffer = Number(/,(\d{2,6})$/.exec(value)?.[1] ?? this.buffer);
     else if (name === "GC") this.modal = value.split(" ");
-    else if (name === "TLO") this.toolLength = Number(value.split(",").at(-1));
+    else if (name === "TLO") this.toolLength = lengthOf(value) ?? this.toolLength;
     else if (name === "PRB") {
-      const [place, touched] = value.split(":"), at = place.split(",").map(Number);
-      this.probe = { at: at.slice(0, 4) as Place, touched: touched === "1" };
+      const [place, touched] = value.split(":"), at = placeOf(place);
+      this.probe = at && { at, touched: touched === "1" };
     } else if (/^G\d/.test(name)) {
-      const at = value.split(",").map(Number);
-      if (at.length >= 3 && at.every(Number.isFinite)) this.places.set(name, at.slice(0, 4) as Place);
+      const at = placeOf(value);
+      if (at) this.places.set(name, at);
     }
   }
 

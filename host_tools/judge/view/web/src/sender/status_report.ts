@@ -24,8 +24,8 @@ export interface StatusReport {
 const kNumber = /^-?\d{1,5}\.(\d{3}|\d{4})$/;
 const kStates = /^(Idle|Run|Jog|Alarm|Check|Home|Sleep|Hold:[01]|Door:[0-3])$/;
 
-// Of three to six axes, all with as many decimals.
-const placeOf = (text: string): Place | null => {
+/** Of three to six axes, all with as many decimals; null: a text of another form. */
+export const placeOf = (text: string): Place | null => {
   const axes = text.split(","), decimals = new Set(axes.map((n) => kNumber.exec(n)?.[1].length ?? 0));
   return axes.length >= 3 && axes.length <= 6 && decimals.size === 1 && !decimals.has(0) ? axes.slice(0, 4).map(Number) as Place : null;
 };
