@@ -108,6 +108,50 @@ class Boards(CuspCase):
                 self.assertGreater(math.hypot(at[0] - x, at[1]), 0.298)
         self.assertAlmostEqual(20 + 2 * math.pi * 0.3, way, delta=0.2)  # but for the leads
 
+    def distances_of_cuts(self, half_length):
+        """Of all cuts of b.ngc from a line along x from 0: the least and the greatest of the tip, and the way."""
+        at, found, way = [0.0, 0.0, 1.0], [], 0.0
+        for line in (self.folder / "b.ngc").read_text().splitlines():
+            before = list(at)
+            for axis, value in re.findall(r"([XYZ])(-?[\d.]+)", line.partition("(")[0]):
+                at["XYZ".index(axis)] = float(value)
+            if before[2] < -0.099 and at[2] < -0.099 and before != at:
+                for k in range(51):
+                    x, y = (a + (b - a) * k / 50 for a, b in zip(before[:2], at[:2]))
+                    found.append(math.hypot(x - min(max(x, 0), half_length), y))
+                way += math.dist(before, at)
+        return min(found), max(found), way
+
+    def test_a_vee_runs_around_copper_half_its_cut_away(self):
+        self.write("b.gbr", HEAD + "X0Y0D02*\nX100000Y0D01*\nM02*\n")
+        for tool, half in (("vee:3:60:0.1", 0.05 + 0.1 * math.tan(math.radians(30))), ("vee:3:30", 0.1 * math.tan(math.radians(15)))):
+            call = ("plan", "b.gbr", "--tool", tool, "flat:0.8", "--depth", "1")
+            self.assertIn("engrave outside, vee 3 mm", self.cusp(0, *call, "-o", "b.ngc"))
+            least, greatest, way = self.distances_of_cuts(10)
+            self.assertAlmostEqual(0.2 + half, least, delta=0.011)  # chords are within half of 0.02 mm
+            self.assertAlmostEqual(0.2 + half, greatest, delta=0.011)
+            self.assertAlmostEqual(20 + 2 * math.pi * (0.2 + half), way, delta=0.03)
+            self.write_job(self.cusp(0, *call, "--print-job"))
+            self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "b.ngc"))
+
+    def test_the_narrower_cut_of_a_vee_and_a_mill_isolates(self):
+        self.write("b.gbr", HEAD + "X0Y0D02*\nX100000Y0D01*\nM02*\n")
+        for tools, words in ((("vee:3:60:0.1", "flat:0.2"), "profile outside, flat 0.2 mm"),
+                             (("vee:3:60:0.05", "flat:0.2"), "engrave outside, vee 3 mm"),
+                             (("vee:3:60:0.05",), "engrave outside, vee 3 mm")):
+            self.assertIn(words, self.cusp(0, "plan", "b.gbr", "--tool", *tools, "--depth", "1", "-o", "b.ngc"))
+        self.assertIn("for which a mill or a vee is needed", self.cusp(2, "plan", "b.gbr", "--tool", "drill:1", "--depth", "1",
+                                                                       "-o", "b.ngc"))
+        for tool, words in (("vee:3:60:0.1:1", "a vee has a diameter, the angle of its tip, and"),
+                            ("vee:3:60:3", "the diameter of the tip is 3, the tool's only 3"), ("drill:3:60:1", "a drill has")):
+            self.assertIn(words, self.cusp(2, "plan", "b.gbr", "--tool", tool, "--depth", "1", "-o", "b.ngc"))
+
+    def test_copper_that_a_vee_does_not_part_is_told_with_its_place(self):
+        self.write("b.gbr", HEAD + "X0Y0D02*\nX100000Y0D01*\nX0Y5500D02*\nX100000Y5500D01*\nM02*\n")  # a gap of 0.15 mm
+        call = ("plan", "b.gbr", "--tool", "vee:3:60:0.1", "--depth", "1", "-o", "b.ngc")
+        self.assertRegex(self.cusp(0, *call), r"the groove of tool 1 does not reach 20\.?\d* mm of the loops.*y 0\.\d+ mm")
+        self.assertNotIn("does not reach", self.cusp(0, *call, "--layer", "copper=outside:0.04"))
+
     def test_what_is_wrong_is_refused_with_its_line(self):
         self.refused("no.gbr", "G01 X1 Y1\n", "no Gerber file")
         self.refused("undefined.gbr", HEAD + "D77*\n", "line 5", "aperture D77 is not defined")

@@ -58,6 +58,9 @@ void check_engraving(const Operation& operation, const Refuse& refuse)
 {
     need(operation.prismatic->given_depth, "depth", "how deep it cuts", operation, refuse);
     check_sideways(operation, refuse);
+    if (!operation.part.floor.empty() && operation.prismatic->side != job::ProfileSide::kOn) {
+        refuse("side", "does not go with floor: how wide a groove is follows from its depth alone");
+    }
     if (!operation.part.floor.empty() && operation.prismatic->given_top) {
         refuse("top", "does not go with floor: an engraving begins at its surface");
     }
@@ -155,7 +158,11 @@ const Strategy kEngrave{
     "along lines and curves of a drawing, open or closed, at a level or following a floor",
     shared_keys(job::with_text({"output", "join_gaps", "max_depth", "depth", "top", "may_open",
                                 "drawing_layers", "loops"})),
-    {{"floor", Kind::kFiles, "none", "files of surfaces that it follows"}},
+    {{"floor", Kind::kFiles, "none", "files of surfaces that it follows"},
+     choice("side",
+            {"on", "outside", "inside"},
+            "of closed loops: the groove's upper edge runs along them, as beside copper. A loop "
+            "within a loop is a hole")},
     {Region::kGrooves},
     nullptr,
     check_engraving,

@@ -193,7 +193,8 @@ std::vector<OneLineKey> one_line_keys(const job::Strategies& strategies)
         {"tools",
          &Request::tools,
          "SHAPE:DIAMETER ...",
-         "ball:6, flat:8, bull:10:1.5, taper:6:5:0.5, drill:5, vee:6:60: the last finishes",
+         "ball:6, flat:8, bull:10:1.5, taper:6:5:0.5, drill:5, vee:6:60, vee:3:30:0.1: the last "
+         "finishes",
          OneLineUse::kAny,
          {},
          "--tool"},

@@ -78,6 +78,9 @@ std::string head_toml(const OneLineRequest& request, const OneLineChoice& choice
         if (choice.tools[i].tip_angle > 0) {
             out += fmt::format("tip_angle = {}\n", choice.tools[i].tip_angle);
         }
+        if (choice.tools[i].tip_diameter > 0) {
+            out += fmt::format("tip_diameter = {}\n", choice.tools[i].tip_diameter);
+        }
         if (choice.feeds[i] != choice.feeds.back() ||
             choice.plunge_feeds[i] != choice.plunge_feeds.back()) {
             out += fmt::format("feed = {}\nplunge_feed = {}\n", choice.feeds[i],

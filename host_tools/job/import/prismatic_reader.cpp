@@ -13,6 +13,7 @@
 #include "host_tools/job/import/drawn_shapes.hpp"
 #include "host_tools/job/import/dxf_holes.hpp"
 #include "host_tools/job/import/file_loops.hpp"
+#include "host_tools/job/import/groove_sides.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/import/part_edges.hpp"
 #include "host_tools/job/import/part_extent.hpp"
@@ -183,6 +184,71 @@ void settle_holes(const Job& job, Operation& operation)
     }
 }
 
+struct DrawnUnit {
+    double millimetres;
+    EndDistance gaps;
+};
+
+// Beside loops, which are those of the grooves' walls.
+void read_groove_sides(JobTable& table,
+                       const std::vector<NestedLoop>& loops,
+                       PartFiles& parts,
+                       Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    if (loops.empty()) {
+        table.refuse("loops", "the drawing has none of these");
+    }
+    const bool inside = cut.side == ProfileSide::kInside;
+    BesideLoops beside = beside_loops(loops, operation.tool, cut.depth, inside);
+    if (beside.chains.empty()) {
+        table.refuse("side", fmt::format("the groove of tool {} fits nowhere {} the loops",
+                                         operation.tool.number, inside ? "inside" : "outside"));
+    }
+    if (beside.place) {
+        parts.note(
+            fmt::format("operation {}: {}: the groove of tool {} does not reach {:.4g} mm of "
+                        "the loops, such as at x {:.6g} y {:.6g} mm: others are too near",
+                        operation.number, operation.name(), operation.tool.number, beside.unreached,
+                        beside.place->x, beside.place->y));
+    }
+    cut.chains = std::move(beside.chains);
+    cut.side = ProfileSide::kOn;
+}
+
+// The lines that a tool follows, on them or beside them.
+void read_ways(JobTable& table,
+               const DrawingChoice& choice,
+               const FileShapes& shapes,
+               const DrawnUnit& unit,
+               PartFiles& parts,
+               Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    const std::string& file = cut.file;
+    const bool engraves = operation.cuts(job::Region::kGrooves);
+    if (engraves && names_broken_edges(file)) {
+        if (!cut.given_top) {
+            table.refuse("top", "is missing: broken edges need the z of their upper side");
+        }
+        cut.chains = edge_ways(file, unit.millimetres,
+                               parts.facets(file.substr(0, layer_mark(file)), unit.millimetres),
+                               operation.tool, *cut.given_top - cut.depth);
+    } else if (engraves && cut.side != ProfileSide::kOn &&
+               find_key(keys_of(*operation.strategy), "side") != nullptr) {
+        read_groove_sides(table,
+                          nested(choice.takes_all() ? parts.loops(file, unit.millimetres, unit.gaps)
+                                                    : chosen_loops(choice, shapes)),
+                          parts, operation);
+    } else {
+        cut.chains = choice.takes_all() ? parts.chains(file, unit.millimetres)
+                                        : chosen_chains(choice, shapes);
+    }
+    if (cut.chains.empty()) {
+        table.refuse("loops", "the drawing has none of these");
+    }
+}
+
 // A level rectangle around the boundary.
 nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
 {
@@ -300,17 +366,8 @@ void read_drawing(JobTable& table,
                                               "holes are those of a drawing",
                                               operation.name()));
         }
-    } else if (operation.cuts(job::Region::kGrooves) && names_broken_edges(file)) {
-        if (!cut.given_top) {
-            table.refuse("top", "is missing: broken edges need the z of their upper side");
-        }
-        cut.chains = edge_ways(file, unit, parts.facets(file.substr(0, layer_mark(file)), unit),
-                               operation.tool, *cut.given_top - cut.depth);
     } else if (operation.cuts(job::Region::kGrooves) || is_beside_lines(table)) {
-        cut.chains = choice.takes_all() ? parts.chains(file, unit) : chosen_chains(choice, shapes);
-        if (cut.chains.empty()) {
-            table.refuse("loops", "the drawing has none of these");
-        }
+        read_ways(table, choice, shapes, {unit, gaps}, parts, operation);
     } else if (!choice.takes_all()) {
         cut.loops = nested(chosen_loops(choice, shapes));
         if (cut.loops.empty()) {

@@ -58,11 +58,11 @@ public:
         for (const SheetDrawing& drawing : drawings_) {
             for (const SheetLayer& layer : drawing.named) {
                 if (layer.use.isolates && !isolating_) {
-                    isolating_ = tools_.isolating_place();
+                    isolating_ = tools_.isolating_place(isolating_depth(layer.use));
                 }
             }
         }
-        if (isolating_) {
+        if (isolating_ && !tools_.is_vee(*isolating_)) {
             tools_.keep_for_copper(*isolating_);
         }
     }
@@ -95,6 +95,7 @@ private:
                      const std::string& side,
                      double depth,
                      const std::vector<double>& except);
+    double isolating_depth(const LayerUse& use) const;
     void add_isolation(const Place& place, const LayerUse& use);
     void add_lines(const Place& place,
                    const std::string& loops,
@@ -291,19 +292,26 @@ void SheetSorter::add_profile(Rank rank,
                     tabs));
 }
 
-// Once around copper, with the finest mill.
-void SheetSorter::add_isolation(const Place& place, const LayerUse& use)
+double SheetSorter::isolating_depth(const LayerUse& use) const
 {
     const double shallow = request_.inch ? 0.004 : 0.1;
-    const double depth = use.depth.value_or(std::min(shallow, depth_ / 2));
+    return use.depth.value_or(std::min(shallow, depth_ / 2));
+}
+
+// Once around copper, with the mill or the vee whose cut is narrowest.
+void SheetSorter::add_isolation(const Place& place, const LayerUse& use)
+{
+    const double depth = isolating_depth(use);
     const std::size_t tool = *isolating_;
-    add(kLines, Region::kOutline, place,
+    const Region region = tools_.is_vee(tool) ? Region::kGrooves : Region::kOutline;
+    add(kLines, region, place,
         fmt::format("side = \"outside\"\ntool = {}\ndepth = {}\noutput = \"{}\"\n", tool + 1, depth,
                     request_.output) +
             join_key(),
-        fmt::format("{}: profile outside, {}, {}{}",
-                    loop_words(place.shapes.loops, "copper island", "opening"), tool_words(tool),
-                    deep(depth, depth), use.depth ? "" : " (--layer NAME=outside:DEPTH)"));
+        fmt::format("{}: {} outside, {}, {}{}",
+                    loop_words(place.shapes.loops, "copper island", "opening"),
+                    strategy_for(region, strategies_).name, tool_words(tool), deep(depth, depth),
+                    use.depth ? "" : " (--layer NAME=outside:DEPTH)"));
 }
 
 void SheetSorter::add_lines(const Place& place,

@@ -42,13 +42,31 @@ std::vector<std::size_t> SheetTools::mills() const
     return places;
 }
 
-std::size_t SheetTools::isolating_place() const
+bool SheetTools::is_vee(std::size_t place) const
 {
-    first_mill_place();
-    const auto places = mills();
-    return *std::min_element(places.begin(), places.end(), [this](std::size_t a, std::size_t b) {
-        return tools_[a].diameter < tools_[b].diameter;
-    });
+    return tools_[place].shape == toolpath::name_of(ToolShape::kVee);
+}
+
+std::size_t SheetTools::isolating_place(double depth) const
+{
+    std::vector<std::size_t> places = mills();
+    const auto vees = places_of(ToolShape::kVee);
+    places.insert(places.end(), vees.begin(), vees.end());
+    if (places.empty()) {
+        throw InputError(
+            "--tool: there is copper to cut around, for which a mill or a vee is needed: add one, "
+            "such as --tool flat:0.2 or vee:3:30:0.1");
+    }
+    const auto width = [&](std::size_t place) {
+        const NamedTool& tool = tools_[place];
+        return is_vee(place)
+                   ? std::min(tool.diameter,
+                              tool.tip_diameter +
+                                  2 * depth * elementary::tan(tool.tip_angle / 2 * kPi / 180))
+                   : tool.diameter;
+    };
+    return *std::min_element(places.begin(), places.end(),
+                             [&](std::size_t a, std::size_t b) { return width(a) < width(b); });
 }
 
 std::size_t SheetTools::first_mill_place() const

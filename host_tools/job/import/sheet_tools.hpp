@@ -27,8 +27,9 @@ public:
     // Numbers of the mills before the last, from 1.
     std::vector<std::size_t> roughing_mills() const;
     std::size_t engraver_place() const;
-    // The thinnest mill cuts around copper, and nothing else if there is another.
-    std::size_t isolating_place() const;
+    // The mill or vee whose cut is narrowest at the depth cuts around copper; a mill nothing else if there is another.
+    std::size_t isolating_place(double depth) const;
+    bool is_vee(std::size_t place) const;
     void keep_for_copper(std::size_t place) { isolating_ = place; }
     std::size_t vee_place(const LayerUse& use) const;
 

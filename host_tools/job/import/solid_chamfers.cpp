@@ -11,6 +11,7 @@
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/toolpath/tool.hpp"
+#include "host_tools/job/job/chamfer_tip.hpp"
 
 namespace cusp::import {
 
@@ -30,6 +31,7 @@ Tool vee_of(const NamedTool& named, double unit)
     tool.shape = ToolShape::kVee;
     tool.radius = named.diameter * unit / 2;
     tool.tip_angle = named.tip_angle * kPi / 180;
+    tool.tip_radius = named.tip_diameter * unit / 2;
     return tool;
 }
 
@@ -39,7 +41,7 @@ double flank_width(const Tool& vee, const EdgeBand& band)
 }
 
 // True if the tip has room beside each loop.
-bool has_room(const Region2d& loops, const Region2d& centres)
+bool has_room(const Region2d& loops, const Region2d& centres, double away)
 {
     if (centres.contours.empty()) {
         return false;
@@ -47,7 +49,7 @@ bool has_room(const Region2d& loops, const Region2d& centres)
     const EdgeTree tree{edges_of(centres)};
     return std::all_of(loops.contours.begin(), loops.contours.end(), [&](const Contour& loop) {
         return std::any_of(loop.begin(), loop.end(), [&](const offset::Edge& edge) {
-            return tree.any_nearer(point_on(edge, 0.5), 1.01 * job::kChamferTip);
+            return tree.any_nearer(point_on(edge, 0.5), 1.01 * away);
         });
     });
 }
@@ -93,9 +95,6 @@ void choose_vee(const SolidEdges& edges,
                 double unit,
                 SolidChamfer& chamfer)
 {
-    const Region2d centres =
-        offset::RegionOffset{offset::reversed(chamfer.loops)}.at(job::kChamferTip);
-    const bool fits = has_room(chamfer.loops, centres);
     for (std::size_t k = 0; k < tools.size(); ++k) {
         const Tool vee = vee_of(tools[k], unit);
         if (tools[k].shape != name_of(ToolShape::kVee) ||
@@ -104,16 +103,20 @@ void choose_vee(const SolidEdges& edges,
         }
         EdgeBand band = chamfer.band;
         band.width = flank_width(vee, band);
+        const double away = vee.tip_radius + job::kChamferTip;
+        const Region2d centres = offset::RegionOffset{offset::reversed(chamfer.loops)}.at(away);
         const double tip =
             band.high - (band.width + job::kChamferTip) / elementary::tan(vee.tip_angle / 2);
-        if (job::kChamferTip + band.width > vee.radius) {
+        if (away + band.width > vee.radius) {
             chamfer.fault = ChamferFault::kTooNarrow;
             continue;
         }
-        const double reach = vee.radius + job::kChamferTip;
-        if (!chamfer.all.has_parts && fits && edges.is_clear(vee, centres, tip)) {
+        const double reach = vee.radius + away;
+        if (!chamfer.all.has_parts && has_room(chamfer.loops, centres, away) &&
+            edges.is_clear(vee, centres, tip)) {
             chamfer.near = strips(chamfer.loops, reach);
             chamfer.ways.reset();
+            chamfer.beside = 0;
             chamfer.band = band;
             chamfer.tool = k;
             return;
@@ -122,6 +125,7 @@ void choose_vee(const SolidEdges& edges,
         if (ways.broken > (chamfer.ways ? chamfer.ways->broken : 0.0)) {
             chamfer.near = strips(ways.ways, reach);
             chamfer.ways = std::move(ways);
+            chamfer.beside = away;
             chamfer.band = band;
             chamfer.tool = k;
         } else if (!chamfer.tool) {
@@ -149,7 +153,8 @@ std::vector<SolidChamfer> solid_chamfers(const Triangles& facets,
                        edges.loops(band),
                        std::nullopt,
                        edges.survey(band),
-                       {}});
+                       {},
+                       0});
         choose_vee(edges, tools, unit, all.back());
     }
     return all;

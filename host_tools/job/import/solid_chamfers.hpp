@@ -9,7 +9,6 @@
 #include "host_tools/job/import/part_regions.hpp"
 #include "host_tools/job/import/solid_edges.hpp"
 #include "host_tools/job/import/tool_text.hpp"
-#include "host_tools/job/job/chamfer_tip.hpp"
 
 namespace cusp::import {
 
@@ -33,10 +32,10 @@ struct SolidChamfer {
         ways;  // of the tool where it can't break all of the edges; none: it goes along the loops
     SolidEdges::Survey all;  // edges of the band
     offset::Region2d near;   // within the tool's reach, in plan
+    double beside;           // mm: from edges() to the band
 
-    // Those along which the tool goes, and how far from them the band begins, mm.
+    // Those along which the tool goes.
     std::vector<offset::Edge> edges() const;
-    double beside() const { return ways ? job::kChamferTip : 0.0; }
     // mm: of the tip below the band's upper edge.
     double depth() const;
 };

@@ -277,7 +277,7 @@ private:
         std::vector<BandGround> made;
         for (const SolidChamfer& chamfer : chamfers) {
             if (chamfer.tool) {
-                made.emplace_back(chamfer.band, chamfer.edges(), chamfer.beside());
+                made.emplace_back(chamfer.band, chamfer.edges(), chamfer.beside);
             }
         }
         const auto all = std::make_shared<const std::vector<BandGround>>(std::move(made));

@@ -75,9 +75,12 @@ bool has_tip(const std::string& shape) { return shape == "drill" || shape == "ve
 
 void check_fields(const std::string& text, const std::string& shape, std::size_t count)
 {
-    if (count > 3 && has_tip(shape)) {
-        refuse(text,
-               fmt::format("a {} has a diameter and the angle of its tip: {}:6:90", shape, shape));
+    const bool is_vee = shape == "vee";
+    if (count > (is_vee ? 4U : 3U) && has_tip(shape)) {
+        refuse(text, is_vee
+                         ? "a vee has a diameter, the angle of its tip, and if it is not sharp the "
+                           "diameter of the flat there: vee:6:90, vee:3:30:0.1"
+                         : "a drill has a diameter and the angle of its tip: drill:6:90");
     }
     if (shape == kTaper) {
         if (count != 4) {
@@ -121,6 +124,13 @@ NamedTool tool_of_text(const std::string& text, bool inch)
     if (has_tip(tool.shape)) {
         const bool known = tool.shape == "drill" && fields.size() == 2;
         tool.tip_angle = known ? kDrillTip : angle_of(text, last);
+        if (fields.size() > 3) {
+            tool.tip_diameter = length_of(text, "diameter of the tip", fields[3], inch);
+            if (!(tool.tip_diameter < tool.diameter)) {
+                refuse(text, fmt::format("the diameter of the tip is {:g}, the tool's only {:g}",
+                                         tool.tip_diameter, tool.diameter));
+            }
+        }
     } else if (bull || tool.shape == kTaper) {
         const bool tapers = !bull;
         tool.taper_angle = tapers ? angle_of(text, last) : 0;
@@ -147,6 +157,9 @@ std::string words_of(const NamedTool& tool, bool inch)
     }
     if (tool.shape == "vee") {
         words += fmt::format(" of {:g} degrees", tool.tip_angle);
+        words += tool.tip_diameter > 0
+                     ? fmt::format(" with a tip of {:.6g} {}", tool.tip_diameter, unit)
+                     : "";
     }
     return words;
 }

@@ -13,10 +13,11 @@ struct NamedTool {
     double corner_radius{};  // of a bull-nose end, or of the ball of a taper; else 0
     double tip_angle{};      // degrees, of a vee or a drill; else 0
     double taper_angle{};    // degrees, of a taper's flank from its axis; else 0
+    double tip_diameter{};   // of the flat at a vee's tip; else 0
 };
 
-// text  SHAPE:DIAMETER, bull:DIAMETER:CORNER_RADIUS, vee:DIAMETER:ANGLE, drill:DIAMETER[:ANGLE],
-//       taper:DIAMETER:ANGLE:BALL_RADIUS, angles in degrees; each length may end in "mm" or "in"
+// text  SHAPE:DIAMETER, bull:DIAMETER:CORNER_RADIUS, vee:DIAMETER:ANGLE[:TIP_DIAMETER],
+//       drill:DIAMETER[:ANGLE], taper:DIAMETER:ANGLE:BALL_RADIUS, angles in degrees; each length may end in "mm" or "in"
 // inch  whether the result, and lengths without an ending, are in inches
 //
 // Errors: InputError with the text, its fault and the expected form.
