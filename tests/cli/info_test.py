@@ -19,6 +19,7 @@ from cusp_case import property_cases
 CUSP = str(pathlib.Path(sys.argv[1]).resolve())
 WITH_CAD = "--without-cad" not in sys.argv
 BRACKET = pathlib.Path(__file__).resolve().parents[2] / "examples/bracket/bracket.step"
+TRAY = pathlib.Path(__file__).resolve().parents[2] / "examples/tutorial/tray.step"
 
 
 def line(layer, x0, y0, x1, y1):
@@ -132,7 +133,12 @@ class Info(unittest.TestCase):
         self.assertEqual((6.6, 10, 10, True), tuple(bored[key] for key in ("diameter_mm", "top_mm", "depth_mm", "through")))
         self.assertEqual({"diameter_mm": 12, "depth_mm": 5, "angle_degrees": 0}, bored["mouth"])
         self.assertEqual([{"radius_mm": 4, "count": 4}], found["inner_corners"])
+        self.assertEqual([], found["fillets"])
         self.assertIn("counterbored 12 mm, 5 mm deep", self.said(str(BRACKET)))
+        tray = self.described(str(TRAY))["fillets"]
+        self.assertEqual([(3.5, True, 1), (4, True, 8), (1.5, False, 8), (2, False, 1)],
+                         [(f["radius_mm"], f["concave"], f["count"]) for f in tray])
+        self.assertIn("1 of radius 2 mm, convex, 27.4 mm long", self.said(str(TRAY)))
 
     def test_levels_and_pockets_of_random_plates_are_those_of_their_squares(self):
         for seed in range(1, 1 + property_cases(12)):

@@ -10,6 +10,7 @@
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/offset/shadow.hpp"
+#include "host_tools/job/import/cad_fillets.hpp"
 #include "host_tools/job/import/cad_holes.hpp"
 
 namespace cusp::import {
@@ -170,6 +171,7 @@ PartFeatures features_of_model(const CadModel& model)
         }
         ++features.corners.back().count;
     }
+    features.fillets = fillets_of(model);
     return features;
 }
 

@@ -1,4 +1,4 @@
-// Levels, pockets, holes and inner corners of a part: what a machinist chooses tools by.
+// Levels, pockets, holes, inner corners and fillets of a part: what a machinist chooses tools by.
 #pragma once
 
 #include <array>

@@ -106,6 +106,14 @@ struct PartCorners {
     std::size_t count{};
 };
 
+// Rounds of one radius between faces that they touch without an edge, and that are no inner corners.
+struct PartFillets {
+    double radius{};  // mm
+    bool concave{};
+    std::size_t count{};
+    double length{};  // mm, along the middle of them
+};
+
 // Features by which a tool from above is chosen.
 struct PartFeatures {
     std::vector<PartLevel> levels;     // the highest first
@@ -113,6 +121,7 @@ struct PartFeatures {
     std::vector<PartHoles> holes;      // the narrowest first
     std::size_t closed_above{};        // holes that begin below
     std::vector<PartCorners> corners;  // the smallest radius first
+    std::vector<PartFillets> fillets;  // the concave first, the smallest radius first
 };
 
 // One of `layers`, `surfaces` and `triangles` is filled.

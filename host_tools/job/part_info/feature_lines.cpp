@@ -82,6 +82,11 @@ std::vector<std::pair<std::string, std::string>> feature_lines(const PartFeature
     add("inner corners", features.corners, [](const job::PartCorners& corners) {
         return fmt::format("{} of radius {} mm", corners.count, number(corners.radius, 3));
     });
+    add("fillets", features.fillets, [](const job::PartFillets& fillets) {
+        return fmt::format("{} of radius {} mm, {}, {}{} mm long", fillets.count,
+                           number(fillets.radius, 3), fillets.concave ? "concave" : "convex",
+                           fillets.count > 1 ? "together " : "", number(fillets.length, 1));
+    });
     return lines;
 }
 

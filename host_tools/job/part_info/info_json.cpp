@@ -163,7 +163,8 @@ Json holes_json(const job::PartHoles& holes)
 
 void add_features(const job::PartFeatures& features, Json& out)
 {
-    for (const char* const list : {"levels", "pockets", "round_holes", "inner_corners"}) {
+    for (const char* const list :
+         {"levels", "pockets", "round_holes", "inner_corners", "fillets"}) {
         out[list] = Json::array();
     }
     for (const job::PartLevel& level : features.levels) {
@@ -184,6 +185,12 @@ void add_features(const job::PartFeatures& features, Json& out)
     for (const job::PartCorners& corners : features.corners) {
         out["inner_corners"].push_back(
             {{"radius_mm", rounded(corners.radius)}, {"count", corners.count}});
+    }
+    for (const job::PartFillets& fillets : features.fillets) {
+        out["fillets"].push_back({{"radius_mm", rounded(fillets.radius)},
+                                  {"concave", fillets.concave},
+                                  {"count", fillets.count},
+                                  {"length_mm", rounded(fillets.length)}});
     }
 }
 
