@@ -99,6 +99,18 @@ class Tabs(CuspCase):
                 self.write("q.ngc", re.sub(r"Z-3\.5\b", "Z-2.3", program))
                 self.cusp(1, "verify", "job.toml", "q.ngc")
 
+    def test_tabs_by_a_ball_in_narrow_corners(self):
+        corners = "".join(f"10\n{x}\n20\n{y}\n" for x, y in ((-11.7411, 0.4337), (6.9049, -13.0495), (7.3862, 11.7675)))
+        for count in (2, 1):
+            job = dict(shape="ball", diameter=4, side="inside", depth=3.31, height=1.09, width=4.02, lead=2, allowance=0.3, more=', shape = "square"')
+            self.plan(14, **job, count=count)
+            self.write("disc.dxf", f"0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nc\n90\n3\n70\n1\n{corners}0\nENDSEC\n0\nEOF\n")
+            self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+            self.cusp(0, "verify", "job.toml", "p.ngc")
+            # a floor that is left 0.2 mm too high is found still
+            self.write("q.ngc", re.sub(r"Z-3\.31\b", "Z-3.11", (self.folder / "p.ngc").read_text()))
+            self.assertIn("left 0.2", self.cusp(1, "verify", "job.toml", "q.ngc"))
+
     def test_a_missing_last_level_is_no_tab(self):
         program = self.plan(14, diameter=4, side="outside", depth=3, height=1, count=1)
         self.write("q.ngc", re.sub(r"Z-3\b", "Z-2", program))

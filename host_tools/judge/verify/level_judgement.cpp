@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/job/job/thread.hpp"
 #include "host_tools/judge/verify/bands.hpp"
 #include "host_tools/judge/verify/distance_transform.hpp"
@@ -276,13 +277,17 @@ private:
                 }
             }
         }
+        const std::vector<double> from_floor = distances_from(cut_down(here, high), q_.grid);
         mark_long_tops(region, near, tops);
         const std::vector<double> away = distances_from(tops, q_.grid);
         if (!of_tabs.empty()) {
             const double foot = tab_foot(region.operation());
             for (const std::size_t at : of_tabs) {
-                const bool is_tab = tops[at] != kTooLong && away[at] <= foot &&
-                                    !is_over_slope(region, at, full + top_tolerance, away[at]);
+                const bool is_tab =
+                    tops[at] != kTooLong && away[at] <= foot &&
+                    (!is_over_slope(region, at, full + top_tolerance, away[at]) ||
+                     is_print(region.operation(), q_.cut[at] - full + cut.tabs->height,
+                              from_floor[at]));
                 high[at] = is_tab ? 0 : high[at];
             }
         }
@@ -379,6 +384,29 @@ private:
             return false;
         }
         return !operation.prismatic->tabs->ramped || q_.cut[k] > most - beyond / kSlopeRun;
+    }
+
+    // The points of those `here` that are not too high.
+    std::vector<char> cut_down(const std::vector<char>& here, const std::vector<char>& high) const
+    {
+        std::vector<char> out(here.size());
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            out[k] = here[k] != 0 && high[k] == 0 && !std::isnan(q_.cut[k]) ? 1 : 0;
+        }
+        return out;
+    }
+
+    // True if a round end that stands on the floor leaves as much: in a narrow corner the ends of tabs reach over both
+    // walls, so that what is left there is far from any top.
+    //
+    // left   mm over the floor
+    // away   mm from the nearest point that is cut down to it
+    bool is_print(const Operation& operation, double left, double away) const
+    {
+        const toolpath::Tool& tool = operation.tool;
+        const double cut_down = radius_at_height(tool, q_.floor_tolerance + above_tip(operation));
+        return tool.corner_radius > 0 &&
+               left <= profile_height(tool, std::min(tool.radius, away + cut_down + q_.grid.pitch));
     }
 
     // mm: how far a tab reaches beyond its top, at most: its slopes, and between wall and tool.
