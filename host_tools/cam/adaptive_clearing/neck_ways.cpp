@@ -44,21 +44,26 @@ struct TouchingCircle {
     double between;  // radians: between the places that it touches
 };
 
-// The largest circle of at most this radius that touches the wall at the place.
+// The largest circle of at most this radius that touches the wall at the place; of radius 0 where none is found.
 TouchingCircle touching_circle(const RegionOffset& walls, Vec2d at, Vec2d inward, double radius)
 {
     Vec2d other = at;
+    bool touches = false;
     for (int i = 0; i < kShrinks; ++i) {
         const EdgeTree::Nearest nearest = walls.nearest_edge(at + inward * radius);
         const Vec2d to = nearest.point - at;
         const double depth = dot(to, inward);
-        if (nearest.distance > radius - kTouching || depth <= 0.0) {
+        touches = nearest.distance > radius - kTouching;
+        if (touches || depth <= 0.0) {
             break;
         }
         other = nearest.point;
         radius = dot(to, to) / (2.0 * depth);
     }
     const Vec2d centre = at + inward * radius;
+    if (!touches || !walls.contains(centre)) {
+        return {0, 0};
+    }
     const Vec2d u = at - centre;
     const Vec2d v = other - centre;
     return {radius, std::abs(elementary::atan2(cross(u, v), dot(u, v)))};

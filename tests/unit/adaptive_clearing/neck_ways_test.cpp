@@ -66,6 +66,29 @@ TEST(NeckWays, AWayTurnsWithItsSlot)
     }));
 }
 
+// What two boolean operations have left of a level: a sliver whose arc runs into its sides at no angle. Circles from its
+// walls reached over the ground between it and the next loop.
+TEST(NeckWays, ASliverHasNoNeckBesideItself)
+{
+    const Vec2d a{0.078066963, 0.204894427};
+    const Vec2d b{0.201462283, 0.410135215};
+    const Vec2d c{0.106074190, 0.501663626};
+    const Vec2d d{0.089615142, 0.492977881};
+    const Contour sliver{line_edge(a, b), line_edge(b, c),
+                         arc_edge(c, d, {2.616976631, -4.276306712}, 1),
+                         arc_edge(d, a, {-0.179042175, 0.359474151}, -1)};
+    Region2d region =
+        polygon({{-3, -4}, {-0.314601897, -0.448223260}, {-0.372526743, -0.069309816}, {-1, -0.5}});
+    region.contours.push_back(sliver);
+    const RegionOffset walls{region};
+    for (const NeckWay& way : neck_ways(walls, {0.002, 0.02, 0.54, 0.85, 0.105})) {
+        for (const NeckPlace& place : way) {
+            CHECK(walls.contains(place.centre));
+            CHECK(walls.nearest(place.centre, kUnbounded) > place.room);
+        }
+    }
+}
+
 TEST(NeckWays, RoomsAndTheirCornersHaveNone)
 {
     LONGS_EQUAL(0, ways_of(polygon({{0, 0}, {60, 0}, {60, 40}, {0, 40}})).size());
