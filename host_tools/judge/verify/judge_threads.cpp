@@ -44,10 +44,16 @@ public:
         for (const ToolPositions& run : work_.runs) {
             for (std::size_t k = 0;
                  run.tool.number == operation_.tool.number && k < run.tips.size(); ++k) {
-                if (!run.rapid[k]) {
-                    look_at(run.tips[k], run.lines[k]);
+                const Vec3d tip = run.tips[k];
+                const double from_wall = norm(in_plan(tip) - hole_.at) - wall_;
+                if (!run.rapid[k] && tip.z < operation_.prismatic->top &&
+                    std::abs(from_wall) <= allowed_) {
+                    stretch_.push_back({tip, run.lines[k]});
+                } else {
+                    end_stretch();
                 }
             }
+            end_stretch();
         }
         return off_ > operation_.tolerance.floor + kOnWall
                    ? fmt::format("is {:.3f} mm off its helix of {:g} mm a turn, line {}", off_,
@@ -56,12 +62,36 @@ public:
     }
 
 private:
+    struct OnWall {
+        Vec3d tip;
+        std::uint32_t line;
+    };
+
+    // Way along the wall that turns farther about the hole than a straight move can: the others cross it, as moves of
+    // another operation by the same tool do.
+    void end_stretch()
+    {
+        double turned = 0;
+        for (std::size_t k = 1; k < stretch_.size(); ++k) {
+            const Vec2d before = in_plan(stretch_[k - 1].tip) - hole_.at;
+            const Vec2d after = in_plan(stretch_[k].tip) - hole_.at;
+            turned += elementary::atan2(cross(before, after), dot(before, after));
+        }
+        const double inner = std::max(0.0, wall_ - allowed_);
+        const double outer = wall_ + allowed_;
+        const double straight =
+            2 * elementary::atan2(std::sqrt(outer * outer - inner * inner), inner);
+        if (std::abs(turned) > straight) {
+            for (const OnWall& at : stretch_) {
+                look_at(at.tip, at.line);
+            }
+        }
+        stretch_.clear();
+    }
+
     void look_at(Vec3d tip, std::uint32_t line)
     {
         const Vec2d from = in_plan(tip) - hole_.at;
-        if (tip.z >= operation_.prismatic->top || std::abs(norm(from) - wall_) > allowed_) {
-            return;
-        }
         const double pitch = thread_.form.pitch;
         const double turn = elementary::atan2(from.y, from.x) / (2 * kPi);
         const double phase = tip.z / pitch - (thread_.left ? -turn : turn);
@@ -104,8 +134,9 @@ private:
     const Thread& thread_;
     const Hole& hole_;
     double bottom_;
-    double wall_;     // mm: radius of the axis' way
-    double allowed_;  // mm
+    double wall_;                  // mm: radius of the axis' way
+    double allowed_;               // mm
+    std::vector<OnWall> stretch_;  // positions along the wall, one after the other
     std::optional<double> first_;
     double off_{0};  // mm
     std::uint32_t line_{0};
