@@ -1,5 +1,4 @@
-// Directions that no facet blocks are divided. From one that stays open the ball is dropped, to find the
-// facet that is missing.
+// With |n| = 1, |point + R n - contact| < R' is linear in n: a cap.
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 
 #include <algorithm>
@@ -8,60 +7,31 @@
 
 namespace cusp::finishing {
 
+using drop_cutter::HalfSphereCover;
 using part_model::Facet;
+using part_model::facet_distance;
 
 namespace {
 
-constexpr std::size_t kMostParts = 600;  // of the directions; then a search is quicker
+constexpr int kMostCaps = 48;  // then a search is quicker
 constexpr int kMostDrops = 20;
 constexpr std::size_t kMostBlocks = 100'000;  // 40 MB
 constexpr double kLeastRise = 0.05;           // of a unit vector
-constexpr double kLeastSide = 1e-5;           // rad, of a part
-
-using Triangle = BlockingFacets::Triangle;
-using Direction = BlockingFacets::Direction;
+constexpr double kLeastMargin = 1e-8;         // of a cap beyond the direction that it is to block
+constexpr double kEnoughMargin = 0.3;         // the same: more is not looked for
+constexpr double kOnPoint = 1e-9;             // mm
+constexpr double kAside = 1e-4;               // mm
+constexpr int kMostAside = 3;
+// Of the way from the facet's point nearest to the point to that nearest to the ball.
+constexpr double kSharesOfWay[] = {1, 0.5, 0.2, 0.06};
 
 Vec3d unit(Vec3d a) { return a / norm(a); }
 
-// Eight parts, around `towards`, of the half sphere of vectors that do not point down.
-std::vector<Triangle> fan(Vec3d towards)
-{
-    constexpr double kEighth = 0.70710678118654752;  // of a turn: its sine and cosine
-    const double rise = std::max(towards.z, kLeastRise * norm(towards));
-    const Vec3d raised = unit({towards.x, towards.y, rise});
-    std::vector<Triangle> out;
-    Vec3d horizontal{1, 0, 0};
-    for (int k = 0; k < 8; ++k) {
-        const Vec3d next{kEighth * (horizontal.x - horizontal.y),
-                         kEighth * (horizontal.x + horizontal.y), 0};
-        out.push_back({Direction{raised}, Direction{horizontal}, Direction{next}});
-        horizontal = next;
-    }
-    out.back()[2] = out.front()[1];
-    return out;
-}
+double square(double a) { return a * a; }
 
-double square(Vec3d a) { return dot(a, a); }
-
-// The longest side, by the corner opposite to it, of those whose ends no facet blocks both; of all if one
-// blocks the ends of each.
-std::size_t side_to_divide(const Triangle& part)
+std::uint64_t key(std::int64_t i, std::int64_t j)
 {
-    std::size_t best = 0;
-    double longest = -1;
-    bool apart = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Direction& a = part[(k + 1) % 3];
-        const Direction& b = part[(k + 2) % 3];
-        const bool is_apart = (a.by & b.by).none();
-        const double length = square(a.along - b.along);
-        if ((is_apart && !apart) || (is_apart == apart && length > longest)) {
-            best = k;
-            longest = length;
-            apart = is_apart;
-        }
-    }
-    return best;
+    return (static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
 }
 
 // The order is that of the model's facets.
@@ -87,8 +57,7 @@ const LowerPositionProof::Block& LowerPositionProof::block(std::int64_t i, std::
     if (blocks_.size() > kMostBlocks) {
         blocks_.clear();
     }
-    const auto [at, is_new] = blocks_.try_emplace((static_cast<std::uint64_t>(i) << 32U) ^
-                                                  (static_cast<std::uint64_t>(j) & 0xffffffffU));
+    const auto [at, is_new] = blocks_.try_emplace(key(i, j));
     if (!is_new) {
         return at->second;
     }
@@ -104,62 +73,152 @@ const LowerPositionProof::Block& LowerPositionProof::block(std::int64_t i, std::
     return at->second;
 }
 
-LowerPositionProof::Block LowerPositionProof::facets_near(Vec3d point)
+void LowerPositionProof::find_near(Vec3d point)
 {
     const double side = static_cast<double>(kSide) * pitch_;
     const auto i = static_cast<std::int64_t>(std::floor(point.x / side));
     const auto j = static_cast<std::int64_t>(std::floor(point.y / side));
-    Block out;
+    if (near_block_ == key(i, j)) {
+        return;
+    }
+    Block all;
     for (std::int64_t k = 0; k < 9; ++k) {
         const Block& some = block(i + k / 3 - 1, j + k % 3 - 1);
-        out.insert(out.end(), some.begin(), some.end());
+        all.insert(all.end(), some.begin(), some.end());
     }
-    keep_distinct(out);
-    return out;
+    keep_distinct(all);
+    near_.clear();
+    for (const Facet* facet : all) {
+        add_near(*facet);
+    }
+    near_block_ = key(i, j);
+}
+
+void LowerPositionProof::add_near(const Facet& facet)
+{
+    const std::array<Vec3d, 3>& at = facet.corners;
+    const Vec3d middle = (at[0] + at[1] + at[2]) / 3.0;
+    near_.push_back({&facet, middle,
+                     std::max({norm(at[0] - middle), norm(at[1] - middle), norm(at[2] - middle)}),
+                     std::max({at[0].z, at[1].z, at[2].z})});
+}
+
+// The cap that a point of the mesh blocks, and how far the ball's centre is within. The tool cuts into
+// what it covers from above, so points straight below one block as well.
+LowerPositionProof::Contact LowerPositionProof::contact_at(Vec3d point,
+                                                           Vec3d at,
+                                                           Vec3d centre) const
+{
+    const Vec3d way = Vec3d{at.x, at.y, std::min(at.z, centre.z)} - point;
+    const double away = std::max(norm(way), kOnPoint);
+    const Vec3d towards = way / away;
+    const double least =
+        (square(away) + square(radius_) - square(contact_radius_)) / (2 * radius_ * away);
+    return {{towards, least}, dot(towards, centre - point) / radius_ - least};
+}
+
+// The contact of a facet that reaches farthest beyond the direction of the ball.
+void LowerPositionProof::try_facet(Near& near, Vec3d point, Vec3d centre, Contact& best) const
+{
+    const Vec3d off = centre - near.middle;
+    const double reach = square(contact_radius_ + near.reach);
+    if (square(off.x) + square(off.y) >= reach ||
+        (dot(off, off) >= reach && near.top <= centre.z)) {
+        return;
+    }
+    Vec3d at;
+    const Facet& facet = *near.facet;
+    if (facet_distance(profile_.core_at(centre.x, centre.y, centre.z), facet, at,
+                       contact_radius_) >= contact_radius_) {
+        if (near.top <= centre.z) {
+            return;
+        }
+        const auto rest = part_model::drop_on_facet(facet, profile_, centre.x, centre.y, centre.z);
+        if (!rest || rest->centre <= centre.z) {
+            return;
+        }
+        at = rest->point;
+    }
+    if (near.foot_of != proof_) {
+        near.foot_of = proof_;
+        facet_distance(profile_.core_at(point.x, point.y, point.z), facet, near.foot);
+    }
+    for (const double share : kSharesOfWay) {
+        const Contact contact = contact_at(point, near.foot + (at - near.foot) * share, centre);
+        best = contact.margin > best.margin ? contact : best;
+    }
+}
+
+// A contact of near facets that reaches far beyond the direction of the ball. What blocks one direction
+// often blocks the next: it is tried first.
+LowerPositionProof::Contact LowerPositionProof::near_contact(Vec3d point, Vec3d centre)
+{
+    Contact best{{}, -1};
+    std::size_t of = 0;
+    for (std::size_t k = 0; k < near_.size() && best.margin < kEnoughMargin; ++k) {
+        const double before = best.margin;
+        try_facet(near_[k], point, centre, best);
+        of = best.margin > before ? k : of;
+    }
+    if (of > 0) {
+        std::swap(near_[of], near_[of / 2]);
+    }
+    return best;
+}
+
+// The contact of a ball dropped at the direction's place, or beside it where that one hardly blocks: a
+// ball against walls may rest on their tops as well as on the floor. kOne where none blocks the direction.
+LowerPositionProof::Drop LowerPositionProof::dropped(Vec3d point, Vec3d centre)
+{
+    Vec3d at = centre;
+    for (int k = 0; k < kMostAside; ++k) {
+        const auto rest = path_fitter_.model().drop_ball(at.x, at.y, contact_radius_);
+        if (!rest) {
+            return {Verdict::kUnknown, {}};
+        }
+        if (rest->centre.z <= centre.z) {
+            return {Verdict::kOne, {}};
+        }
+        if (std::none_of(near_.begin(), near_.end(),
+                         [&](const Near& near) { return near.facet == rest->facet; })) {
+            add_near(*rest->facet);
+        }
+        const Contact contact = contact_at(point, rest->point, centre);
+        if (contact.margin > kLeastMargin) {
+            return {Verdict::kNone, contact};
+        }
+        const Vec3d off{at.x - rest->point.x, at.y - rest->point.y, 0};
+        at = at + off * (kAside / std::max(norm(off), kAside));
+    }
+    return {Verdict::kOne, {}};
 }
 
 LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d centre)
 {
-    BlockingFacets facets{point, radius_, profile_};
-    for (const Facet* facet : facets_near(point)) {
-        facets.add(*facet);
-    }
-    std::vector<Triangle> open = fan(centre - point);
+    find_near(point);
+    ++proof_;
+    HalfSphereCover cover;
+    const Vec3d towards = centre - point;
+    std::optional<Vec3d> open =
+        unit({towards.x, towards.y, std::max(towards.z, kLeastRise * norm(towards))});
     int drops = 0;
-    for (std::size_t parts = 0; !open.empty(); ++parts) {
-        Triangle part = open.back();
-        open.pop_back();
-        for (Direction& corner : part) {
-            facets.ask(corner);
-            if (corner.by.any()) {
-                continue;
+    for (int caps = 0; open && caps < kMostCaps; ++caps) {
+        const Vec3d from = point + *open * radius_;
+        Contact best = near_contact(point, from);
+        if (best.margin <= kLeastMargin) {
+            const Drop drop = dropped(point, from);
+            if (drop.verdict != Verdict::kNone) {
+                return drop.verdict;
             }
-            const Vec3d from = facets.centre(corner.along);
-            const auto rest = path_fitter_.model().drop_ball(from.x, from.y, contact_radius_);
-            if (!rest || ++drops > kMostDrops) {
-                return Verdict::kUnknown;
-            }
-            if (rest->centre.z <= from.z) {
-                return Verdict::kOne;
-            }
-            facets.add(*rest->facet);
-            facets.ask(corner);
+            best = drop.contact;
+            ++drops;
         }
-        if (facets.block(part)) {
-            continue;
-        }
-        const std::size_t apex = side_to_divide(part);
-        const Direction& a = part[(apex + 1) % 3];
-        const Direction& b = part[(apex + 2) % 3];
-        if (parts > kMostParts || norm(a.along - b.along) < kLeastSide) {
+        if (drops > kMostDrops || !cover.add(best.cap)) {
             return Verdict::kUnknown;
         }
-        Direction middle{unit(a.along + b.along)};
-        facets.ask(middle);
-        open.push_back({part[apex], a, middle});
-        open.push_back({part[apex], middle, b});
+        open = cover.open();
     }
-    return Verdict::kNone;
+    return open ? Verdict::kUnknown : Verdict::kNone;
 }
 
 }  // namespace cusp::finishing

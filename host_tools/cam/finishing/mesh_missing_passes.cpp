@@ -48,28 +48,18 @@ Points MeshScallopCheck::longest_trace(const MeshPlace& from) const
                              [&](const MeshPlace& at) { return missing_tip(at, true); });
 }
 
-// Passes cut meanwhile only lower the stock: what misses none now misses none later.
-std::vector<MeshScallopCheck::Neighbours> MeshScallopCheck::missing_by_neighbours(
-    const std::vector<Cell>& open)
+std::vector<MeshScallopCheck::Neighbours> MeshScallopCheck::neighbours_of(
+    const std::vector<Cell>& open) const
 {
-    std::vector<char> missing(open.size());
-    work_of_copies(open.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
-        missing[k] = copy.uncovered_point(open[k]).has_value() ? 1 : 0;
-    });
-    std::vector<std::size_t> cells;
     std::vector<Vec2d> middles;
-    for (std::size_t k = 0; k < open.size(); ++k) {
-        if (missing[k] != 0) {
-            cells.push_back(k);
-            middles.push_back({open[k].middle().x, open[k].middle().y});
-        }
+    middles.reserve(open.size());
+    for (const Cell& cell : open) {
+        middles.push_back({cell.middle().x, cell.middle().y});
     }
     std::vector<Neighbours> out;
-    for (const std::vector<std::size_t>& share : shares_of_neighbours(middles, kNeighbourhoods)) {
+    for (std::vector<std::size_t>& share : shares_of_neighbours(middles, kNeighbourhoods)) {
         Neighbours some;
-        for (const std::size_t k : share) {
-            some.cells.push_back(cells[k]);
-        }
+        some.cells = std::move(share);
         some.search.reset(new MeshScallopCheck{*this, ForThread{}});
         out.push_back(std::move(some));
     }
@@ -82,9 +72,9 @@ std::vector<MeshScallopCheck::Neighbours> MeshScallopCheck::missing_by_neighbour
 std::vector<MeshScallopCheck::Cell> MeshScallopCheck::cut_missing(
     const std::vector<Cell>& open, const std::function<void(const Points&)>& cut)
 {
-    std::vector<Neighbours> all = missing_by_neighbours(open);
-    std::vector<std::size_t> changed;
     places_.share(places_.take_drops());
+    std::vector<Neighbours> all = neighbours_of(open);
+    std::vector<std::size_t> changed;
     while (
         std::any_of(all.begin(), all.end(), [](const Neighbours& some) { return !some.over(); })) {
         parallel::for_each(all.size(), [&](std::size_t k) {

@@ -113,17 +113,21 @@ bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
            !path_fitter_.is_clear(places_.touching_tip(corner, normal));
 }
 
-// True if the mesh ends or drops within the tool's radius. Beside a drop the ball gets lower, and
-// how low changes from one point to the next: one point does not represent a cell.
-bool MeshScallopCheck::falls_off_beside(Vec3d point) const
+// True if the mesh ends within the tool's radius of a place, or drops under its plane and its height.
+// Beside a drop the ball gets lower, and how low changes from one point to the next: one point does not
+// represent a cell.
+bool MeshScallopCheck::falls_off_beside(const MeshPlace& at) const
 {
+    const Vec3d point = at.point;
     const double radius = path_fitter_.tool().radius;
     for (const double away : {0.4 * radius, radius}) {
         for (int k = 0; k < kWaysAround; ++k) {
             const double turn = 2 * kPi * k / kWaysAround;
-            const auto top = path_fitter_.model().height_at(point.x + away * elementary::cos(turn),
-                                                            point.y + away * elementary::sin(turn));
-            if (!top || top->point.z < point.z - kFallsOff * radius) {
+            const double x = away * elementary::cos(turn);
+            const double y = away * elementary::sin(turn);
+            const double rise = -(at.normal.x * x + at.normal.y * y) / at.normal.z;
+            const auto top = path_fitter_.model().height_at(point.x + x, point.y + y);
+            if (!top || top->point.z < point.z + std::min(rise, 0.0) - kFallsOff * radius) {
                 return true;
             }
         }
@@ -137,7 +141,7 @@ bool MeshScallopCheck::settled(const Cell& cell) const
     return std::all_of(cell.corners.begin(), cell.corners.end(),
                        [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
            !is_hidden(middle) && places_.settled(middle, cell.normal) &&
-           (!falls_off_beside(middle) ||
+           (!falls_off_beside({middle, cell.normal}) ||
             std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
                 return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
             }));
@@ -296,7 +300,7 @@ std::optional<MeshPlace> MeshScallopCheck::uncovered_point(const Cell& cell) con
     if (missing_tip(middle, true)) {
         return middle;
     }
-    const bool falls_off = falls_off_beside(middle.point);
+    const bool falls_off = falls_off_beside(middle);
     for (const Vec3d& corner : cell.corners) {
         const MeshPlace place{place_beside(corner, middle.point), cell.normal};
         if (missing_tip(place, falls_off)) {
@@ -326,10 +330,16 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
     if (!stays(middle) && (touched(middle) || lower(middle))) {
         return true;
     }
-    const bool falls_off = falls_off_beside(middle);
+    std::optional<bool> falls_off;
+    const auto beside_drop = [&] {
+        if (!falls_off) {
+            falls_off = falls_off_beside({middle, cell.normal});
+        }
+        return *falls_off;
+    };
     return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
         const Vec3d at = place_beside(corner, middle);
-        return !stays(at) && (touched(at) || (falls_off && lower(at)));
+        return !stays(at) && (touched(at) || (beside_drop() && lower(at)));
     });
 }
 

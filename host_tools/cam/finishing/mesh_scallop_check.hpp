@@ -66,7 +66,7 @@ private:
     bool is_hidden(const MeshPlace& at) const;
     bool low_enough(const Cell& cell) const;
     bool blocked(Vec3d corner, Vec3d normal) const;
-    bool falls_off_beside(Vec3d point) const;
+    bool falls_off_beside(const MeshPlace& at) const;
     bool settled(const Cell& cell) const;
     std::optional<MeshPlace> uncovered_point(const Cell& cell) const;
     bool may_be_uncovered(const Cell& cell) const;
@@ -74,7 +74,7 @@ private:
     struct Neighbours;
     std::vector<Cell> cut_missing(const std::vector<Cell>& open,
                                   const std::function<void(const Points&)>& cut);
-    std::vector<Neighbours> missing_by_neighbours(const std::vector<Cell>& open);
+    std::vector<Neighbours> neighbours_of(const std::vector<Cell>& open) const;
     Points longest_trace(const MeshPlace& from) const;
 
     const std::vector<Corners>& triangles_;
