@@ -147,11 +147,13 @@ class Threads(CuspCase):
         self.planned()
         self.cusp(0, "verify", "job.toml", "p.ngc")
         good = self.program()
-        self.write("air.ngc", good.replace("\nM5", "\nG0 Z5\nG0 X22 Y30\nG0 Z1\nG1 Z0.1 F200\nG0 Z5\nM5", 1))
-        self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "air.ngc"))  # over the hole, at the thread's radius
+        end = good.rindex("\nM5")
+        # over the hole, at the thread's radius
+        self.write("more.ngc", good[:end] + "\nG0 Z5\nG0 X22 Y30\nG0 Z1\nG1 Z0.1 F200\nG0 Z5" + good[end:])
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "more.ngc"))
         # across the wall of the thread, as another operation by the same tool
-        self.write("air.ngc", good.replace("\nM5", "\nG0 Z5\nG0 X17 Y32\nG0 Z1\nG1 Z-0.3 F200\nG1 X23\nG0 Z5\nM5", 1))
-        self.assertNotIn("off its helix", self.cusp_of_any_status("verify", "job.toml", "air.ngc").stdout)
+        self.write("more.ngc", good[:end] + "\nG0 Z5\nG0 X17 Y32\nG0 Z1\nG1 Z-0.3 F200\nG1 X23\nG0 Z5" + good[end:])
+        self.assertNotIn("off its helix", self.cusp_of_any_status("verify", "job.toml", "more.ngc").stdout)
         head, thread = good[:good.index("\nT1\n")], good[good.index("\nT1\n"):]
         lines = thread.splitlines(keepends=True)
         arcs = [k for k, line in enumerate(lines) if line.startswith("G3") or (re.match(r"[XYIJZ]", line) and "I" in line)]
