@@ -129,11 +129,15 @@ class OneLine(unittest.TestCase):
                                 "ramp.json")
         self.assertEqual(program, again)
 
-    def test_flat_parts_are_only_finished(self):
+    def nothing_to_cut(self, *arguments):
+        done = self.plan(*arguments, "--scallop", 0.05, "-o", "p.ngc")
+        self.assertEqual(2, done.returncode, done.stderr)
+        self.assertIn("roughing: none", done.stdout)
+        self.assertIn("there is nothing to cut: no surface is below the stock's top", done.stderr)
+
+    def test_flat_parts_as_high_as_the_stock_need_nothing(self):
         for tools in (["ball:6"], ["flat:8", "ball:6"]):
-            _, said = self.program("plate.json", "--tool", *tools, "--scallop", 0.05)
-            self.assertIn("roughing: none", said)
-            self.verified()
+            self.nothing_to_cut("plate.json", "--tool", *tools)
 
     def test_stock_over_a_flat_part_is_roughed(self):
         _, said = self.program("plate.json", "--tool", "flat:8", "ball:6", "--scallop", 0.05,
@@ -176,8 +180,7 @@ class OneLine(unittest.TestCase):
             self.assertIn(f"\nG0 Z{high + 5}\n", program)
             self.verified()
         self.write("part.step", step_solid(block_with_slope(40, 30, 0, 30, 30)))
-        _, said = self.program("part.step", "--tool", "ball:6", "--scallop", 0.05)
-        self.assertIn("roughing: none", said)
+        self.nothing_to_cut("part.step", "--tool", "ball:6")
 
     def test_pockets_have_a_boundary(self):
         self.write("outer.json", square(5, 35))
