@@ -45,7 +45,7 @@ Points MeshScallopCheck::longest_trace(const MeshPlace& from) const
         return trace_level(from);
     }
     return longest_over_mesh(from, path_fitter_.model(), step(),
-                             [&](const MeshPlace& at) { return missing_tip(at, true); });
+                             [&](const MeshPlace& at) { return missing_tip(at); });
 }
 
 std::vector<MeshScallopCheck::Neighbours> MeshScallopCheck::neighbours_of(

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "firmware/base/math.hpp"
-#include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/cam/finishing/finish_area.hpp"
 #include "host_tools/cam/finishing/walls_over_nothing.hpp"
 #include "host_tools/geometry/part_model/facet_distance.hpp"
@@ -25,8 +23,6 @@ constexpr std::size_t kMostGaps = 300000;
 constexpr std::size_t kShares = 64;           // of a search on several threads
 constexpr std::size_t kEnoughFacets = 40000;  // effort of a copy, which then gives half of the rest
 constexpr double kSharedFacet = 4;  // in steps: larger ones are divided before they are shared
-constexpr int kWaysAround = 12;
-constexpr double kFallsOff = 0.5;  // radii
 
 // A point exactly on a side would have the normals of two facets.
 Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
@@ -113,38 +109,15 @@ bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
            !path_fitter_.is_clear(places_.touching_tip(corner, normal));
 }
 
-// True if the mesh ends within the tool's radius of a place, or drops under its plane and its height.
-// Beside a drop the ball gets lower, and how low changes from one point to the next: one point does not
-// represent a cell.
-bool MeshScallopCheck::falls_off_beside(const MeshPlace& at) const
-{
-    const Vec3d point = at.point;
-    const double radius = path_fitter_.tool().radius;
-    for (const double away : {0.4 * radius, radius}) {
-        for (int k = 0; k < kWaysAround; ++k) {
-            const double turn = 2 * kPi * k / kWaysAround;
-            const double x = away * elementary::cos(turn);
-            const double y = away * elementary::sin(turn);
-            const double rise = -(at.normal.x * x + at.normal.y * y) / at.normal.z;
-            const auto top = path_fitter_.model().height_at(point.x + x, point.y + y);
-            if (!top || top->point.z < point.z + std::min(rise, 0.0) - kFallsOff * radius) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 bool MeshScallopCheck::settled(const Cell& cell) const
 {
     const Vec3d middle = cell.middle();
     return std::all_of(cell.corners.begin(), cell.corners.end(),
                        [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
            !is_hidden(middle) && places_.settled(middle, cell.normal) &&
-           (!falls_off_beside({middle, cell.normal}) ||
-            std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-                return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
-            }));
+           std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+               return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
+           });
 }
 
 // True if the stock vertically above the corners is no higher than the scallop, along the normal of
@@ -276,9 +249,8 @@ void MeshScallopCheck::check()
     walls_.find(facets);
 }
 
-// A tip that would cut the stock over a point down to the scallop; none where the point is covered,
-// or where the tool cannot touch it and `where_blocked` is false.
-std::optional<Vec3d> MeshScallopCheck::missing_tip(const MeshPlace& at, bool where_blocked) const
+// A tip that would cut the stock over a point down to the scallop; none where the point is covered.
+std::optional<Vec3d> MeshScallopCheck::missing_tip(const MeshPlace& at) const
 {
     const bool steep = at.normal.z < kUprightNormal;
     const bool covered = steep ? places_.is_wall_cut(at.point, at.normal, kPlaceShare)
@@ -290,20 +262,19 @@ std::optional<Vec3d> MeshScallopCheck::missing_tip(const MeshPlace& at, bool whe
     if (path_fitter_.is_clear(tip)) {
         return tip;
     }
-    return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
+    return places_.lower_tip(at.point, at.normal).tip;
 }
 
 // A point of the cell where a pass is missing.
 std::optional<MeshPlace> MeshScallopCheck::uncovered_point(const Cell& cell) const
 {
     const MeshPlace middle{cell.middle(), cell.normal};
-    if (missing_tip(middle, true)) {
+    if (missing_tip(middle)) {
         return middle;
     }
-    const bool falls_off = falls_off_beside(middle);
     for (const Vec3d& corner : cell.corners) {
         const MeshPlace place{place_beside(corner, middle.point), cell.normal};
-        if (missing_tip(place, falls_off)) {
+        if (missing_tip(place)) {
             return place;
         }
     }
@@ -330,16 +301,9 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
     if (!stays(middle) && (touched(middle) || lower(middle))) {
         return true;
     }
-    std::optional<bool> falls_off;
-    const auto beside_drop = [&] {
-        if (!falls_off) {
-            falls_off = falls_off_beside({middle, cell.normal});
-        }
-        return *falls_off;
-    };
     return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
         const Vec3d at = place_beside(corner, middle);
-        return !stays(at) && (touched(at) || (beside_drop() && lower(at)));
+        return !stays(at) && (touched(at) || lower(at));
     });
 }
 

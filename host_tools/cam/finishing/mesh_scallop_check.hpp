@@ -66,11 +66,10 @@ private:
     bool is_hidden(const MeshPlace& at) const;
     bool low_enough(const Cell& cell) const;
     bool blocked(Vec3d corner, Vec3d normal) const;
-    bool falls_off_beside(const MeshPlace& at) const;
     bool settled(const Cell& cell) const;
     std::optional<MeshPlace> uncovered_point(const Cell& cell) const;
     bool may_be_uncovered(const Cell& cell) const;
-    std::optional<Vec3d> missing_tip(const MeshPlace& at, bool where_blocked) const;
+    std::optional<Vec3d> missing_tip(const MeshPlace& at) const;
     struct Neighbours;
     std::vector<Cell> cut_missing(const std::vector<Cell>& open,
                                   const std::function<void(const Points&)>& cut);

@@ -79,7 +79,7 @@ Points MeshScallopCheck::trace_level(const MeshPlace& from) const
         return at && at->normal.z < kUprightNormal ? at : std::nullopt;
     };
     return traced(
-        from, [&](const MeshPlace& at) { return missing_tip(at, true); },
+        from, [&](const MeshPlace& at) { return missing_tip(at); },
         [&](const MeshPlace& last, Vec3d /*tip*/, double way) {
             const std::optional<MeshPlace> at = on_wall(place_on_mesh(
                 model, last.point + level_along(last.normal) * (way * kTraceStep * step())));
