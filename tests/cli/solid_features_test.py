@@ -221,13 +221,47 @@ class SolidFeatures(unittest.TestCase):
         block = FeaturedBlock(FIRST, (3.0,))
         block.edge, block.shelf = 27.0, 7.0
         block.holes = [RoundHole(31, 14, [(3.0, 7.0), (1.5, 5.5), (1.5, 0.0)], "countersunk")]
-        said, program = self.plan(block, Tools([7.0], [3.0], [6.0]))
-        self.assertRegex(said, r"1 edge at z 7, 1\.5 mm wide: \d\.\d+ mm of 9\.4\d* broken, vee 6 mm of 90 degrees; the rest "
+        said, program = self.plan(block, Tools([7.0], [3.0], [5.8]))
+        self.assertRegex(said, r"1 edge at z 7, 1\.5 mm wide: \d\.\d+ mm of 9\.4\d* broken, vee 5.8 mm of 90 degrees; the rest "
                          "stays, such as at x ")
         cut = SweptHeights(program)
         self.assertEqual([], faults_of_ground(cut, block, Tools([7.0], [3.0])))
         self.assertLess(cut.at(31 + 2.25, 14), 6.25 + WITHIN)
         self.assertGreater(cut.at(31 - 2.9, 14), 7 - WITHIN)
+
+    def test_a_cone_of_a_mouth_s_angle_goes_down_in_its_middle(self):
+        """By a spot drill, and by a vee that has no room to go round beside a wall or in a narrow hole."""
+        for sink, radius, x in (("drill:8:90", 1.5, 32.0), ("vee:8:90", 1.5, 31.5), ("vee:4:90", 0.15, 33.0)):
+            with self.subTest(sink):
+                block = FeaturedBlock(FIRST, (3.0,))
+                block.edge, block.shelf, wide = 27.0, 7.0, radius + 1.0
+                block.holes = [RoundHole(x, y, [(wide, 7.0), (radius, 6.0), (radius, 0.0)], "countersunk") for y in (8.0, 20.0)]
+                (self.folder / "part.step").write_text(block.step())
+                call = ("plan", "part.step", "--tool", "flat:2", f"drill:{2 * radius:g}", sink, "--post", "linuxcnc")
+                said = self.run_cusp(*call, "-o", "p.ngc").stdout
+                self.assertIn(f"2 edges at z 7, 1 mm wide: countersink {2 * wide:g} mm, {sink[:sink.index(':')]} ", said)
+                (self.folder / "job.toml").write_text(self.run_cusp(*call, "--print-job").stdout)
+                self.assertIn("all bounds hold", self.run_cusp("verify", "job.toml", "p.ngc").stdout)
+                cut = SweptHeights((self.folder / "p.ngc").read_text())
+                made = Tools([2.0], [2 * radius], [2 * wide + 0.4])
+                self.assertEqual([], faults_of_ground(cut, block, made))
+                for hole in block.holes:
+                    self.assertEqual([], faults_of_hole(cut, hole, made)[0])
+
+    def test_countersinks_that_a_tool_can_not_make_are_refused(self):
+        block = FeaturedBlock(FIRST, (3.0,))
+        block.holes = [RoundHole(8, 9.5, [(1.5, 12.0), (1.5, 0.0)], "plain")]
+        (self.folder / "part.step").write_text(block.step())
+        for shape, keys, words in (('shape = "drill"', "countersink = 7", "is 7 mm, the cone of tool 1 is 0 to 6 mm wide"),
+                                   ('shape = "flat"', "countersink = 5", "needs the cone of a drill or a vee, tool 1 is flat"),
+                                   ('shape = "drill"', "countersink = 3", "is 3 mm, all holes are as wide"),
+                                   ('shape = "drill"', "countersink = 5\ndepth = 2", "does not go with countersink")):
+            (self.folder / "job.toml").write_text(
+                f'units = "mm"\n[tool]\n{shape}\ndiameter = 6\n[cutting]\nfeed = 100\n[[operation]]\nstrategy = "drill"\n'
+                f'boundary = "part.step"\n{keys}\n')
+            done = subprocess.run([CUSP, "plan", "job.toml", "-o", "p.ngc"], cwd=self.folder, text=True, capture_output=True)
+            self.assertEqual(2, done.returncode)
+            self.assertIn(words, done.stderr)
 
     def test_inches(self):
         block, tools = FeaturedBlock(FIRST, DIAMETERS, chamfered=True), Tools([2.5], [4.0], [6.0])

@@ -81,6 +81,28 @@ void check_flank(const Operation& operation, const Refuse& refuse)
     }
 }
 
+void check_drill(const Operation& operation, const Refuse& refuse)
+{
+    check_drawing(operation, refuse);
+    const toolpath::Tool& tool = operation.tool;
+    const std::optional<double> width = operation.prismatic->countersink;
+    if (!width) {
+        return;
+    }
+    if (!is_conical(tool) || tool.corner_radius > 0) {
+        refuse("countersink", fmt::format("needs the cone of a drill or a vee, tool {} is {}",
+                                          tool.number, name_of(tool.shape)));
+    }
+    if (*width > 2 * tool.radius || *width <= 2 * tool.tip_radius) {
+        refuse("countersink",
+               fmt::format("is {:g} mm, the cone of tool {} is {:g} to {:g} mm wide", *width,
+                           tool.number, 2 * tool.tip_radius, 2 * tool.radius));
+    }
+    if (operation.prismatic->given_depth) {
+        refuse("depth", "does not go with countersink, whose width makes it");
+    }
+}
+
 void check_chamfer(const Operation& operation, const Refuse& refuse)
 {
     need(operation.prismatic->width > 0, "width", "its width, seen from above", operation, refuse);
@@ -135,10 +157,13 @@ const Strategy kDrill{
       "only circles or holes of this diameter, or `[least, greatest]`; points are left out then",
       kPositive},
      {"peck", Kind::kLength, "none",
-      "the deepest step; the drill comes out after each to clear chips", kPositive}},
+      "the deepest step; the drill comes out after each to clear chips", kPositive},
+     {"countersink", Kind::kLength, "none",
+      "in place of `depth`: how wide the cone of the drill's or the vee's tip cuts at `top`",
+      kPositive}},
     {Region::kHoles},
     nullptr,
-    check_drawing,
+    check_drill,
     plan_drill};
 
 const Strategy kFace{

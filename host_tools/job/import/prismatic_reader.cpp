@@ -119,6 +119,9 @@ void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
     const Tool& tool = operation.tool;
     Prismatic& cut = *operation.prismatic;
     const auto fits = [&](const Hole& hole) {
+        if (cut.countersink) {
+            return hole.diameter < *cut.countersink - kSameDiameter;
+        }
         const double least = 2 * tool.radius + (is_bored(operation) ? 1 : -1) * kSameDiameter;
         return !(hole.diameter > 0 && hole.diameter < least);
     };
@@ -127,6 +130,12 @@ void check_holes(const JobTable& table, Operation& operation, PartFiles& parts)
     cut.holes.erase(narrower, cut.holes.end());
     if (cut.holes.empty()) {
         const Hole& hole = cut.narrower_holes.front();
+        if (cut.countersink) {
+            table.refuse("countersink",
+                         fmt::format("is {:g} mm, all holes are as wide, such as that of {:g} mm "
+                                     "at x {:.6g} y {:.6g} mm",
+                                     *cut.countersink, hole.diameter, hole.at.x, hole.at.y));
+        }
         table.refuse("boundary",
                      fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
                                  "tool {} of {:g} mm{}, as are all; diameter chooses holes",
@@ -291,6 +300,7 @@ void read_prismatic_keys(JobTable& table,
     cut.lead_in = table.length("lead_in", unit);
     cut.lead_out = table.length("lead_out", unit);
     cut.peck = table.length("peck", unit);
+    cut.countersink = table.length("countersink", unit);
     cut.overhang = table.length("overhang", unit);
     const auto width = table.length("width", unit);
     if (const auto wanted = table.interval("diameter")) {
@@ -360,6 +370,10 @@ void read_drawing(JobTable& table,
             choice.takes_all()
                 ? parts.holes(file, unit, range, cut.diameters.has_value() || is_bored(operation))
                 : chosen_holes(table, choice, shapes, range);
+        if (cut.countersink) {
+            cut.depth = profile_height(operation.tool, *cut.countersink / 2);
+            cut.given_depth = true;
+        }
         settle_widths(table, operation, parts);
         if (!cut.given_depth && !cut.holes.front().span) {
             table.refuse("depth", fmt::format("is missing: {} needs how deep it cuts where the "

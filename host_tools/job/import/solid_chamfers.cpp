@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "firmware/base/math.hpp"
@@ -11,7 +12,10 @@
 #include "host_tools/geometry/offset/offset.hpp"
 #include "host_tools/geometry/offset/region_overlay.hpp"
 #include "host_tools/geometry/toolpath/tool.hpp"
+#include "host_tools/job/import/drawing_choice.hpp"
 #include "host_tools/job/job/chamfer_tip.hpp"
+
+#include "fmt/format.h"
 
 namespace cusp::import {
 
@@ -135,6 +139,67 @@ void choose_vee(const SolidEdges& edges,
     }
 }
 
+// The circle of a mouth's foot; none: the loop is another one.
+struct MouthFoot {
+    Vec2d centre;
+    double radius;
+};
+
+std::optional<MouthFoot> foot_of(const Contour& loop)
+{
+    constexpr double kRound = 0.01;  // mm: facets of the wall lie beside it
+    const offset::Box2d box = offset::box_of(Region2d{{loop}});
+    const Vec2d centre{(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2};
+    const double radius = (box.x1 - box.x0 + box.y1 - box.y0) / 4;
+    const bool is_round =
+        offset::area(loop) < 0 && std::all_of(loop.begin(), loop.end(), [&](const offset::Edge& e) {
+            return std::abs(offset::distance(e.start, centre) - radius) <= kRound &&
+                   std::abs(offset::distance(point_on(e, 0.5), centre) - radius) <= kRound;
+        });
+    return is_round ? std::optional{MouthFoot{centre, radius}} : std::nullopt;
+}
+
+// The first tool whose cone has the angle and the width, and gouges nothing in any of the mouths.
+void choose_sink(const SolidEdges& edges,
+                 const std::vector<NamedTool>& tools,
+                 double unit,
+                 SolidChamfer& chamfer)
+{
+    SolidChamfer::Sink sink{0, {}, 0, {}};
+    for (const Contour& loop : chamfer.loops.contours) {
+        const auto foot = foot_of(loop);
+        const double width = foot ? 2 * (foot->radius + chamfer.band.width) : 0.0;
+        if (!foot || (sink.width > 0 && std::abs(width - sink.width) > kSameFlank)) {
+            return;
+        }
+        sink.centres.push_back(foot->centre);
+        sink.width = width;
+        sink.near.contours.push_back(hole_disc({foot->centre, width}).contours.front());
+    }
+    if (chamfer.all.has_parts || sink.centres.empty()) {
+        return;
+    }
+    for (sink.tool = 0; sink.tool < tools.size(); ++sink.tool) {
+        const NamedTool& named = tools[sink.tool];
+        const bool is_drill = named.shape == name_of(ToolShape::kDrill);
+        Tool cone = vee_of(named, unit);
+        cone.shape = is_drill ? ToolShape::kDrill : ToolShape::kVee;
+        constexpr double kSameAngle = 0.5;  // degrees, as angles are rounded to that
+        if ((!is_drill && named.shape != name_of(ToolShape::kVee)) ||
+            std::abs(named.tip_angle - chamfer.angle) > kSameAngle / 2 ||
+            2 * cone.radius < sink.width - kSameFlank) {
+            continue;
+        }
+        const double tip =
+            chamfer.band.high - profile_height(cone, std::min(cone.radius, sink.width / 2));
+        if (std::all_of(sink.centres.begin(), sink.centres.end(),
+                        [&](Vec2d at) { return edges.is_clear(cone, at, tip); })) {
+            chamfer.sink = sink;
+            return;
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<SolidChamfer> solid_chamfers(const Triangles& facets,
@@ -154,8 +219,12 @@ std::vector<SolidChamfer> solid_chamfers(const Triangles& facets,
                        std::nullopt,
                        edges.survey(band),
                        {},
-                       0});
+                       0,
+                       std::nullopt});
         choose_vee(edges, tools, unit, all.back());
+        if (!all.back().tool || all.back().ways) {
+            choose_sink(edges, tools, unit, all.back());
+        }
     }
     return all;
 }
@@ -177,9 +246,64 @@ double SolidChamfer::depth() const
     return (band.width + job::kChamferTip) * (band.high - band.low) / band.width;
 }
 
-double least_vee(const SolidChamfer& chamfer)
+IsCutApart cut_by_vees(const std::vector<SolidChamfer>& chamfers)
 {
-    return std::ceil(2 * (chamfer.band.width + job::kChamferTip));
+    std::vector<BandGround> made;
+    for (const SolidChamfer& chamfer : chamfers) {
+        if (chamfer.sink) {
+            made.emplace_back(chamfer.band, edges_of(chamfer.loops), 0);
+        } else if (chamfer.tool) {
+            made.emplace_back(chamfer.band, chamfer.edges(), chamfer.beside);
+        }
+    }
+    const auto all = std::make_shared<const std::vector<BandGround>>(std::move(made));
+    return [all](const std::array<Vec3d, 3>& facet) {
+        return std::any_of(all->begin(), all->end(),
+                           [&](const BandGround& band) { return band.has(facet); });
+    };
+}
+
+std::string words_of(const SolidChamfer& chamfer, ChamferFault fault, bool inch)
+{
+    const double least = std::ceil(2 * (chamfer.band.width + job::kChamferTip));  // mm
+    const std::string vee =
+        fmt::format("--tool vee:{:g}{}:{:g}", least, inch ? "mm" : "", chamfer.angle);
+    switch (fault) {
+        case ChamferFault::kNoVee:
+            return fmt::format("no vee has their {:g} degrees; {} cuts them", chamfer.angle, vee);
+        case ChamferFault::kTooNarrow:
+            return fmt::format("the vee's flank is too narrow; {} cuts them", vee);
+        case ChamferFault::kTooWide:
+            return "parts of loops are broken by a vee that is narrower than the flat end alone";
+        case ChamferFault::kNoRoom:
+            return "the vee's tip has no room beside them";
+        case ChamferFault::kWouldGouge:
+            return "the vee would gouge the part beside them";
+        case ChamferFault::kStockBeside:
+            break;
+    }
+    return "stock stands there that no flat end reaches";
+}
+
+std::optional<SunkHoles> sunk_holes(const SolidChamfer& chamfer, const CadHoles& found)
+{
+    const SolidChamfer::Sink& sink = *chamfer.sink;
+    SunkHoles sunk{0, 0};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < found.holes.size(); ++k) {
+        const job::Hole& hole = found.holes[k];
+        const double across = sink.width - 2 * chamfer.band.width;
+        if (std::abs(hole.diameter - across) > kSameDiameter ||
+            std::abs(hole.span->top - chamfer.band.low) > kSameDiameter) {
+            continue;
+        }
+        if (!found.cones[k] || std::abs(found.cones[k]->diameter - sink.width) > kSameDiameter) {
+            return std::nullopt;
+        }
+        sunk = {hole.diameter, found.cones[k]->diameter};
+        ++count;
+    }
+    return count == sink.centres.size() ? std::optional{sunk} : std::nullopt;
 }
 
 }  // namespace cusp::import

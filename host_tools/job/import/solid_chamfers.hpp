@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host_tools/geometry/offset/contour.hpp"
+#include "host_tools/job/import/cad_holes.hpp"
 #include "host_tools/job/import/part_regions.hpp"
 #include "host_tools/job/import/solid_edges.hpp"
+#include "host_tools/job/import/solid_ground.hpp"
 #include "host_tools/job/import/tool_text.hpp"
 
 namespace cusp::import {
@@ -34,6 +37,15 @@ struct SolidChamfer {
     offset::Region2d near;   // within the tool's reach, in plan
     double beside;           // mm: from edges() to the band
 
+    // A tool whose cone cuts all of the edges if it goes down in the middle of each, as they are round mouths.
+    struct Sink {
+        std::size_t tool;  // place in the call
+        std::vector<Vec2d> centres;
+        double width;           // mm: of the mouths
+        offset::Region2d near;  // within the mouths, in plan
+    };
+    std::optional<Sink> sink;  // none: no tool can, or `tool` breaks all of the edges
+
     // Those along which the tool goes.
     std::vector<offset::Edge> edges() const;
     // mm: of the tip below the band's upper edge.
@@ -50,7 +62,20 @@ std::vector<SolidChamfer> solid_chamfers(const Triangles& facets,
                                          const std::vector<NamedTool>& tools,
                                          double unit);
 
-// mm: the diameter of a vee that is wide enough.
-double least_vee(const SolidChamfer& chamfer);
+// True for the facets of the chamfers that a tool makes.
+IsCutApart cut_by_vees(const std::vector<SolidChamfer>& chamfers);
+
+// In words: why it is left out, and the tool that would cut it.
+//
+// inch  whether lengths of tools need their unit
+std::string words_of(const SolidChamfer& chamfer, ChamferFault fault, bool inch);
+
+// mm: diameters of the holes whose mouths the sink is for, and of the mouths. None: other holes of their diameter begin at
+// the band's foot, which a job can't tell from them.
+struct SunkHoles {
+    double diameter;
+    double mouth;
+};
+std::optional<SunkHoles> sunk_holes(const SolidChamfer& chamfer, const CadHoles& found);
 
 }  // namespace cusp::import

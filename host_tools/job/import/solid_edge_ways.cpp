@@ -212,8 +212,7 @@ EdgeWays SolidEdges::ways(const EdgeBand& band, const toolpath::Tool& vee) const
             !on_band_tree.any_nearer(foot, kSeen) || !rise_at(look, tree, band).evenly) {
             return false;
         }
-        const auto rests = model_.drop_height(vee, at.x, at.y);
-        return !rests || *rests <= tip + kClear;
+        return is_clear(vee, at, tip);
     };
     if (!seen.empty()) {
         for (const Contour& contour :

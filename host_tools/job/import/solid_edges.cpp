@@ -239,15 +239,19 @@ bool SolidEdges::is_clear(const toolpath::Tool& tool, const Region2d& centres, d
         for (const Edge& edge : contour) {
             const int looks = 1 + static_cast<int>(length(edge) / kLook);
             for (int k = 0; k < looks; ++k) {
-                const Vec2d at = point_on(edge, static_cast<double>(k) / looks);
-                const auto rests = model_.drop_height(tool, at.x, at.y);
-                if (rests && *rests > z + kGroundWithin) {
+                if (!is_clear(tool, point_on(edge, static_cast<double>(k) / looks), z)) {
                     return false;
                 }
             }
         }
     }
     return true;
+}
+
+bool SolidEdges::is_clear(const toolpath::Tool& tool, Vec2d at, double z) const
+{
+    const auto rests = model_.drop_height(tool, at.x, at.y);
+    return !rests || *rests <= z + kGroundWithin;
 }
 
 BandGround::BandGround(const EdgeBand& band, const std::vector<Edge>& edges, double beside)

@@ -42,6 +42,7 @@ public:
 
     // True if the tool gouges nothing of the part, its tip at `z` along the contours.
     bool is_clear(const toolpath::Tool& tool, const offset::Region2d& centres, double z) const;
+    bool is_clear(const toolpath::Tool& tool, Vec2d at, double z) const;
 
 private:
     // A look from a lower edge to the material.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -123,10 +122,7 @@ public:
         if (cuts_.is_all) {
             cuts_.after += hole_operations(found, levels, ground);
         }
-        for (const SolidChamfer& chamfer : chamfers) {
-            add_chamfer(chamfer, levels, !ground.openings.empty());
-        }
-        say_idle_vees();
+        add_chamfers(chamfers, found, levels, !ground.openings.empty());
         if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
             throw InputError(fmt::format(
                 "{}: a flat end has nothing to cut: {:.4g} mm2 of slanted ground need a ball, such "
@@ -271,20 +267,20 @@ private:
             one ? "its" : "their", diameter, one ? "it" : "them"));
     }
 
-    // True for the facets of the chamfers that a vee makes.
-    static IsCutApart cut_by_vees(const std::vector<SolidChamfer>& chamfers)
+    void add_chamfers(const std::vector<SolidChamfer>& chamfers,
+                      const CadHoles& found,
+                      const ClearedGround& levels,
+                      bool has_levels)
     {
-        std::vector<BandGround> made;
         for (const SolidChamfer& chamfer : chamfers) {
-            if (chamfer.tool) {
-                made.emplace_back(chamfer.band, chamfer.edges(), chamfer.beside);
+            const auto sunk = chamfer.sink ? sunk_holes(chamfer, found) : std::nullopt;
+            if (sunk && levels.is_open(chamfer.sink->near, chamfer.band.high)) {
+                add_countersinks(chamfer, *sunk);
+            } else {
+                add_chamfer(chamfer, levels, has_levels);
             }
         }
-        const auto all = std::make_shared<const std::vector<BandGround>>(std::move(made));
-        return [all](const std::array<Vec3d, 3>& facet) {
-            return std::any_of(all->begin(), all->end(),
-                               [&](const BandGround& band) { return band.has(facet); });
-        };
+        say_idle_vees();
     }
 
     // After all others: only then is the ground around it open.
@@ -329,6 +325,20 @@ private:
                                          left));
     }
 
+    // Down in the middle of round mouths.
+    void add_countersinks(const SolidChamfer& chamfer, const SunkHoles& sunk)
+    {
+        const SolidChamfer::Sink& sink = *chamfer.sink;
+        const double foot = number(chamfer.band.low);
+        vees_at_work_.insert(sink.tool);
+        cuts_.after += operation(Region::kHoles, fmt::format("{}#holes:{}:{}", file_, foot, foot)) +
+                       fmt::format("tool = {}\ndiameter = {:.6g}\ntop = {}\ncountersink = {:.6g}\n",
+                                   sink.tool + 1, number(sunk.diameter), number(chamfer.band.high),
+                                   number(sunk.mouth));
+        cuts_.said.push_back(fmt::format("{}: countersink {:.6g} {}, {}", edge_words(chamfer),
+                                         number(sunk.mouth), choice_.unit, tool_words(sink.tool)));
+    }
+
     // "2 edges at z 12, 1 mm wide".
     std::string edge_words(const SolidChamfer& chamfer) const
     {
@@ -338,23 +348,11 @@ private:
 
     void say_chamfer_left(const SolidChamfer& chamfer, ChamferFault fault)
     {
-        const std::string vee = fmt::format("--tool vee:{:g}{}:{:g}", least_vee(chamfer),
-                                            request_.inch ? "mm" : "", chamfer.angle);
-        const std::string why =
-            fault == ChamferFault::kNoVee
-                ? fmt::format("no vee has their {:g} degrees; {} cuts them", chamfer.angle, vee)
-            : fault == ChamferFault::kTooNarrow
-                ? fmt::format("the vee's flank is too narrow; {} cuts them", vee)
-            : fault == ChamferFault::kTooWide
-                ? "parts of loops are broken by a vee that is narrower than the flat end alone"
-            : fault == ChamferFault::kNoRoom     ? "the vee's tip has no room beside them"
-            : fault == ChamferFault::kWouldGouge ? "the vee would gouge the part beside them"
-                                                 : "stock stands there that no flat end reaches";
         const Vec2d at = chamfer.all.place;
-        cuts_.said.push_back(fmt::format("{}: {}, such as at x {:.6g} y {:.6g}: {}",
-                                         edge_words(chamfer),
-                                         cuts_.is_all ? "stay" : "left to the " + finishing_words(),
-                                         number(at.x), number(at.y), why));
+        cuts_.said.push_back(
+            fmt::format("{}: {}, such as at x {:.6g} y {:.6g}: {}", edge_words(chamfer),
+                        cuts_.is_all ? "stay" : "left to the " + finishing_words(), number(at.x),
+                        number(at.y), words_of(chamfer, fault, request_.inch)));
     }
 
     void say_idle_vees()

@@ -76,6 +76,7 @@ struct Prismatic {
     std::optional<std::array<double, 2>>
         diameters;  // of the circles to drill; none: all, and points
     std::optional<double> peck;
+    std::optional<double> countersink;  // mm: how wide the tip's cone cuts at `top`
     // face
     std::optional<double> overhang;  // of the tool's edge over the stock's
     // chamfer
