@@ -70,9 +70,9 @@ def faults(block, cut, radius):
 
 
 class HalfBrokenEdges(CuspCase):
-    def plan(self, block, *options):
+    def plan(self, block, tools=("flat:6", "vee:5:90")):
         self.write("part.step", block.step())
-        call = ("plan", "part.step", "--tool", "flat:6", "vee:5:90", "--post", "linuxcnc", *options)
+        call = ("plan", "part.step", "--tool", *tools, "--post", "linuxcnc")
         said = self.cusp(0, *call, "-o", "p.ngc")
         self.write_job(self.cusp(0, *call, "--print-job"))
         self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "p.ngc"))
@@ -106,12 +106,12 @@ class HalfBrokenEdges(CuspCase):
         block.upper, block.lower = set(), set()  # none of its edges is to be broken
         self.assertRegex(str(faults(block, SweptHeights(program), 2.5)[0]), "gouged")
 
-    def test_a_vee_that_is_no_narrower_than_the_flat_end_is_not_used_beside_levels(self):
-        block = HalfBrokenBlock(FIRST)
-        self.write("part.step", block.step())
-        said = self.cusp(0, "plan", "part.step", "--tool", "flat:4", "vee:6:90", "-o", "p.ngc")
-        self.assertRegex(said, r"edges? at z [^\n]*: stay, such as at x [^\n]*: parts of loops are broken by a vee that is "
-                         "narrower than the flat end alone")
+    def test_a_vee_that_is_wider_than_the_flat_end_breaks_edges_too(self):
+        for seed in range(FIRST, FIRST + CASES):
+            with self.subTest(seed=seed):
+                block = HalfBrokenBlock(seed)
+                said, program = self.plan(block, ("flat:4", "vee:6:90"))
+                self.assertEqual([], faults(block, SweptHeights(program), 3)[0], said)
 
     def test_engravings_that_do_not_break_the_edges_are_refused(self):
         block = HalfBrokenBlock(FIRST)

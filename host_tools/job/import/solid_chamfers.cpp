@@ -273,8 +273,6 @@ std::string words_of(const SolidChamfer& chamfer, ChamferFault fault, bool inch)
             return fmt::format("no vee has their {:g} degrees; {} cuts them", chamfer.angle, vee);
         case ChamferFault::kTooNarrow:
             return fmt::format("the vee's flank is too narrow; {} cuts them", vee);
-        case ChamferFault::kTooWide:
-            return "parts of loops are broken by a vee that is narrower than the flat end alone";
         case ChamferFault::kNoRoom:
             return "the vee's tip has no room beside them";
         case ChamferFault::kWouldGouge:

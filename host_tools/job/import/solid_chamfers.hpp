@@ -20,7 +20,6 @@ enum class ChamferFault : std::uint8_t {
     kTooNarrow,   // are those that have it
     kNoRoom,      // for the tip beside any part of an edge
     kWouldGouge,  // the tool would, other ground of the part
-    kTooWide,     // for parts of loops beside levels that a narrower flat end clears
     kStockBeside  // stands, where the flat end does not come
 };
 

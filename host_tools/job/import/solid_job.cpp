@@ -122,7 +122,7 @@ public:
         if (cuts_.is_all) {
             cuts_.after += hole_operations(found, levels, ground);
         }
-        add_chamfers(chamfers, found, levels, !ground.openings.empty());
+        add_chamfers(chamfers, found, levels);
         if (cuts_.is_all && cuts_.before.empty() && cuts_.after.empty()) {
             throw InputError(fmt::format(
                 "{}: a flat end has nothing to cut: {:.4g} mm2 of slanted ground need a ball, such "
@@ -269,29 +269,23 @@ private:
 
     void add_chamfers(const std::vector<SolidChamfer>& chamfers,
                       const CadHoles& found,
-                      const ClearedGround& levels,
-                      bool has_levels)
+                      const ClearedGround& levels)
     {
         for (const SolidChamfer& chamfer : chamfers) {
             const auto sunk = chamfer.sink ? sunk_holes(chamfer, found) : std::nullopt;
             if (sunk && levels.is_open(chamfer.sink->near, chamfer.band.high)) {
                 add_countersinks(chamfer, *sunk);
             } else {
-                add_chamfer(chamfer, levels, has_levels);
+                add_chamfer(chamfer, levels);
             }
         }
         say_idle_vees();
     }
 
     // After all others: only then is the ground around it open.
-    void add_chamfer(const SolidChamfer& chamfer, const ClearedGround& levels, bool has_levels)
+    void add_chamfer(const SolidChamfer& chamfer, const ClearedGround& levels)
     {
         const EdgeBand& band = chamfer.band;
-        if (chamfer.ways && chamfer.tool && has_levels && flats_clear() &&
-            across(*chamfer.tool) >= across(flats_.back()) - kSameDiameter) {
-            say_chamfer_left(chamfer, ChamferFault::kTooWide);
-            return;
-        }
         if (!chamfer.tool || !levels.is_open(chamfer.near, band.high)) {
             say_chamfer_left(chamfer, chamfer.tool ? ChamferFault::kStockBeside : chamfer.fault);
             return;

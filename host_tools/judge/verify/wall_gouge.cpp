@@ -47,7 +47,8 @@ public:
             nearest = beyond < least ? &region : nearest;
             least = std::min(least, beyond);
         }
-        if (nearest != nullptr && follows_curves(*nearest)) {
+        if (nearest != nullptr && follows_curves(*nearest) &&
+            nearest->operation().tool.number == tool.number) {
             take(least, tip, tool, line);
             return;
         }
