@@ -22,7 +22,7 @@ constexpr double kEnoughMargin = 0.3;         // the same: more is not looked fo
 constexpr double kOnPoint = 1e-9;             // mm
 constexpr double kAside = 1e-4;               // mm
 constexpr int kMostAside = 3;
-// Of the way from the facet's point nearest to the point to that nearest to the ball.
+// Shares of the way from the facet's point nearest to the point to that nearest to the ball.
 constexpr double kSharesOfWay[] = {1, 0.5, 0.2, 0.06};
 
 Vec3d unit(Vec3d a) { return a / norm(a); }

@@ -1,4 +1,4 @@
-// Where the circles of two caps cross, dot(d, a) and dot(d, b) are given: two unit vectors d have them.
+// The circles of two caps cross at two unit vectors: their dot products with both axes are given.
 #include "host_tools/geometry/drop_cutter/half_sphere_cover.hpp"
 
 #include <algorithm>

@@ -45,7 +45,7 @@ struct SolidChamfer {
     };
     std::optional<Sink> sink;  // none: no tool can, or `tool` breaks all of the edges
 
-    // Those along which the tool goes.
+    // Edges along which the tool goes.
     std::vector<offset::Edge> edges() const;
     // mm: of the tip below the band's upper edge.
     double depth() const;

@@ -22,7 +22,7 @@ public:
     // facets  of the whole part
     explicit SolidEdges(const std::vector<std::array<Vec3d, 3>>& facets);
 
-    // Those with closed loops or with parts of them, the highest first.
+    // Bands with closed loops or with parts of them, the highest first.
     std::vector<EdgeBand> bands() const;
 
     // The edges of a band, whole loops and parts of them.
@@ -59,7 +59,7 @@ private:
     };
     static std::vector<Look> looks_along(const offset::Contour& loop);
     Rise rise_at(const Look& look, const offset::EdgeTree& tree, const EdgeBand& band) const;
-    // Of looks in the order of a loop, those that see an edge of the band: in rows that are no part of a longer slope.
+    // Looks in the order of a loop that see an edge of the band: in rows that are no part of a longer slope.
     std::vector<bool> on_band(const std::vector<Look>& looks,
                               const offset::EdgeTree& tree,
                               const EdgeBand& band) const;

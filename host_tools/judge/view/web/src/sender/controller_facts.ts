@@ -2,7 +2,7 @@
 import { placeOf } from "./status_report";
 import type { Place } from "./status_report";
 
-// Of one axis, or the last of several; null: a text of another form.
+// The number of one axis, or the last of several; null: a text of another form.
 const lengthOf = (text: string): number | null => placeOf(text)?.at(-1) ?? placeOf(`${text},${text},${text}`)?.[2] ?? null;
 
 export class ControllerFacts {
