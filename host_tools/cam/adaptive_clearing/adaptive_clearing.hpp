@@ -29,7 +29,8 @@ struct AdaptiveSettings {
     double wall_clearance{};  // mm: of the tool's centre from the contours, > 0
     double max_engagement{};  // radians, above 0, below half a turn
     double tolerance{};       // mm: of chords in place of arcs
-    double corner{};          // mm: most that rounding leaves in a square corner
+    double sliver{};  // mm: no pass goes for thinner stock beside walls; 0: what chords leave
+    double corner{};  // mm: most that rounding leaves in a square corner
     job::CutDirection direction{job::CutDirection::kClimb};
     // Regions of the tool's centre where it meets no stock, such as beside the stock or where another
     // tool has been; they count as swept, and passes start there. Empty: stock is everywhere.

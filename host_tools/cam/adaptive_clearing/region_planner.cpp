@@ -18,6 +18,7 @@
 #include "host_tools/cam/adaptive_clearing/stock_spots.hpp"
 #include "host_tools/cam/adaptive_clearing/swept_area.hpp"
 #include "host_tools/cam/adaptive_clearing/trochoids.hpp"
+#include "host_tools/cam/adaptive_clearing/wall_budget.hpp"
 #include "host_tools/cam/adaptive_clearing/wall_passes.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
@@ -70,6 +71,7 @@ public:
         : settings_{settings},
           spirals_{spirals},
           radius_{settings.tool_radius},
+          sliver_{least_sliver(settings)},
           walls_{region},
           box_{grown_box(box_of(region), settings.tool_radius)},
           swept_{box_, settings.tool_radius},
@@ -91,18 +93,18 @@ public:
                 break;
             }
             if (opened > 0.0) {
-                narrow(opened, turn, least_sliver(), box_);
+                narrow(opened, turn, sliver_, box_);
             }
             steer(turn,
                   opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
             cut_walls(turn, turn, box_, 0);
             if (opened <= 0.0) {
-                narrow(kWide * radius_, turn, least_sliver(), box_);
+                narrow(kWide * radius_, turn, sliver_, box_);
                 open_necks();
             }
             opened = turn;
         }
-        narrow(opened, finest, least_sliver(), box_);
+        narrow(opened, finest, sliver_, box_);
         cut_rest();
         cut_slivers();
         return {std::move(result_), is_round_};
@@ -296,8 +298,8 @@ private:
     {
         bool left = false;
         for (const Contour& contour : opened(to).contours) {
-            const WallPasses passes = uncut_stretches(
-                contour, wall_space(least_sliver(), settings_.max_engagement, spot));
+            const WallPasses passes =
+                uncut_stretches(contour, wall_space(sliver_, settings_.max_engagement, spot));
             left = left || passes.left;
             for (const std::vector<Edge>& path : passes.paths) {
                 if (is_bounded(path)) {
@@ -312,7 +314,7 @@ private:
         if (!left || depth >= most_halvings || from <= 1.05 * to) {
             return;
         }
-        for (auto spots = spots_along({&opened(to)}, wall_space(least_sliver(), 2 * kPi, spot));
+        for (auto spots = spots_along({&opened(to)}, wall_space(sliver_, 2 * kPi, spot));
              !spots.empty();) {
             const Box2d corner = take_nearest(spots, at_);
             cut_walls(from, std::sqrt(from * to), corner, depth + 1);
@@ -326,11 +328,11 @@ private:
     {
         const Region2d& finest = opened(finest_turn());
         const Region2d whole = walls_.at(settings_.wall_clearance);
-        for (auto spots = spots_along({&finest, &whole}, wall_space(least_sliver(), 2 * kPi, box_));
+        for (auto spots = spots_along({&finest, &whole}, wall_space(sliver_, 2 * kPi, box_));
              !spots.empty();) {
             const Box2d spot = take_nearest(spots, at_);
             for (const Region2d* region : {&finest, &whole}) {
-                const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
+                const double sliver = region == &finest ? sliver_ : 2.0 * settings_.corner;
                 for (const Contour& contour : region->contours) {
                     for (const std::vector<Edge>& path :
                          uncut_stretches(contour, wall_space(sliver, 2 * kPi, spot)).paths) {
@@ -371,13 +373,6 @@ private:
                 }
             }
         } while (result_.runs.size() > runs);
-    }
-
-    // mm: at least the width that the swept area, made of discs and chords, misses.
-    double least_sliver() const
-    {
-        return std::max(std::min(0.004 * radius_, 0.5 * settings_.corner),
-                        settings_.tolerance + 0.0004 * radius_);
     }
 
     double finest_turn() const
@@ -477,6 +472,7 @@ private:
     bool spirals_;
     bool is_round_{false};
     double radius_;
+    double sliver_;  // mm: thinner stock beside a wall is left
     RegionOffset walls_;
     Box2d box_;
     SweptArea swept_;

@@ -10,6 +10,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/cam/adaptive_clearing/wall_budget.hpp"
 #include "host_tools/cam/clearing/clear_path.hpp"
 #include "host_tools/geometry/offset/edge_tree.hpp"
 
@@ -32,10 +33,9 @@ using offset::tangent_on;
 
 namespace {
 
-constexpr double kStations = 0.05;    // radii
-constexpr double kBarelyOpen = 0.03;  // radians: less is no stock
-constexpr double kBeyond = 0.1;       // radii before and behind the stock
-constexpr double kJoined = 0.4;       // radii: nearer stretches are one
+constexpr double kStations = 0.05;  // radii
+constexpr double kBeyond = 0.1;     // radii before and behind the stock
+constexpr double kJoined = 0.4;     // radii: nearer stretches are one
 constexpr double kLeadAngle = kPi / 5;
 constexpr double kShortest = 1e-6;   // mm
 constexpr double kOnContour = 5e-5;  // mm: a lead ends on the contour, which is that exact
@@ -99,7 +99,7 @@ std::optional<Edge> lead_in(const Edge& first, const WallSpace& space)
         const Edge arc = arc_edge(start, first.start, centre, 1);
         if (is_path_clear(space.walls, arc, space.wall_clearance - kOnContour) &&
             space.swept.engagement(start, tangent_at_start(arc), -space.sliver, 0.5 * kPi) <
-                kBarelyOpen) {
+                barely_open(space.sliver, radius)) {
             return arc;
         }
     }
@@ -127,7 +127,10 @@ std::optional<Edge> lead_out(const Edge& last, const WallSpace& space)
 // engagement would be over the limit.
 class StretchFinder {
 public:
-    StretchFinder(const Contour& contour, const WallSpace& space) : contour_{contour}, space_{space}
+    StretchFinder(const Contour& contour, const WallSpace& space)
+        : contour_{contour},
+          space_{space},
+          barely_open_{barely_open(space.sliver, space.swept.radius())}
     {
     }
 
@@ -166,7 +169,7 @@ private:
         const Vec2d place = point_on(edge, share);
         return is_in_box(space_.spot, place) &&
                space_.swept.engagement(place, tangent_on(edge, share), -space_.sliver) >=
-                   kBarelyOpen;
+                   barely_open_;
     }
 
     // The piece of the edge that begins `at` mm along the contour.
@@ -210,6 +213,7 @@ private:
 
     const Contour& contour_;
     const WallSpace& space_;
+    double barely_open_;  // radians
     std::vector<Stretch> found_;
     double first_barrier_{kUnbounded};
     double barrier_end_{-kUnbounded};  // of the last one; none before 0

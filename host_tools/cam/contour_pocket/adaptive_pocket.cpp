@@ -8,6 +8,8 @@
 #include "host_tools/cam/adaptive_clearing/adaptive_clearing.hpp"
 #include "host_tools/cam/adaptive_clearing/adaptive_path_writer.hpp"
 #include "host_tools/cam/adaptive_clearing/engagement_report.hpp"
+#include "host_tools/cam/adaptive_clearing/wall_budget.hpp"
+#include "host_tools/cam/cl_path/cl_path.hpp"
 #include "host_tools/cam/contour_pocket/open_sides.hpp"
 #include "host_tools/cam/contour_pocket/pocket_report.hpp"
 #include "host_tools/geometry/drop_cutter/drop_cutter.hpp"
@@ -22,6 +24,10 @@ using adaptive_clearing::AdaptivePathWriter;
 using adaptive_clearing::AdaptiveSettings;
 using adaptive_clearing::clear_adaptively;
 using adaptive_clearing::EngagementReport;
+using adaptive_clearing::room_for;
+using adaptive_clearing::shares_of;
+using adaptive_clearing::WallShares;
+using cl_path::kWrittenStep;
 using drop_cutter::DropCutter;
 using job::CutLevels;
 using job::EntryKind;
@@ -63,20 +69,44 @@ std::vector<double> heights_of(const Pocket& pocket)
     return heights;
 }
 
-// mm: of chords in place of arcs. The bound of SweptArea has room for this share of the radius.
-double chord_tolerance(const Pocket& pocket)
+// Shares the plan tolerance between the chords and what stays beside walls; with a tolerance to one side the path keeps
+// as far away from them as chords and fits may bulge.
+//
+// Errors: InputError where the tool is too large for the tolerance.
+WallShares share_tolerance(Pocket& pocket)
 {
-    return std::min(pocket.tolerances.plan_tolerance, 0.005 * pocket.operation.tool.radius);
+    const Operation& operation = pocket.operation;
+    ToleranceSplit& tolerances = pocket.tolerances;
+    const double radius = operation.tool.radius;
+    const double apart = tolerances.one_sided ? 2.0 * kWrittenStep : 0.0;
+    const double fits = (tolerances.one_sided ? 2.0 : 1.0) * tolerances.fit;
+    const double room = operation.tolerance.plan - fits - apart;
+    const WallShares shares = shares_of(room, radius, tolerances.one_sided);
+    if (shares.chords < kWrittenStep) {
+        throw InputError(operation_text(pocket.job, operation) + "plan_tolerance " +
+                         number_text(operation.tolerance.plan) +
+                         " mm is finer than clearing \"adaptive\" keeps with a tool of radius " +
+                         number_text(radius) + " mm: it leaves up to " +
+                         number_text(room_for(kWrittenStep, radius)) +
+                         " mm beside walls; clear by contours");
+    }
+    if (tolerances.one_sided) {
+        tolerances.wall_clearance = radius + tolerances.fit + shares.chords + apart;
+    }
+    return shares;
 }
 
-AdaptivePath passes_of(const Pocket& pocket, const std::optional<OpenSides>& open)
+AdaptivePath passes_of(const Pocket& pocket,
+                       WallShares shares,
+                       const std::optional<OpenSides>& open)
 {
     const Operation& operation = pocket.operation;
     AdaptiveSettings settings;
     settings.tool_radius = operation.tool.radius;
     settings.wall_clearance = pocket.tolerances.wall_clearance;
     settings.max_engagement = *operation.passes.max_engagement * kDegrees;
-    settings.tolerance = chord_tolerance(pocket);
+    settings.tolerance = shares.chords;
+    settings.sliver = shares.sliver;
     settings.corner = pocket.tolerances.plan_tolerance;
     settings.direction = operation.passes.direction_of_cut;
     if (open) {
@@ -116,6 +146,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(Pocket pocket)
 {
     const Job& job = pocket.job;
     const Operation& operation = pocket.operation;
+    const WallShares shares = share_tolerance(pocket);
     const std::optional<OpenSides> open =
         open_sides(job, operation, pocket.region, pocket.tolerances.wall_clearance);
     const bool beside_stock = lies_beside_stock(job, pocket.region);
@@ -128,7 +159,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(Pocket pocket)
     check_adaptive_size(operation, pocket.region);
     check_coverage(operation, in_stock, floor);
     const std::vector<double> heights = heights_of(pocket);
-    const AdaptivePath path = passes_of(pocket, open);
+    const AdaptivePath path = passes_of(pocket, shares, open);
 
     PlannedOperation result;
     set_tool(result.path, job, operation.tool);
@@ -136,7 +167,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(Pocket pocket)
         result.path.moves,
         {job.stock_top + job.clearance, operation.passes.entry, operation.tool.radius}};
     AdaptivePathWriter cutter{writer,
-                              {operation.output != OutputForm::kLines, chord_tolerance(pocket),
+                              {operation.output != OutputForm::kLines, shares.chords,
                                operation.passes.entry == EntryKind::kPlunge}};
     double above = job.stock_top;
     for (const double z : heights) {
