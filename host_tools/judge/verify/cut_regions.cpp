@@ -201,6 +201,9 @@ CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
     }
     if (!operation.prismatic) {
         heights_ = part_heights(operation.part.floor, operation.part.mesh, grid).z;
+        if (stays_with_ground(operation)) {
+            ground_.emplace(operation, heights_, grid);
+        }
     }
 }
 
@@ -390,8 +393,8 @@ RegionAt CutRegion::engraved_at(double x, double y) const
 RegionAt CutRegion::at(double x, double y, std::size_t k) const
 {
     if (!operation_->prismatic) {
-        return {walls_.empty() ? cap_ : room(x, y),
-                std::isfinite(heights_[k]) ? heights_[k] : -kUnbounded};
+        const double inside = ground_ ? ground_->room(x, y) : walls_.empty() ? cap_ : room(x, y);
+        return {inside, std::isfinite(heights_[k]) ? heights_[k] : -kUnbounded};
     }
     const Prismatic& cut = *operation_->prismatic;
     const double bottom = cut.top - cut.depth;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host_tools/job/job/job.hpp"
+#include "host_tools/judge/verify/finished_ground.hpp"
 #include "host_tools/judge/verify/height_grid.hpp"
 #include "host_tools/judge/verify/line_side.hpp"
 #include "host_tools/judge/verify/wall_distance.hpp"
@@ -68,7 +69,8 @@ private:
     double cap_;
     std::vector<WallDistance> walls_;
     std::vector<LineSide> lines_;  // of a profile beside lines: their walls, in the same order
-    std::vector<double> heights_;  // of surfaces; NaN where there is none
+    std::optional<FinishedGround> ground_;  // of a finish
+    std::vector<double> heights_;           // of surfaces; NaN where there is none
 };
 
 // Chords of a chain within `chord` mm; job::loop_polyline() closes what it is given.

@@ -3,7 +3,9 @@
 
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/job/job/finish_keys.hpp"
+#include "host_tools/judge/verify/finished_ground.hpp"
 #include "host_tools/judge/verify/floor_judgement.hpp"
+#include "host_tools/judge/verify/part_heights.hpp"
 #include "host_tools/judge/verify/pocket_boundaries.hpp"
 #include "host_tools/judge/verify/verdict.hpp"
 #include "host_tools/judge/verify/verify_stages.hpp"
@@ -77,20 +79,24 @@ double most_left(const Scene& scene, const std::vector<Tool>& tools, double spac
            spacing * spacing / (8 * least);
 }
 
-// True if all operations on surfaces that use the tool stay within walls.
-bool is_walled_in(const Job& job, const Tool& tool)
+// The operations on surfaces that use the tool and have no walls.
+std::vector<const Operation*> open_operations(const Job& job, const Tool& tool)
 {
-    return std::none_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
+    std::vector<const Operation*> out;
+    for (const Operation& o : job.operations) {
         const auto is_it = [&](const Tool& other) {
             return other.number == tool.number;
         };
-        return !o.prismatic &&
-               (is_it(o.tool) || std::any_of(o.tools.begin(), o.tools.end(), is_it)) &&
-               (!o.outline.boundary || job::finishes_ground(o));
-    });
+        if (!o.prismatic && (is_it(o.tool) || std::any_of(o.tools.begin(), o.tools.end(), is_it)) &&
+            (!o.outline.boundary || job::finishes_ground(o))) {
+            out.push_back(&o);
+        }
+    }
+    return out;
 }
 
 double wall_gouge(const Job& job,
+                  const HeightGrid& grid,
                   const PocketBoundaries& walls,
                   const std::vector<ToolPositions>& runs,
                   double top,
@@ -98,14 +104,25 @@ double wall_gouge(const Job& job,
 {
     double worst = 0;
     for (const ToolPositions& run : runs) {
-        if (!is_walled_in(job, run.tool)) {
+        const std::vector<const Operation*> open = open_operations(job, run.tool);
+        if (!std::all_of(open.begin(), open.end(),
+                         [](const Operation* o) { return stays_with_ground(*o); })) {
             continue;
         }
+        std::vector<FinishedGround> grounds;
+        for (const Operation* o : open) {
+            grounds.emplace_back(*o, part_heights(o->part.floor, o->part.mesh, grid).z, grid);
+        }
+        const auto finishes = [&](Vec3d tip) {
+            return std::any_of(grounds.begin(), grounds.end(), [&](const FinishedGround& ground) {
+                return ground.room(tip.x, tip.y) >= run.tool.radius;
+            });
+        };
         for (std::size_t k = 0; k < run.tips.size(); ++k) {
             const Vec3d tip = run.tips[k];
             const double depth =
                 tip.z < top - 1e-9 ? run.tool.radius - walls.at(tip.x, tip.y) : 0.0;
-            if (depth > worst) {
+            if (depth > worst && !finishes(tip)) {
                 worst = depth;
                 at = {tip, run.lines[k], run.tool.number};
             }
@@ -144,7 +161,8 @@ void judge_surfaces(Verifying& work)
     Verification& result = work.result;
     VerifyFigures& figures = result.figures;
     if (!walls.empty()) {
-        figures.wall_gouge_max = wall_gouge(work.job, walls, runs, top, figures.wall_gouge_at);
+        figures.wall_gouge_max =
+            wall_gouge(work.job, result.grid, walls, runs, top, figures.wall_gouge_at);
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, top, figures.ball_gouge_at);
     FloorMaps maps = judge_floor(
