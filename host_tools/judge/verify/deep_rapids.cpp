@@ -2,12 +2,14 @@
 #include "host_tools/judge/verify/deep_rapids.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "host_tools/base/parallel/parallel.hpp"
 #include "host_tools/judge/verify/earlier_programs.hpp"
 #include "host_tools/judge/verify/near_positions.hpp"
+#include "host_tools/judge/verify/thin_stock.hpp"
 #include "host_tools/judge/verify/uncut_stock.hpp"
 
 namespace cusp::verify {
@@ -131,6 +133,152 @@ std::vector<ToolPositions> near_runs(const std::vector<ToolPositions>& runs,
     return out;
 }
 
+using RapidsOfMoves = std::map<std::pair<std::size_t, std::uint32_t>, RapidOfRun>;
+
+// Calls visit(first, last) for the positions of each rapid move that ends below `top`.
+template <typename Visit>
+void visit_low_rapids(const ToolPositions& run, double top, Visit visit)
+{
+    for (std::size_t k = 1; k < run.tips.size(); ++k) {
+        const bool ends =
+            k + 1 == run.tips.size() || !run.rapid[k + 1] || run.lines[k + 1] != run.lines[k];
+        if (!run.rapid[k] || !ends || run.tips[k].z >= top) {
+            continue;
+        }
+        std::size_t first = k;
+        while (first > 1 && run.rapid[first - 1] && run.lines[first - 1] == run.lines[k]) {
+            --first;
+        }
+        visit(first, k);
+    }
+}
+
+// The way of a level rapid move, or its end.
+std::pair<Vec3d, Vec3d> level_way(const ToolPositions& run, std::size_t first, std::size_t last)
+{
+    const Vec3d end = run.tips[last];
+    const Vec3d from = run.tips[first - 1];
+    return {from.z == end.z ? from : end, end};
+}
+
+// Cuts a run into the stock, and looks at its rapid moves that are not known to be deep.
+class ThinWalls {
+public:
+    ThinWalls(const Job& job, const HeightGrid& grid, const std::vector<ToolPositions>& runs)
+        : top_{job.stock_top}, stock_{job, box_of(grid), places_in(runs, top_)}
+    {
+    }
+
+    void cut(const ToolPositions& run) { cut_between(run, 1, run.tips.size()); }
+
+    void look(const ToolPositions& run, std::size_t number, RapidsOfMoves& found)
+    {
+        std::size_t done = 1;
+        visit_low_rapids(run, top_, [&](std::size_t first, std::size_t last) {
+            cut_between(run, done, first);
+            done = last + 1;
+            const auto [from, to] = level_way(run, first, last);
+            const std::pair<std::size_t, std::uint32_t> move{number, run.lines[last]};
+            if (found.count(move) == 0) {
+                if (const auto standing = stock_.under(run.tool, from, to)) {
+                    const auto at_end = stock_.under(run.tool, to, to);
+                    found.emplace(move, RapidOfRun{number, run.lines[last], standing->depth,
+                                                   standing->tip, at_end ? at_end->depth : 0.0});
+                }
+            }
+            stock_.cut(run.tool, to, to);
+        });
+        cut_between(run, done, run.tips.size());
+    }
+
+private:
+    static ThinStock::Place box_of(const HeightGrid& grid)
+    {
+        const Vec2d low{grid.x0 - grid.pitch / 2, grid.y0 - grid.pitch / 2};
+        return {low, low + Vec2d{static_cast<double>(grid.nx), static_cast<double>(grid.ny)} *
+                               grid.pitch};
+    }
+
+    static std::vector<ThinStock::Place> places_in(const std::vector<ToolPositions>& runs,
+                                                   double top)
+    {
+        std::vector<ThinStock::Place> places;
+        for (const ToolPositions& run : runs) {
+            const Vec2d beside{run.tool.radius, run.tool.radius};
+            visit_low_rapids(run, top, [&](std::size_t first, std::size_t last) {
+                const auto [from, to] = level_way(run, first, last);
+                places.push_back({Vec2d{std::min(from.x, to.x), std::min(from.y, to.y)} - beside,
+                                  Vec2d{std::max(from.x, to.x), std::max(from.y, to.y)} + beside});
+            });
+        }
+        return places;
+    }
+
+    void cut_between(const ToolPositions& run, std::size_t begin, std::size_t end)
+    {
+        for (std::size_t k = begin; k < end; ++k) {
+            if (!run.rapid[k]) {
+                extend(run, k);
+            }
+        }
+        flush(run);
+    }
+
+    // Positions along a line are one cut.
+    void extend(const ToolPositions& run, std::size_t k)
+    {
+        constexpr double kStraight = 1e-9;
+        const Vec3d from = run.tips[k - 1];
+        const Vec3d to = run.tips[k];
+        if (begun_ && is_same(end_, from) && from.z == to.z && begin_.z == to.z) {
+            const Vec2d a = in_plan(end_) - in_plan(begin_);
+            const Vec2d b = in_plan(to) - in_plan(from);
+            if (dot(a, b) > 0 && std::abs(cross(a, b)) <= kStraight * norm(a) * norm(b)) {
+                end_ = to;
+                return;
+            }
+        }
+        flush(run);
+        begin_ = from;
+        end_ = to;
+        begun_ = true;
+    }
+
+    static bool is_same(Vec3d a, Vec3d b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+    void flush(const ToolPositions& run)
+    {
+        if (begun_) {
+            stock_.cut(run.tool, begin_, end_);
+        }
+        begun_ = false;
+    }
+
+    double top_;
+    ThinStock stock_;
+    bool begun_{false};
+    Vec3d begin_{};
+    Vec3d end_{};
+};
+
+// Walls that the points of the grid miss.
+void add_thin_walls(const Job& job,
+                    const std::vector<ToolPositions>& runs,
+                    double spacing,
+                    const HeightGrid& grid,
+                    RapidsOfMoves& found)
+{
+    constexpr double kFiner = 4;  // chords of arcs in programs
+    ThinWalls walls{job, grid, runs};
+    const std::vector<ToolPositions> earlier = earlier_positions(job, spacing / kFiner);
+    for (const ToolPositions& run : earlier) {
+        walls.cut(run);
+    }
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        walls.look(runs[r], r, found);
+    }
+}
+
 }  // namespace
 
 std::vector<RapidOfRun> deep_rapids(const Job& job,
@@ -167,7 +315,7 @@ std::vector<RapidOfRun> deep_rapids(const Job& job,
             }
         }
     });
-    std::map<std::pair<std::size_t, std::uint32_t>, RapidOfRun> by_move;
+    RapidsOfMoves by_move;
     for (const std::vector<RapidOfRun>& of_tile : found) {
         for (const RapidOfRun& rapid : of_tile) {
             RapidOfRun& known = by_move.try_emplace({rapid.run, rapid.line}, rapid).first->second;
@@ -175,6 +323,9 @@ std::vector<RapidOfRun> deep_rapids(const Job& job,
             known = rapid.depth > known.depth ? rapid : known;
             known.end_depth = end_depth;
         }
+    }
+    if (rapids == RapidCut::kAtEnd) {
+        add_thin_walls(job, runs, spacing, grid, by_move);
     }
     std::vector<RapidOfRun> out;
     for (const auto& [move, rapid] : by_move) {

@@ -71,6 +71,23 @@ def planned(wall, folder):
     return ""
 
 
+def grazed(wall, folder):
+    """A drill of the size of the mills reaches a little into a wall of 0.02 to 0.3 mm."""
+    r = wall.random
+    wall.thick = round(10 ** r.uniform(-1.7, -0.52), 4)
+    drill, into = r.choice((3, 4, 5)), r.uniform(0.06, 0.5)
+    hole = wall.place(r.uniform(-3, 3), drill / 2 + wall.thick / 2 - into)
+    wall.job(folder, ('shape = "flat"\ndiameter = 6', f'shape = "drill"\ndiameter = {drill}'),
+             ('a"\nstrategy = "pocket"\ndepth = 4', 'b"\nstrategy = "pocket"\ndepth = 4',
+              'h"\nstrategy = "drill"\ntop = -4\ndepth = 3\ntool = 2'),
+             box("a", wall, wall.thick / 2, wall.thick / 2 + 15) + box("b", wall, -wall.thick / 2 - 15, -wall.thick / 2) +
+             entity("CIRCLE", "h", (10, hole[0]), (20, hole[1]), (40, drill / 2)))
+    done = run(folder, "plan", "--estimate-times", "job.toml", "-o", "p.ngc")
+    if "of stock that stands by then" in done.stderr or "begins below stock" in done.stdout + done.stderr:
+        return ""
+    return f"plan: a drill of {drill} mm, {into:.3f} mm into a wall of {wall.thick} mm: not warned {done.stderr[-200:]}"
+
+
 def crossed(wall, folder):
     wide, depth = wall.random.choice((1, 3, 6)), round(wall.random.uniform(0.5, 3), 2)
     long, half = wall.random.uniform(0, 12), (wide + wall.thick) / 2
@@ -97,7 +114,8 @@ def main():
     for seed in range(FIRST, FIRST + CASES):
         wall = Wall(seed)
         with tempfile.TemporaryDirectory() as folder:
-            found = planned(wall, pathlib.Path(folder)) or crossed(wall, pathlib.Path(folder))
+            found = planned(wall, pathlib.Path(folder)) or crossed(wall, pathlib.Path(folder)) or grazed(
+                wall, pathlib.Path(folder))
         print(f"seed {seed}: a wall of {wall.thick} mm in stock of {wall.size} mm: {found or 'right'}", flush=True)
         faults += bool(found)
     print(f"{CASES} walls, {faults} with a fault")
