@@ -136,6 +136,19 @@ class Threads(CuspCase):
                 self.assert_thread(thread, keys, mill, outside)
                 self.cusp(0, "verify", "job.toml", "p.ngc")
 
+    def test_a_thread_is_cut_whole_where_an_earlier_program_has_been(self):
+        self.job("M10", {"depth": 8}, 6)
+        self.planned()
+        whole = self.program().split("T1")[-1]
+        self.job("M10", {"depth": 8}, 6)
+        job = (self.folder / "job.toml").read_text()
+        self.write("slot.ngc", "(tool 1 flat diameter 6 mm)\nG21 G90 G94\nT1 M6\nM3 S9000\nG0 X10 Y28 Z5\nG1 Z-3 F200\n"
+                   "G1 X30 F600\nG0 Z5\nM5\nM2\n")
+        self.write("job.toml", job.replace("[stock]", '[stock]\nprogram = "slot.ngc"'))
+        self.planned()
+        self.assertEqual(whole.split("M5")[0], self.program().split("T1")[-1].split("M5")[0])
+        self.cusp(0, "verify", "job.toml", "p.ngc")
+
     def test_climb_is_up_against_the_clock_in_a_right_hand_hole(self):
         self.job("M10", {"depth": 8}, 6)
         self.planned()

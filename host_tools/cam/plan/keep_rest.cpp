@@ -3,6 +3,7 @@
 
 #include "host_tools/cam/plan/rest_of_job.hpp"
 #include "host_tools/cam/plan/stages.hpp"
+#include "host_tools/job/job/thread.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -99,7 +100,8 @@ bool RestOfJob::keep(const Job& job,
                      const Operation& operation,
                      std::vector<PlannedOperation>& results) const
 {
-    if (cuts_.empty()) {
+    // A thread is cut whole: what is left of a turn is no groove.
+    if (cuts_.empty() || thread_of(operation) != nullptr) {
         return false;
     }
     const std::vector<std::string> programs = programs_before(job, operation);

@@ -22,7 +22,7 @@ public:
     explicit RestOfJob(const job::Job& job);
 
     // Leaves in the results of an operation what is still stock after its programs and after the operations
-    // remembered. False if nothing is left, or the job has no earlier programs.
+    // remembered; threads as a whole. False if nothing is left, or the job has no earlier programs.
     bool keep(const job::Job& job,
               const job::Operation& operation,
               std::vector<toolpath::PlannedOperation>& results) const;
