@@ -150,6 +150,20 @@ class WastedMotion(CuspCase):
         self.assertLess(sum(one["air_s"] for one in first), 0.1 * sum(one["cutting_s"] for one in first))
         self.assertEqual(0, sum(one["cutting_s"] for one in second))
 
+    def test_a_floor_that_roughing_has_cut_is_not_finished_in_air(self):
+        points = [[0, 0, -3], [0, 20, -3], [30, 0, -3], [30, 20, -3]]
+        self.write("level.json", json.dumps({"shape": {"type": "surface", "count": 1, "data": [{
+            "rational": False, "degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2, "knotvector_u": [0, 0, 1, 1],
+            "knotvector_v": [0, 0, 1, 1], "control_points": {"points": points}}]}}))
+        self.write("job.toml", '[[tool]]\nshape = "ball"\ndiameter = 4\n[[tool]]\nshape = "flat"\ndiameter = 8\n[cutting]\n'
+                   'feed = 1000\n[stock]\ntop = 0\nbottom = -8\nx = [-5, 35]\ny = [-5, 25]\n[[operation]]\n'
+                   'strategy = "adaptive_isocurve"\nfloor = ["level.json"]\nscallop = 0.1\ntool = 1\nroughing = true\ntools = [2]\n')
+        said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.assertRegex(said, r"scallop at most 0\.09")
+        self.assertLess(self.stats()["air_s"], 0.05 * self.stats()["cutting_s"])
+        self.assertNotIn("tool 1 ball", (self.folder / "p.ngc").read_text())
+        self.cusp(0, "verify", "job.toml", "p.ngc")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -440,6 +440,11 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
         why_not_roughed = std::move(out.front().stats.warnings);
         out.clear();
     }
+    if (finish.path.moves.empty() && !floors.levels().empty()) {
+        for (PlannedOperation& rough : out) {  // it has cut all that is to be finished
+            rough.stats.scallop_bound_mm = finish.stats.scallop_bound_mm;
+        }
+    }
     out.push_back(std::move(finish));
     std::vector<std::string>& warnings = out.back().stats.warnings;
     warnings.insert(warnings.end(), why_not_roughed.begin(), why_not_roughed.end());

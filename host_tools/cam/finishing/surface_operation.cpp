@@ -416,7 +416,7 @@ void SurfaceOperation::keep_in_stock(double linked, OperationStats& stats)
     }
 }
 
-// Passes stay if all of them are idle: a finish has some pass.
+// None is left where another tool has cut all of the ground.
 void SurfaceOperation::leave_out_idle(double linked)
 {
     if (!is_idle_) {
@@ -426,10 +426,7 @@ void SurfaceOperation::leave_out_idle(double linked)
     for (const SurfacePass& pass : passes_) {
         divided.push_back(divided_where_idle(pass, is_idle_));
     }
-    std::vector<SurfacePass> rest = passes_in_stock(divided, is_idle_, linked);
-    if (!rest.empty()) {
-        passes_ = std::move(rest);
-    }
+    passes_ = passes_in_stock(divided, is_idle_, linked);
 }
 
 void report_left_beside_edges(OperationStats& stats, double beside_edges, double scallop_bound)
