@@ -3,7 +3,7 @@
 A driver of a controller, on the virtual mill or on a chip, is put into each state of states(), given each byte and
 each line, and compared with the model (all_trials, walk). What a driver does:
 
-    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up
+    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up, after PASSES_M1
     say(text)           sends lines that lead to a state, and waits for their answers where they come at once
     send(text)          sends
     door(opened)
@@ -21,6 +21,7 @@ OVERRIDES = "\x90\x91\x92\x93\x94\x95\x96\x97\x99\x9a\x9b\x9c\x9d"
 BYTES = ("?", HOLD, START, RESET, DOOR, CANCEL, STOP_SPINDLE, FLOOD, MIST, OVERRIDES)
 OUTPUTS = frozenset("SFM")
 SPEED_UP = "faster"
+STOPS_AT_M1, PASSES_M1 = "$795=1\n", "$795=0\n"
 # States that end by themselves, or that hide what a walk would see.
 UNSTEADY = ("Dwell", "Probe", "Spindle comes up", "Hold:1", "Door:2")
 # Lines that lead to a state, and are answered after it.
@@ -197,6 +198,7 @@ def states():
         "Hold, spindle stopped": (Model("Hold", "SF", "Run", "S"), held + [STOP_SPINDLE]),
         "Hold, starting": (Model("Hold", "SF", "Run", up=False, starting=True), held + [STOP_SPINDLE, START]),
         "M0": (Model("Hold", "SF", "Idle"), [on + "M0\n"]),
+        "M1, switched on": (Model("Hold", "SF", "Idle"), [on + STOPS_AT_M1 + "M1\n"]),
         "M6": (Model("Hold", "SF", "Idle"), [on + "T1M6\n"]),
         "Jog": (Model("Jog", "SF"), [on] + jog),
         "Alarm": (Model("Alarm"), jog + [RESET]),

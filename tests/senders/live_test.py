@@ -44,6 +44,7 @@ class MillDriver:
         self.port.send(live_model.RESET)
         self.port.wait_for("^Grbl")
         self.port.ask("$X")
+        self.port.ask(live_model.PASSES_M1.strip())
         self.away = -self.away
 
     def say(self, text):

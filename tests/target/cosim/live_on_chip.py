@@ -26,7 +26,7 @@ class ChipDriver:
         for line in ("$120=10", "$121=10", "$122=10", "$22=1", "$25=30", "$26=50"):
             machine.ask(line)
         self.away, self.text = 1, ""
-        self.opened = self.delays = False
+        self.opened = self.delays = self.stops = False
 
     def door(self, opened):
         if opened != self.opened:
@@ -42,6 +42,9 @@ class ChipDriver:
         if self.delays:
             self.machine.ask("$394=0")
             self.delays = False
+        if self.stops:
+            self.machine.ask(live_model.PASSES_M1.strip())
+            self.stops = False
         self.away = -self.away
 
     def say(self, text):
@@ -52,6 +55,7 @@ class ChipDriver:
             else:
                 self.machine.ask(line.strip())
             self.delays = self.delays or line.startswith("$394")
+            self.stops = self.stops or line == live_model.STOPS_AT_M1
 
     def send(self, text):
         self.machine.send(text)
