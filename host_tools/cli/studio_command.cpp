@@ -6,10 +6,10 @@
 #include <sys/prctl.h>
 
 #include "host_tools/cli/cli.hpp"
+#include "host_tools/cli/studio/call.hpp"
+#include "host_tools/cli/studio/open_in_browser.hpp"
+#include "host_tools/cli/studio/studio.hpp"
 #include "host_tools/cli/version_text.hpp"
-#include "host_tools/studio/call.hpp"
-#include "host_tools/studio/open_in_browser.hpp"
-#include "host_tools/studio/studio.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

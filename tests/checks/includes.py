@@ -19,7 +19,7 @@ FREESTANDING_HEADERS = {
     "string_view", "tuple", "type_traits", "utility", "variant",
 }
 # Folders of modules that the modules of some folders alone may include: readers of files stay out of the planners.
-USERS = {"host_tools/job/import": ("host_tools/job/", "host_tools/cam/plan/", "host_tools/engine/", "host_tools/cli/")}
+USERS = {"host_tools/job/import": ("host_tools/job/", "host_tools/cam/plan/", "host_tools/cam/engine/", "host_tools/cli/")}
 # The core and its hardware are known to all of host_tools: no arrows.
 BELOW_ALL = ("firmware", "hal", "boards")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include\s*([<"])([^>"]+)[>"]', re.M)

@@ -19,7 +19,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-SOURCES = TOP / "host_tools/engine/npm"
+SOURCES = TOP / "host_tools/cam/engine/npm"
 NAMED = re.compile(r'"([\w./-]+\.\w+)(?:#[^"]*)?"')
 CAD = (".step", ".stp", ".iges", ".igs", ".brep")
 TIMES = {"planning_s", "wall_s", "seconds"}

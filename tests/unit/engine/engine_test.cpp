@@ -1,4 +1,4 @@
-#include "host_tools/engine/engine.hpp"
+#include "host_tools/cam/engine/engine.hpp"
 
 #include <algorithm>
 

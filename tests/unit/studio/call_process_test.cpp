@@ -1,5 +1,5 @@
 // Processes that answer, that fail, and that are ended.
-#include "host_tools/studio/call_process.hpp"
+#include "host_tools/cli/studio/call_process.hpp"
 
 #include <chrono>
 #include <optional>

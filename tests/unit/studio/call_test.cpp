@@ -1,5 +1,5 @@
 // Requests and answers of calls as bytes.
-#include "host_tools/studio/call.hpp"
+#include "host_tools/cli/studio/call.hpp"
 
 #include <algorithm>
 #include <cstdio>

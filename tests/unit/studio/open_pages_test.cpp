@@ -1,5 +1,5 @@
 // When the last page is known to have closed.
-#include "host_tools/studio/open_pages.hpp"
+#include "host_tools/cli/studio/open_pages.hpp"
 
 #include <chrono>
 #include <future>

@@ -4,7 +4,7 @@
 //
 // src/NAME_page.ts (or .tsx), NAME.html, page.css and NAME.css make FOLDER/NAME.html. --core: the firmware's core in WebAssembly, which
 // `import wasm from "core-wasm"` gives as base64 ("" without). --engine: engine.mjs and engine.wasm of the preset wasm-engine, and the
-// planners' client, host_tools/engine/npm/page_client.ts: studio.html holds the planners then. `import text from "worker:./x.ts"` gives the bundle of
+// planners' client, host_tools/cam/engine/npm/page_client.ts: studio.html holds the planners then. `import text from "worker:./x.ts"` gives the bundle of
 // a worker as text. --compare: exit status 1 where a page of that folder, unpacked, is not the same byte for byte.
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";

@@ -30,7 +30,7 @@ export type CodeTexts = Record<string, string>;
 /** How a program is resumed: places in its coordinates, mm. */
 export interface Way { line: number; tool: number; point: [number, number, number]; travel_z: number; plunges: boolean; plunge_feed: number; spindle: number }
 
-/** Arguments and results of each call; host_tools/engine/engine.hpp describes them. Lengths are in mm. */
+/** Arguments and results of each call; host_tools/cam/engine/engine.hpp describes them. Lengths are in mm. */
 export interface Calls {
   keys: { args: Record<string, never>; result: { version: string; threads: number; cad: boolean; schema: unknown; strategies: StrategyFacts[]; suggest: SuggestKey[]; posts: string[]; errors: CodeTexts; alarms: CodeTexts } };
   describe: {

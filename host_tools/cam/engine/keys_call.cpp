@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <thread>
 
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/cam/strategies/strategies.hpp"
 #include "host_tools/controller/dialect/answer.hpp"
-#include "host_tools/engine/calls.hpp"
 #include "host_tools/job/import/job_schema.hpp"
 #include "host_tools/job/import/one_line_keys.hpp"
 #include "host_tools/job/import/post_reader.hpp"

@@ -1,8 +1,8 @@
 // cusp verify.
 #include <cmath>
 
-#include "host_tools/engine/calls.hpp"
-#include "host_tools/engine/drawn_facets.hpp"
+#include "host_tools/cam/engine/calls.hpp"
+#include "host_tools/cam/engine/drawn_facets.hpp"
 #include "host_tools/judge/verify/verify.hpp"
 #include "host_tools/judge/verify/verify_statistics.hpp"
 

@@ -1,5 +1,5 @@
 // Routes and checks of the studio's server.
-#include "host_tools/studio/loopback_server.hpp"
+#include "host_tools/cli/studio/loopback_server.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "host_tools/base/json_text/json_text.hpp"
-#include "host_tools/studio/call.hpp"
-#include "host_tools/studio/call_process.hpp"
+#include "host_tools/cli/studio/call.hpp"
+#include "host_tools/cli/studio/call_process.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"

@@ -1,7 +1,7 @@
 // cusp info, and triangles to draw.
 #include "firmware/base/inch.hpp"
-#include "host_tools/engine/calls.hpp"
-#include "host_tools/engine/drawn_facets.hpp"
+#include "host_tools/cam/engine/calls.hpp"
+#include "host_tools/cam/engine/drawn_facets.hpp"
 #include "host_tools/job/import/part_geometry_reader.hpp"
 #include "host_tools/job/part_info/part_info.hpp"
 

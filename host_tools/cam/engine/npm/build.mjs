@@ -10,7 +10,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const top = join(here, "../../..");
+const top = join(here, "../../../..");
 const option = (name, standard) => {
   const at = process.argv.indexOf("--" + name);
   return resolve(at < 0 ? standard : process.argv[at + 1]);

@@ -1,9 +1,9 @@
 // cusp sim, and the data of cusp view.
 #include <utility>
 
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/controller/simulate/settings_file.hpp"
 #include "host_tools/controller/simulate/simulate.hpp"
-#include "host_tools/engine/calls.hpp"
 #include "host_tools/judge/view/run_page.hpp"
 
 #include "fmt/format.h"

@@ -1,8 +1,8 @@
 // cusp plan.
 #include <algorithm>
 
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/cam/plan/plan.hpp"
-#include "host_tools/engine/calls.hpp"
 #include "host_tools/job/import/post_reader.hpp"
 
 #include "fmt/format.h"

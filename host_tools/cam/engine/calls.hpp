@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "host_tools/base/input_error/input_error.hpp"
-#include "host_tools/engine/arguments.hpp"
-#include "host_tools/engine/engine.hpp"
+#include "host_tools/cam/engine/arguments.hpp"
+#include "host_tools/cam/engine/engine.hpp"
 #include "host_tools/job/import/import.hpp"
 #include "host_tools/job/job/job.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "host_tools/engine/calls.hpp"
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/geometry/nurbs/nurbs.hpp"
 
 namespace cusp::engine {

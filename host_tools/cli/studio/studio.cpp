@@ -1,13 +1,13 @@
 // The server's life: it begins with an address and ends with the last page.
-#include "host_tools/studio/studio.hpp"
+#include "host_tools/cli/studio/studio.hpp"
 
 #include <chrono>
 #include <thread>
 
 #include "host_tools/base/input_error/input_error.hpp"
+#include "host_tools/cli/studio/loopback_server.hpp"
+#include "host_tools/cli/studio/open_pages.hpp"
 #include "host_tools/judge/view/page_text.hpp"
-#include "host_tools/studio/loopback_server.hpp"
-#include "host_tools/studio/open_pages.hpp"
 
 #include "fmt/format.h"
 

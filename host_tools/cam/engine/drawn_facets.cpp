@@ -1,5 +1,5 @@
 // Surfaces become triangles by the facets of part_info.
-#include "host_tools/engine/drawn_facets.hpp"
+#include "host_tools/cam/engine/drawn_facets.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // posix_spawn, with a file in memory as input and a pipe as output.
-#include "host_tools/studio/call_process.hpp"
+#include "host_tools/cli/studio/call_process.hpp"
 
 #include <array>
 #include <cerrno>

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_tools/studio/open_pages.hpp"
+#include "host_tools/cli/studio/open_pages.hpp"
 
 namespace cusp::studio {
 

@@ -1,7 +1,7 @@
-// An instance of the engine: calls with JSON and files, as host_tools/engine/engine.hpp describes them.
+// An instance of the engine: calls with JSON and files, as host_tools/cam/engine/engine.hpp describes them.
 // The module is emscripten's; nothing here knows node or a browser.
 
-/** The module that emscripten makes of host_tools/engine/wasm/engine_abi.cpp. */
+/** The module that emscripten makes of host_tools/cam/engine/wasm/engine_abi.cpp. */
 export interface EngineModule {
   HEAPU8: Uint8Array;
   UTF8ToString(place: number): string;

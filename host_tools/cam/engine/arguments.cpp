@@ -1,5 +1,5 @@
 // Numbers are finite: JSON has no others.
-#include "host_tools/engine/arguments.hpp"
+#include "host_tools/cam/engine/arguments.hpp"
 
 #include <algorithm>
 #include <utility>

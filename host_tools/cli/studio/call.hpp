@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "host_tools/base/files/file_set.hpp"
-#include "host_tools/engine/engine.hpp"
+#include "host_tools/cam/engine/engine.hpp"
 
 namespace cusp::studio {
 

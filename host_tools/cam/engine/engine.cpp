@@ -1,5 +1,5 @@
 // Finds the call, gives it its files, and makes errors part of the answer.
-#include "host_tools/engine/engine.hpp"
+#include "host_tools/cam/engine/engine.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <new>
 
 #include "host_tools/base/json_text/json_text.hpp"
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/cam/plan/plan.hpp"
 #include "host_tools/cam/strategies/strategies.hpp"
-#include "host_tools/engine/calls.hpp"
 #include "host_tools/judge/verify/program_setup.hpp"
 
 #include "fmt/format.h"

@@ -1,5 +1,5 @@
 // A count of pages, and the wait for its end.
-#include "host_tools/studio/open_pages.hpp"
+#include "host_tools/cli/studio/open_pages.hpp"
 
 namespace cusp::studio {
 

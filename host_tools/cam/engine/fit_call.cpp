@@ -1,6 +1,6 @@
 // cusp fit.
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/controller/program_fit/program_fit.hpp"
-#include "host_tools/engine/calls.hpp"
 
 #include "fmt/format.h"
 

@@ -1,5 +1,5 @@
 // Requests are parsed, answers are written.
-#include "host_tools/studio/call.hpp"
+#include "host_tools/cli/studio/call.hpp"
 
 #include <array>
 #include <chrono>

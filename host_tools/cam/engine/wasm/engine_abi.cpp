@@ -1,5 +1,5 @@
-// The C interface of the engine in WebAssembly. The other side is host_tools/engine/npm/engine.ts: it puts files into the
-// set, calls, and reads the answer.
+// The C interface of the engine in WebAssembly. The other side is host_tools/cam/engine/npm/engine.ts: it puts files
+// into the set, calls, and reads the answer.
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "firmware/base/assert.hpp"
-#include "host_tools/engine/engine.hpp"
+#include "host_tools/cam/engine/engine.hpp"
 
 // An assertion of the firmware: the worker ends with this line.
 void cusp::fault(const char* expression, const char* file, int line) noexcept

@@ -1,6 +1,6 @@
 // The job of a plan without a job file.
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/cam/strategies/strategies.hpp"
-#include "host_tools/engine/calls.hpp"
 #include "host_tools/job/import/one_line_keys.hpp"
 
 namespace cusp::engine {

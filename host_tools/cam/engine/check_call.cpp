@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
-#include "host_tools/engine/calls.hpp"
-#include "host_tools/engine/drawn_facets.hpp"
+#include "host_tools/cam/engine/calls.hpp"
+#include "host_tools/cam/engine/drawn_facets.hpp"
 
 namespace cusp::engine {
 

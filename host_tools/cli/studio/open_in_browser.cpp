@@ -1,5 +1,5 @@
 // By xdg-open, whose own words nobody needs.
-#include "host_tools/studio/open_in_browser.hpp"
+#include "host_tools/cli/studio/open_in_browser.hpp"
 
 #include <spawn.h>
 #include <unistd.h>

@@ -1,12 +1,12 @@
 // cusp stream without its port: what goes to a controller for a program, from its beginning or from a line that the tool had reached.
 #include <cmath>
 
+#include "host_tools/cam/engine/calls.hpp"
 #include "host_tools/controller/dialect/program_lines.hpp"
 #include "host_tools/controller/dialect/refusal.hpp"
 #include "host_tools/controller/stream/approach.hpp"
 #include "host_tools/controller/stream/controller_facts.hpp"
 #include "host_tools/controller/stream/resume_point.hpp"
-#include "host_tools/engine/calls.hpp"
 
 #include "fmt/format.h"
 
