@@ -56,6 +56,24 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("firmware/path includes nothing of firmware/base", text)
 
+    def test_includes_follows_arrows_as_far_as_they_lead(self):
+        rows = ["| hal | firmware/path |\n", "| boards | hal |\n"]
+        self.write("docs/architecture.md", TABLE + "".join(rows))
+        self.write("firmware/path/line.hpp", '#include "firmware/base/vec.hpp"\n')
+        self.write("hal/pin.hpp", '#include "firmware/path/line.hpp"\n')
+        self.write("boards/pins.hpp", '#include "firmware/base/vec.hpp"\n#include "hal/pin.hpp"\n')
+        self.assertEqual(self.run_check("includes.py"), (0, "includes: 3 files keep to the arrows\n"))
+        self.write("firmware/path/pins.hpp", '#include "boards/pins.hpp"\n')
+        status, text = self.run_check("includes.py")
+        self.assertEqual((status, text), (1, "firmware/path/pins.hpp:1: firmware/path may not include boards/pins.hpp\n"))
+
+    def test_includes_refuses_an_arrow_that_others_imply(self):
+        self.write("docs/architecture.md", TABLE + "| hal | firmware/base firmware/path |\n")
+        self.write("firmware/path/line.hpp", '#include "firmware/base/vec.hpp"\n')
+        self.write("hal/pin.hpp", '#include "firmware/base/vec.hpp"\n#include "firmware/path/line.hpp"\n')
+        status, text = self.run_check("includes.py")
+        self.assertEqual((status, text), (1, "docs/architecture.md: hal may include firmware/base by its other arrows\n"))
+
     def test_includes_refuses_a_target_whose_dependencies_are_not_its_row(self):
         self.write("firmware/path/line.hpp", '#include "firmware/base/vec.hpp"\n')
         self.write("firmware/base/CMakeLists.txt", "cusp_module(NAME base LINKS cusp::path)\n")

@@ -2,9 +2,10 @@
 """Compares every #include of the tree with the groups of docs/architecture.md and with CMake's DEPENDS.
 
 usage: includes.py TOP
-A module is a folder with a target. Between groups there are the arrows of the table alone: an #include without an
-arrow and an arrow without an #include are refused, and so is a way round that leads back. Between modules the
-DEPENDS of CMake are exactly what is included. Modules that are linked without an #include are listed in LINKS.
+A module is a folder with a target. A group may include those that its row of the table names, and what these may
+include. An #include that the table does not allow is refused, and an arrow of the table that no #include uses or that
+the other arrows of its row imply, and a way round that leads back. Between modules the DEPENDS of CMake are exactly
+what is included. Modules that are linked without an #include are listed in LINKS.
 Exit status: 0 they agree, 1 they do not, 2 the tree or its table can't be read.
 """
 import collections
@@ -42,6 +43,19 @@ def read_table(path):
     return table
 
 
+def reached(table, group):
+    """The groups that following the arrows from a group leads to."""
+    return table[group].union(*(reached(table, other) for other in table[group]))
+
+
+def implied_arrows(table):
+    """The arrows that the other arrows of their row imply."""
+    for group, allowed in table.items():
+        for other in sorted(allowed):
+            if any(other in reached(table, between) for between in allowed - {other}):
+                yield group, other
+
+
 def refuse_cycles(arrows, place):
     """Raises where following the arrows leads back."""
     done = set()
@@ -71,7 +85,7 @@ def folder_of(place, folders):
 def allows(table, group, other):
     """True if a file of the group may include one of the other."""
     below = group.startswith("host_tools/") and other.split("/")[0] in BELOW_ALL
-    return other == group or below or other in table[group]
+    return other == group or below or other in reached(table, group)
 
 
 def is_freestanding(module):
@@ -155,6 +169,7 @@ def main(arguments):
         return 2
     for group, allowed in table.items():
         found += [f"docs/architecture.md: {group} includes nothing of {other}" for other in sorted(allowed - used[group])]
+    found += [f"docs/architecture.md: {group} may include {other} by its other arrows" for group, other in implied_arrows(table)]
     found += disagreements_with_cmake(modules, used)
     try:
         refuse_cycles({module: used[module] - {module, None} for module in modules}, "modules")
