@@ -33,6 +33,18 @@ constexpr float kKnownBehind = 2.0F * kLongestElement + 0.3F;
 // Growth of the cell beside one of length h. At the shortest elements the law is far below its limits.
 float growth_of(float h) noexcept { return h < kFineCell ? kFineGrowth : kGrowth; }
 
+// The squared speed that jerk allows s mm from rest, where it is below x.
+float least_by_jerk(float x, float jerk, float s) noexcept
+{
+    constexpr float kClearlyAbove = 1.0001F;  // far more than rounding takes: no root is needed
+    const float cube = std::min(4.5F * jerk * s * s, 1e15F);
+    if (cube > kClearlyAbove * x * std::sqrt(x)) {
+        return x;
+    }
+    const float speed = cube_root(cube);
+    return std::min(x, speed * speed);
+}
+
 }  // namespace
 
 void StationSpacing::set_limits(const MachineLimits& limits, float station_time) noexcept
@@ -218,17 +230,12 @@ float StationSpacing::expected_at(std::int64_t at) const noexcept
     float x = std::min(own.cap, own.expected + 2.0F * own.brake * within);
     x = std::min(x, after + 2.0F * own.brake * std::max(own.length - within, 0.0F));
     // From and to rest by jerk.
-    const float from = std::max(distance(rest_, at), start_.length);
-    const auto by_jerk = [](float jerk, float s) {
-        const float speed = cube_root(std::min(4.5F * jerk * s * s, 1e15F));
-        return speed * speed;
-    };
-    x = std::min(x, by_jerk(start_jerk_, from));
+    x = least_by_jerk(x, start_jerk_, std::max(distance(rest_, at), start_.length));
     if (stop_settled_) {
         const float to = std::max(distance(at, path_.length()), stop_.length);
         // Farther off the stop may not be known yet.
         const float known = std::sqrt(x) * kJointWindow + kKnownBehind;
-        x = to < known ? std::min(x, by_jerk(stop_jerk_, to)) : x;
+        x = to < known ? least_by_jerk(x, stop_jerk_, to) : x;
     }
     return x;
 }
