@@ -1,4 +1,4 @@
-// With |n| = 1, |point + R n - contact| < R' is linear in n: a cap.
+// Contacts of the last proofs first, then those of near facets, then drops.
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ constexpr int kMostDrops = 20;
 constexpr std::size_t kMostBlocks = 100'000;  // 40 MB
 constexpr double kLeastRise = 0.05;           // of a unit vector
 constexpr double kLeastMargin = 1e-8;         // of a cap beyond the direction that it is to block
-constexpr double kEnoughMargin = 0.3;         // the same: more is not looked for
-constexpr double kOnPoint = 1e-9;             // mm
+constexpr double kEnoughMargin = 0.1;         // the same: more is not looked for
+constexpr double kRecentMargin = 0.03;        // the same, of the points of the last proofs
 constexpr double kAside = 1e-4;               // mm
 constexpr int kMostAside = 3;
 // Shares of the way from the facet's point nearest to the point to that nearest to the ball.
@@ -103,18 +103,11 @@ void LowerPositionProof::add_near(const Facet& facet)
                      std::max({at[0].z, at[1].z, at[2].z})});
 }
 
-// The cap that a point of the mesh blocks, and how far the ball's centre is within. The tool cuts into
-// what it covers from above, so points straight below one block as well.
 LowerPositionProof::Contact LowerPositionProof::contact_at(Vec3d point,
                                                            Vec3d at,
                                                            Vec3d centre) const
 {
-    const Vec3d way = Vec3d{at.x, at.y, std::min(at.z, centre.z)} - point;
-    const double away = std::max(norm(way), kOnPoint);
-    const Vec3d towards = way / away;
-    const double least =
-        (square(away) + square(radius_) - square(contact_radius_)) / (2 * radius_ * away);
-    return {{towards, least}, dot(towards, centre - point) / radius_ - least};
+    return drop_cutter::approach_block(at, point, centre, radius_, contact_radius_);
 }
 
 // The contact of a facet that reaches farthest beyond the direction of the ball.
@@ -149,11 +142,35 @@ void LowerPositionProof::try_facet(Near& near, Vec3d point, Vec3d centre, Contac
     }
 }
 
+// The contact that reaches farthest, of the points that blocked a ball in the last proofs.
+LowerPositionProof::Contact LowerPositionProof::recent_contact(Vec3d point, Vec3d centre) const
+{
+    Contact best;
+    for (std::size_t k = 0; k < recent_count_; ++k) {
+        const Contact contact = contact_at(point, recent_[k], centre);
+        best = contact.margin > best.margin ? contact : best;
+    }
+    return best;
+}
+
+void LowerPositionProof::keep(Vec3d at)
+{
+    if (std::find(recent_.begin(), recent_.begin() + recent_count_, at) ==
+        recent_.begin() + recent_count_) {
+        recent_[recent_next_] = at;
+        recent_next_ = (recent_next_ + 1) % kRecent;
+        recent_count_ = std::min(recent_count_ + 1, kRecent);
+    }
+}
+
 // A contact of near facets that reaches far beyond the direction of the ball. What blocks one direction
 // often blocks the next: it is tried first.
 LowerPositionProof::Contact LowerPositionProof::near_contact(Vec3d point, Vec3d centre)
 {
-    Contact best{{}, -1};
+    Contact best = recent_contact(point, centre);
+    if (best.margin >= kRecentMargin) {
+        return best;
+    }
     std::size_t of = 0;
     for (std::size_t k = 0; k < near_.size() && best.margin < kEnoughMargin; ++k) {
         const double before = best.margin;
@@ -216,6 +233,7 @@ LowerPositionProof::Verdict LowerPositionProof::verdict_over(Vec3d point, Vec3d 
         if (drops > kMostDrops || !cover.add(best.cap)) {
             return Verdict::kUnknown;
         }
+        keep(best.contact);
         open = cover.open();
     }
     return open ? Verdict::kUnknown : Verdict::kNone;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host_tools/cam/finishing/gouge_free_path.hpp"
-#include "host_tools/geometry/drop_cutter/half_sphere_cover.hpp"
+#include "host_tools/geometry/drop_cutter/approach_block.hpp"
 #include "host_tools/geometry/part_model/facet_drop.hpp"
 
 namespace cusp::finishing {
@@ -34,7 +34,8 @@ public:
     Verdict verdict_over(Vec3d point, Vec3d centre);
 
 private:
-    static constexpr std::int64_t kSide = 4;              // grid points in x and in y
+    static constexpr std::int64_t kSide = 4;  // grid points in x and in y
+    static constexpr std::size_t kRecent = 24;
     using Block = std::vector<const part_model::Facet*>;  // that the ball rests on there
 
     // A facet, and a ball round it.
@@ -46,10 +47,7 @@ private:
         Vec3d foot{};  // nearest to the point of a proof
         std::uint64_t foot_of{0};
     };
-    struct Contact {
-        drop_cutter::HalfSphereCover::Cap cap;
-        double margin;  // of the cap beyond a direction
-    };
+    using Contact = drop_cutter::ApproachBlock;
 
     // kNone where it has a contact.
     struct Drop {
@@ -64,6 +62,8 @@ private:
     Drop dropped(Vec3d point, Vec3d centre);
     void try_facet(Near& near, Vec3d point, Vec3d centre, Contact& best) const;
     Contact near_contact(Vec3d point, Vec3d centre);
+    Contact recent_contact(Vec3d point, Vec3d centre) const;
+    void keep(Vec3d at);
 
     const GougeFreePathFitter& path_fitter_;
     double pitch_;
@@ -74,6 +74,10 @@ private:
     std::optional<std::uint64_t> near_block_;  // that the facets are near
     std::vector<Near> near_;
     std::uint64_t proof_{0};
+    std::array<Vec3d, kRecent>
+        recent_;  // contacts of the last proofs, found once more without a search
+    std::size_t recent_count_{0};
+    std::size_t recent_next_{0};
 };
 
 }  // namespace cusp::finishing

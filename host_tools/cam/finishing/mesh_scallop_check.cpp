@@ -16,6 +16,7 @@ using part_model::Facet;
 namespace {
 
 constexpr double kSmallestFacet = 1.0 / 64;  // cells, in steps between passes
+constexpr double kSmallestBlocked = 1.0 / 16;  // the same, where the tool cannot touch
 constexpr double kLargestFacet = 2;          // the same
 constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
@@ -84,15 +85,15 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
         return Verdict::kCovered;
     }
     if (longest >= kBlockedCell * step()) {
-        return longest < kSettledCell * step() && settled(cell) ? Verdict::kSettled
-                                                                : Verdict::kHalve;
+        return longest < kSettledCell * step() && settled(cell, longest) ? Verdict::kSettled
+                                                                         : Verdict::kHalve;
     }
     bool each = true;
     for (const Vec3d& corner : cell.corners) {
         if (!is_covered(corner, cell.normal, kPlaceShare)) {
             each = false;
             if (!path_fitter_.is_clear(places_.touching_tip(corner, cell.normal))) {
-                return low_enough(cell) ? Verdict::kCovered : Verdict::kBlocked;
+                return judge_blocked(cell, longest);
             }
         }
     }
@@ -103,31 +104,33 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
     return longest >= kSmallestFacet * step() ? Verdict::kHalve : Verdict::kCovered;
 }
 
-bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
+// True if the tool can touch no corner, and one move is as low as any may be.
+bool MeshScallopCheck::settled(const Cell& cell, double longest) const
 {
-    return !is_covered(corner, normal, kPlaceShare) &&
-           !path_fitter_.is_clear(places_.touching_tip(corner, normal));
-}
-
-bool MeshScallopCheck::settled(const Cell& cell) const
-{
-    const Vec3d middle = cell.middle();
     return std::all_of(cell.corners.begin(), cell.corners.end(),
-                       [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
-           !is_hidden(middle) && places_.settled(middle, cell.normal) &&
-           std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-               return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
-           });
+                       [&](Vec3d corner) {
+                           return !is_covered(corner, cell.normal, kPlaceShare) &&
+                                  !path_fitter_.is_clear(places_.touching_tip(corner, cell.normal));
+                       }) &&
+           !is_hidden(cell.middle()) &&
+           places_.by_one_move(cell.corners, cell.normal, longest) ==
+               ScallopAtPoint::OneMove::kGoesLowest;
 }
 
-// True if the stock vertically above the corners is no higher than the scallop, along the normal of
-// the facet.
-bool MeshScallopCheck::low_enough(const Cell& cell) const
+// The verdict of a small cell that the tool can't touch everywhere. Between the cuts of several moves the
+// stock is higher than at the corners: such cells are halved until that is little.
+MeshScallopCheck::Verdict MeshScallopCheck::judge_blocked(const Cell& cell, double longest) const
 {
-    return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-        const double over = places_.swept().lowest(corner.x, corner.y).height - corner.z;
-        return over * cell.normal.z <= kPlaceShare * scallop_;
-    });
+    using OneMove = ScallopAtPoint::OneMove;
+    const OneMove move = places_.by_one_move(cell.corners, cell.normal, longest);
+    if (move == OneMove::kCuts || move == OneMove::kGoesLowest) {
+        return move == OneMove::kCuts ? Verdict::kCovered : Verdict::kSettled;
+    }
+    const bool is_smallest = longest < kSmallestBlocked * step();
+    if ((move == OneMove::kTooHigh || is_smallest) && may_be_uncovered(cell)) {
+        return Verdict::kBlocked;
+    }
+    return is_smallest ? Verdict::kSettled : Verdict::kHalve;
 }
 
 void MeshScallopCheck::check_cell(const Cell& cell, int depth)
@@ -143,10 +146,7 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
         if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && checking_) {
             blocked_area_ += area_of(cell.corners);
         }
-        // If the tool cannot touch there is usually no lower position. Rough meshes have very
-        // many such cells.
-        if (verdict == Verdict::kSettled ||
-            (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {
+        if (verdict == Verdict::kSettled) {
             return;
         }
         overflowed_ = uncovered_.size() >= kMostGaps;
@@ -262,7 +262,7 @@ std::optional<Vec3d> MeshScallopCheck::missing_tip(const MeshPlace& at) const
     if (path_fitter_.is_clear(tip)) {
         return tip;
     }
-    return places_.lower_tip(at.point, at.normal).tip;
+    return places_.lower_tip(at.point, at.normal, places_.blocked_share()).tip;
 }
 
 // A point of the cell where a pass is missing.
@@ -296,7 +296,7 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
         return path_fitter_.is_clear(places_.touching_tip(at, cell.normal));
     };
     const auto lower = [&](Vec3d at) {
-        return !places_.has_no_lower_tip(at, cell.normal);
+        return !places_.has_no_lower_tip(at, cell.normal, places_.blocked_share());
     };
     if (!stays(middle) && (touched(middle) || lower(middle))) {
         return true;

@@ -44,7 +44,7 @@ public:
 
 private:
     using Cell = FacetCell;
-    // kSettled: the tool cannot touch it and has no lower position over it.
+    // Where the tool can't touch a cell: kSettled if it has no lower position over it, else kBlocked.
     enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kSettled, kUncovered };
 
     // A copy for another thread: without cells, with the passes of this one.
@@ -64,9 +64,8 @@ private:
     Points trace_level(const MeshPlace& from) const;
     bool is_hidden(Vec3d point) const;
     bool is_hidden(const MeshPlace& at) const;
-    bool low_enough(const Cell& cell) const;
-    bool blocked(Vec3d corner, Vec3d normal) const;
-    bool settled(const Cell& cell) const;
+    Verdict judge_blocked(const Cell& cell, double longest) const;
+    bool settled(const Cell& cell, double longest) const;
     std::optional<MeshPlace> uncovered_point(const Cell& cell) const;
     bool may_be_uncovered(const Cell& cell) const;
     std::optional<Vec3d> missing_tip(const MeshPlace& at) const;

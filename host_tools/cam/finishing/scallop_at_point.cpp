@@ -20,6 +20,7 @@ constexpr double kMostDropShare = 0.005;
 constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of searches
 constexpr double kLevelWall = 1e-9;  // z of a normal: a wall has no height
 constexpr int kLeftHalvings = 20;
+constexpr double kLeastBlockedShare = 0.25;
 
 }  // namespace
 
@@ -195,10 +196,45 @@ ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, do
                : searched(point, normal, share, now);
 }
 
-bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
+bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal, double share) const
 {
-    return quick_verdict(point, normal, 1, swept_->lowest(point.x, point.y)) ==
+    return quick_verdict(point, normal, share, swept_->lowest(point.x, point.y)) ==
            LowerPositionProof::Verdict::kNone;
+}
+
+double ScallopAtPoint::blocked_share() const
+{
+    return std::max(kLeastBlockedShare, kPlaceShare - path_fitter_.band().offset / scallop_);
+}
+
+ScallopAtPoint::OneMove ScallopAtPoint::by_one_move(const Corners& corners,
+                                                    Vec3d normal,
+                                                    double longest) const
+{
+    using Verdict = LowerPositionProof::Verdict;
+    const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    const SweptVolume::Lowest lowest = swept_->lowest(middle.x, middle.y);
+    // Between the corners a ball may be lower than at them by what its roundness takes.
+    const double share =
+        blocked_share() - longest * longest / (8 * radius_ * scallop_) - path_off_ / scallop_;
+    if (share <= 0 || !std::isfinite(lowest.height)) {
+        return OneMove::kUnknown;
+    }
+    bool cuts = true;
+    for (const Vec3d& corner : corners) {
+        const SweptVolume::Lowest cut = swept_->cut_by(lowest.move, corner.x, corner.y);
+        if (!std::isfinite(cut.height)) {
+            return OneMove::kUnknown;
+        }
+        if (quick_verdict(corner, normal, share, cut) != Verdict::kNone) {
+            const SweptVolume::Lowest own = swept_->lowest(corner.x, corner.y);
+            return quick_verdict(corner, normal, blocked_share(), own) == Verdict::kNone
+                       ? OneMove::kUnknown
+                       : OneMove::kTooHigh;
+        }
+        cuts = cuts && (cut.height - corner.z) * normal.z <= kPlaceShare * scallop_;
+    }
+    return cuts ? OneMove::kCuts : OneMove::kGoesLowest;
 }
 
 bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const

@@ -11,6 +11,7 @@
 #include "host_tools/cam/finishing/lower_position_proof.hpp"
 #include "host_tools/cam/finishing/reachable_height.hpp"
 #include "host_tools/cam/finishing/swept_volume.hpp"
+#include "host_tools/cam/finishing/triangle_halves.hpp"
 
 namespace cusp::finishing {
 
@@ -118,7 +119,25 @@ public:
 
     // Fast rejection: true only where lower_tip() has none.
     // Precondition: normal.z >= kUprightNormal
-    bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
+    bool has_no_lower_tip(Vec3d point, Vec3d normal, double share = 1) const;
+
+    enum class OneMove : std::uint8_t {
+        kCuts,        // down to the scallop over the facet
+        kGoesLowest,  // down to the scallop above the lowest position of any ball
+        kUnknown,
+        kTooHigh,  // no move goes low enough over a corner
+    };
+    // How the move that is lowest over the middle of a triangle cuts it: at the corners, and so between
+    // them, since what a move leaves is convex.
+    //
+    // corners  of a part of a facet
+    // longest  mm, of its sides
+    // Precondition: normal.z >= kUprightNormal
+    OneMove by_one_move(const Corners& corners, Vec3d normal, double longest) const;
+
+    // Share of the scallop for stock above the lowest position of passes: they keep the band's offset,
+    // by which a ball alone gets lower.
+    double blocked_share() const;
 
     // True if no tip removes more than `kSettledShare`, tips that would gouge an edge included.
     // Precondition: normal.z >= kUprightNormal

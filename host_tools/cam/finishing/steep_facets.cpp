@@ -67,7 +67,10 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
     if (covered) {
         return Verdict::kCovered;
     }
-    return clear ? Verdict::kUncovered : Verdict::kBlocked;
+    if (clear) {
+        return Verdict::kUncovered;
+    }
+    return may_be_uncovered(cell) ? Verdict::kBlocked : Verdict::kSettled;
 }
 
 // The missing tips along a wall at the height of a point on it, both ways. If the wall turns, the

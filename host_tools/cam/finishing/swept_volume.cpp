@@ -201,6 +201,13 @@ void SweptVolume::try_move(std::uint32_t number, double x, double y, Lowest& bes
     }
 }
 
+SweptVolume::Lowest SweptVolume::cut_by(std::uint32_t move, double x, double y) const
+{
+    Lowest best{kInfinite, {}, move};
+    try_move(move, x, y, best);
+    return best;
+}
+
 // True if a ball with its centre over a square, not below `low`, may cut as low as `than` at `at`.
 bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const
 {

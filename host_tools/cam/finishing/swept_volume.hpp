@@ -54,6 +54,9 @@ public:
     };
     Lowest lowest(double x, double y) const;
 
+    // The same after one move alone, which is a convex function of (x, y).
+    Lowest cut_by(std::uint32_t move, double x, double y) const;
+
 private:
     using Key = std::uint64_t;
     static constexpr std::int64_t kBlock = 8;  // squares, each way

@@ -15,6 +15,9 @@ constexpr double kParallel = 1e-8;     // squared sine of the angle between two 
 constexpr double kUpright = 0.9;       // z of a unit vector
 constexpr double kLeastSum = 0.1;      // of the length of a sum of directions
 constexpr std::size_t kUsual = 128;    // open directions
+// From a corner of what is open into it, radians.
+constexpr double kLongestStep = 0.25;
+constexpr double kShortestStep = 1e-5;
 
 // One of the circle's points: the lowest, or some point where the cap looks up or down.
 Vec3d point_of_circle(const HalfSphereCover::Cap& cap)
@@ -24,6 +27,13 @@ Vec3d point_of_circle(const HalfSphereCover::Cap& cap)
     const Vec3d across = way - u * dot(way, u);
     return u * cap.least +
            across * (std::sqrt(std::max(0.0, 1 - cap.least * cap.least)) / norm(across));
+}
+
+// Along the sphere from a point of the cap's circle to its middle, a unit vector.
+Vec3d inwards(const HalfSphereCover::Cap& cap, Vec3d at)
+{
+    const Vec3d way = cap.towards - at * dot(cap.towards, at);
+    return way / std::max(norm(way), kOff);
 }
 
 }  // namespace
@@ -58,7 +68,7 @@ bool HalfSphereCover::add(const Cap& cap)
     for (const Cap& other : caps_) {
         add_vertices(added, other);
     }
-    const Place on_circle{point_of_circle(added), kOff};
+    const Place on_circle{point_of_circle(added), kOff, added.towards * -1.0};
     if (added.least > -1 && !is_held(on_circle)) {
         open_.push_back(on_circle);
     }
@@ -85,7 +95,8 @@ void HalfSphereCover::add_vertices(const Cap& cap, const Cap& other)
     const double off = kOff + error + error / std::max(root, std::sqrt(error));
     const Vec3d middle = cap.towards * of_cap + other.towards * of_other;
     const Vec3d aside = across * (root / std::sqrt(square));
-    for (const Place& place : {Place{middle + aside, off}, Place{middle - aside, off}}) {
+    for (const Vec3d& at : {middle + aside, middle - aside}) {
+        const Place place{at, off, (inwards(cap, at) + inwards(other, at)) * -1.0};
         if (!is_held(place)) {
             open_.push_back(place);
         }
@@ -114,7 +125,22 @@ std::optional<Vec3d> HalfSphereCover::open()
     }
     const double length = norm(sum);
     const Place middle{length > kLeastSum ? sum / length : open_.back().direction, 0};
-    return is_held(middle) ? open_.back().direction : middle.direction;
+    return is_held(middle) ? within(open_.back()) : middle.direction;
+}
+
+// A direction well within what is open at one of its corners; the corner, if that is narrower than rounding.
+Vec3d HalfSphereCover::within(const Place& corner) const
+{
+    const Vec3d way = corner.away - corner.direction * dot(corner.away, corner.direction);
+    const double length = norm(way);
+    for (double step = kLongestStep; step > kShortestStep && length > kOff; step *= 0.5) {
+        const Vec3d off = corner.direction + way * (step / length);
+        const Place place{off / norm(off), 0};
+        if (!is_held(place)) {
+            return place.direction;
+        }
+    }
+    return corner.direction;
 }
 
 }  // namespace cusp::drop_cutter

@@ -36,9 +36,11 @@ public:
 private:
     struct Place {
         Vec3d direction;
-        double off;  // how far it may be off, by rounding
+        double off;    // how far it may be off, by rounding
+        Vec3d away{};  // from the caps whose circles it lies on
     };
     bool is_held(const Place& place) const;
+    Vec3d within(const Place& corner) const;
     void add_vertices(const Cap& cap, const Cap& other);
 
     std::vector<Cap> caps_;  // the first is the lower half

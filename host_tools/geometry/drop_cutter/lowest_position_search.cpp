@@ -18,14 +18,13 @@ constexpr int kMostDrops = 10;  // from one start
 constexpr std::size_t kMostStarts = 3;
 constexpr double kApart = 0.3;    // radii: distance of starts
 constexpr double kFinest = 1e-3;  // of the pitch
-// The division of directions.
-constexpr std::size_t kMostTriangles = 600;
+// The cover of directions.
+constexpr int kMostCaps = 64;
 constexpr int kMostImprovements = 10;        // of positions that known contacts leave open
-constexpr int kMostTries = 40;               // drops that can only add a contact
-constexpr double kBeside = 0.25;             // of a triangle's edge: as near as its middle
-constexpr int kMostHalvings = 8;             // of the pitch: key_of() distinguishes 2^21 pitches
-constexpr std::size_t kLongestProof = 1500;  // parts; longer proofs are not kept
-constexpr std::size_t kMostParts = 200'000;  // of all proofs: 16 MB
+constexpr int kMostTries = 40;               // drops
+constexpr double kPoorMargin = 1e-3;         // the same: another contact may block far more
+constexpr double kLeastMargin = 1e-8;        // of a cap beyond the direction that it is to block
+constexpr std::size_t kMostProofs = 50'000;  // 15 MB
 constexpr std::size_t kMostNodes = 200'000;  // 16 MB
 constexpr double kMoreGained = 0.25;         // of the gain: least gain of another search
 
@@ -76,12 +75,9 @@ LowestPositionSearch::Nodes LowestPositionSearch::take_nodes()
     return std::exchange(nodes_, {});
 }
 
-// halvings  of the grid's pitch
-const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings,
-                                                                    std::int64_t i,
-                                                                    std::int64_t j)
+const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(std::int64_t i, std::int64_t j)
 {
-    const std::uint64_t key = key_of(halvings, i, j);
+    const std::uint64_t key = key_of(i, j);
     if (known_ != nullptr) {
         const auto known = known_->find(key);
         if (known != known_->end()) {
@@ -95,23 +91,9 @@ const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings
     if (nodes_.size() > kMostNodes) {
         nodes_.clear();
     }
-    const double pitch = std::ldexp(pitch_, -halvings);
     return nodes_
-        .emplace(key, drop_(static_cast<double>(i) * pitch, static_cast<double>(j) * pitch))
+        .emplace(key, drop_(static_cast<double>(i) * pitch_, static_cast<double>(j) * pitch_))
         .first->second;
-}
-
-// The nearest node of a grid whose pitch is at most `length`.
-const LowestPositionSearch::DroppedTool& LowestPositionSearch::node_near(double x,
-                                                                         double y,
-                                                                         double length)
-{
-    int halvings = 0;
-    while (halvings < kMostHalvings && std::ldexp(pitch_, -halvings) > length) {
-        ++halvings;
-    }
-    const double pitch = std::ldexp(pitch_, -halvings);
-    return node(halvings, std::llround(x / pitch), std::llround(y / pitch));
 }
 
 std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Vec3d place)
@@ -125,7 +107,7 @@ std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Ve
             if (square_off_flat(flat_, {x, y}, place) > square(corner_)) {
                 continue;
             }
-            const DroppedTool& at = node(0, i, j);
+            const DroppedTool& at = node(i, j);
             if (std::isfinite(at.centre.z)) {
                 contacts_.push_back(at.contact);
                 all.push_back({at.centre, height_under(at.centre, place)});
@@ -161,31 +143,6 @@ double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
         }
     }
     return height_under({at.x, at.y, centre}, place);
-}
-
-// True if lowest_known() is `height` or more.
-//
-// first  number of the contact to ask first: the one that decided last usually decides again
-bool LowestPositionSearch::known_blocks(double height,
-                                        Vec3d place,
-                                        Vec2d at,
-                                        std::size_t& first) const
-{
-    const double under = square(corner_) - square_off_flat(flat_, at, place);
-    if (under < 0) {
-        return true;
-    }
-    const double depth = std::sqrt(under);
-    const auto blocks = [&](Vec3d contact) {
-        const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
-        return up >= 0 && contact.z + std::sqrt(up) - depth >= height;
-    };
-    if (first < contacts_.size() && blocks(contacts_[first])) {
-        return true;
-    }
-    const auto found = std::find_if(contacts_.begin(), contacts_.end(), blocks);
-    first = static_cast<std::size_t>(found - contacts_.begin());
-    return found != contacts_.end();
 }
 
 // A local minimum of lowest_known() near `at`.
@@ -274,140 +231,98 @@ std::int64_t LowestPositionSearch::cell(double at) const
     return static_cast<std::int64_t>(std::floor(at / pitch_));
 }
 
-std::uint64_t LowestPositionSearch::key_of(int halvings, std::int64_t i, std::int64_t j)
+std::uint64_t LowestPositionSearch::key_of(std::int64_t i, std::int64_t j)
 {
-    constexpr std::uint64_t kPlaces = (1U << 29) - 1;
-    return (static_cast<std::uint64_t>(halvings) << 58) ^
-           ((static_cast<std::uint64_t>(i) & kPlaces) << 29) ^
-           (static_cast<std::uint64_t>(j) & kPlaces);
+    return (static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
 }
 
-// Contacts that block nothing are left out.
-LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPart> blocked,
-                                                           const ApproachDirections& directions)
+// The known contact that blocks a ball with this centre by most.
+ApproachBlock LowestPositionSearch::greatest_block(Vec3d point, Vec3d centre) const
 {
-    Proof proof;
-    std::unordered_map<std::size_t, std::size_t> numbers;
-    for (BlockedPart& part : blocked) {
-        const auto [at, is_new] = numbers.try_emplace(part.contact, proof.contacts.size());
-        if (is_new) {
-            proof.contacts.push_back(directions.contact(part.contact));
-        }
-        part.contact = at->second;
-    }
-    blocked.shrink_to_fit();
-    proof.contacts.shrink_to_fit();
-    proof.parts = std::move(blocked);
-    return proof;
-}
-
-void LowestPositionSearch::store(Vec3d place, Proof proof)
-{
-    if (parts_ > kMostParts) {
-        proofs_.clear();
-        parts_ = 0;
-    }
-    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
-    parts_ = parts_ - last.parts.size() + proof.parts.size();
-    last = std::move(proof);
-}
-
-// A position of the ball lower than `height`, if one is found. A descent from a few starts misses
-// narrow gaps between cliffs. Directions that no contact blocks are divided into four, large parts
-// first, and the ball is dropped at their middles. The blocked parts are kept for the next point
-// nearby, where usually the same contacts block the same directions.
-//
-// exact  drops are made exactly at the middles, not at the nearest node of a grid
-//
-// Over 60 lines: the steps of one search share the parts that are open and blocked.
-// Precondition: the tool is a ball
-std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(double height,
-                                                                            Vec3d place,
-                                                                            bool exact,
-                                                                            bool& proved)
-{
-    ApproachDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
-    const Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
-    contacts_.insert(contacts_.begin(), last.contacts.begin(), last.contacts.end());
+    ApproachBlock best;
     for (const Vec3d& contact : contacts_) {
-        directions.add(contact);
+        const ApproachBlock block =
+            approach_block(contact, point, centre, radius_, contact_corner_);
+        best = block.margin > best.margin ? block : best;
     }
-    std::vector<BlockedPart> blocked;
-    std::vector<ApproachDirections::Triangle> open;
-    for (const BlockedPart& part : last.parts) {
-        if (directions.blocks(part.contact, part.triangle)) {
-            blocked.push_back(part);
-        } else {
-            open.push_back(part.triangle);
-        }
+    return best;
+}
+
+// Drops the ball where it would cut down to `point`. Returns a lower position, if that is one; else its
+// contact is known from now on, and becomes `best` where it blocks more than that.
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_at(Vec2d at,
+                                                                             Vec3d point,
+                                                                             Vec3d centre,
+                                                                             ApproachBlock& best)
+{
+    const DroppedTool rest = drop_(at.x, at.y);
+    if (!std::isfinite(rest.centre.z)) {
+        return std::nullopt;
     }
-    if (last.parts.empty()) {
-        const auto whole = ApproachDirections::half_sphere();
-        open.assign(whole.begin(), whole.end());
+    const double there = height_under(rest.centre, point);
+    if (there < point.z) {
+        return Position{rest.centre, there};
     }
-    const std::size_t most = open.size() + kMostTriangles;
-    int improvements = 0;
-    int tries = 0;
-    std::size_t blocking = 0;
-    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
-        const ApproachDirections::Triangle triangle = open[k];
-        if (const auto contact = directions.blocking(triangle)) {
-            blocked.push_back({triangle, *contact});
-            continue;
-        }
-        const Vec3d middle = directions.centre(ApproachDirections::middle(triangle));
-        Vec2d at{middle.x, middle.y};
-        const bool open_middle = !known_blocks(height, place, at, blocking);
-        const double edge = norm(triangle[0] - triangle[1]) * radius_;
-        std::optional<Position> lower;
-        // Returns whether the contact blocks the triangle.
-        const auto try_drop = [&](const DroppedTool& rest) {
-            if (!std::isfinite(rest.centre.z)) {
-                return false;
-            }
-            const Position there{rest.centre, height_under(rest.centre, place)};
-            lower = there.height < height ? std::optional{there} : std::nullopt;
-            contacts_.push_back(rest.contact);
-            const std::size_t contact = directions.add(rest.contact);
-            const bool is_blocked = !lower && directions.blocks(contact, triangle);
-            if (is_blocked) {
-                blocked.push_back({triangle, contact});
-            }
-            return is_blocked;
-        };
-        bool is_blocked = false;
-        if (open_middle) {
-            at = ++improvements < kMostImprovements ? improved(place, at) : at;
-            is_blocked = try_drop(drop_(at.x, at.y));
-        } else if (edge < pitch_ && ++tries < kMostTries) {
-            // Parts smaller than the grid need contacts between its nodes. One near the middle is
-            // usually known from another point.
-            is_blocked =
-                try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
-        }
-        if (lower) {
-            return lower;
-        }
-        if (is_blocked) {
-            continue;
-        }
-        const auto parts = ApproachDirections::quarters(triangle);
-        open.insert(open.end(), parts.begin(), parts.end());
-    }
-    proved = open.size() <= most;
-    if (proved) {
-        store(place,
-              blocked.size() <= kLongestProof ? proof_of(std::move(blocked), directions) : Proof{});
-    }
+    contacts_.push_back(rest.contact);
+    const ApproachBlock block =
+        approach_block(rest.contact, point, centre, radius_, contact_corner_);
+    best = block.margin > best.margin ? block : best;
     return std::nullopt;
 }
 
+// A position of the ball lower than `height`, if one is found. A descent from a few starts misses
+// narrow gaps between cliffs. Contacts block caps of the directions from which a ball cuts down to
+// that height; from a direction that none blocks well the ball is dropped, which finds a lower
+// position or adds a contact.
+//
+// Precondition: the tool is a ball
 std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_than(double height,
                                                                                Vec3d place,
                                                                                bool& proved)
 {
-    const std::optional<Position> found = divided(height, place, false, proved);
-    return found || proved ? found : divided(height, place, true, proved);
+    const Vec3d point{place.x, place.y, height};
+    if (proofs_.size() > kMostProofs) {
+        proofs_.clear();
+    }
+    std::vector<Vec3d>& last = proofs_[key_of(cell(place.x), cell(place.y))];
+    contacts_.insert(contacts_.begin(), last.begin(), last.end());
+    last.clear();
+    HalfSphereCover cover;
+    bool by_contacts = true;
+    int drops = 0;
+    std::optional<Vec3d> open = cover.open();
+    for (int caps = 0; open && caps < kMostCaps; ++caps, open = cover.open()) {
+        const Vec3d centre = point + *open * radius_;
+        const Vec2d at{centre.x, centre.y};
+        ApproachBlock best = greatest_block(point, centre);
+        std::optional<Position> lower;
+        // The direction may be a corner of what is open: the best place is within.
+        if (best.margin <= kPoorMargin && drops < kMostImprovements) {
+            const Vec2d within = improved(place, at);
+            if (lowest_known(place, within) < height) {
+                ++drops;
+                lower = lower_at(within, point, centre, best);
+            }
+        }
+        if (!lower && best.margin <= kPoorMargin && ++drops < kMostTries) {
+            lower = lower_at(at, point, centre, best);
+        }
+        if (lower) {
+            return lower;
+        }
+        if (best.margin > kLeastMargin) {
+            last.push_back(best.contact);
+        } else {
+            // The tool is not allowed there, or touches nothing: directions farther off are tried.
+            by_contacts = false;
+            best.cap = {*open, 1 - 0.5 * square(pitch_ / radius_)};
+        }
+        if (!cover.add(best.cap)) {
+            return std::nullopt;
+        }
+    }
+    proved = !open && by_contacts;
+    return std::nullopt;
 }
 
 std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
