@@ -158,25 +158,14 @@ void for_places(const LawSpline& spline,
                 const SquaredSpeed& start,
                 Take take) noexcept
 {
-    struct State {
-        float travel;
-        SquaredSpeed x;
-        float root;
-    };
     const Station& station = spline.station(k);
-    // The roots first: none waits for the rows of the place before.
-    std::array<State, kPlacesOfCell> states;
     for (unsigned i = 0; i < kPlacesOfCell; ++i) {
         const float travel = 0.5F * static_cast<float>(i) * station.length;
         const SquaredSpeed x = advanced(start, travel);
-        states[i] = {travel, x, std::sqrt(x.value)};
-    }
-    for (unsigned i = 0; i < kPlacesOfCell; ++i) {
-        const State& at = states[i];
-        take(PlaceRows{
-            at.travel, jerk_row(station.places[i], station.kept, at.x, at.root),
-            acceleration_row(station.places[i], station.kept, spline.ratio, at.x, at.root),
-            i + 1 < kPlacesOfCell || station.acceleration_at_end});
+        const float root = std::sqrt(x.value);
+        take(PlaceRows{travel, jerk_row(station.places[i], station.kept, x, root),
+                       acceleration_row(station.places[i], station.kept, spline.ratio, x, root),
+                       i + 1 < kPlacesOfCell || station.acceleration_at_end});
     }
 }
 

@@ -15,9 +15,9 @@ using part_model::Facet;
 
 namespace {
 
-constexpr double kSmallestFacet = 1.0 / 64;  // cells, in steps between passes
+constexpr double kSmallestFacet = 1.0 / 64;    // cells, in steps between passes
 constexpr double kSmallestBlocked = 1.0 / 16;  // the same, where the tool cannot touch
-constexpr double kLargestFacet = 2;          // the same
+constexpr double kLargestFacet = 2;            // the same
 constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;

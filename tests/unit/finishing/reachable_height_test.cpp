@@ -1,5 +1,4 @@
 // The lowest position of a ball beside a rim over a floor, touching it or kept off it, compared
-#include <cstdio>
 // with all positions across the rim.
 #include "host_tools/cam/finishing/reachable_height.hpp"
 
@@ -112,7 +111,6 @@ TEST(ReachableHeight, GetsAsLowBesideARimAsAnyPlaceAcrossIt)
             CHECK(!reach.lowest_over(place, met - kClose) ||
                   reach.lowest_over(place, met - kClose)->height > met - kClose);
             const auto near = reach.lowest_over(place, met + kClose);
-            std::printf("%g %g %g %g\n", degrees, x, near ? near->height - met : -99.0, kClose);
             CHECK(near && near->height <= met + kClose);
             CHECK(!reach.lowest_clear_of_edges(place, *near, kept - kClose));
             const auto answer = reach.lowest_clear_of_edges(place, *near, kept + kClose);
