@@ -3,7 +3,8 @@
 A driver of a controller, on the virtual mill or on a chip, is put into each state of states(), given each byte and
 each line, and compared with the model (all_trials, walk). What a driver does:
 
-    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up, after PASSES_M1
+    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up, after PASSES_M1 and
+                        NO_LASER
     say(text)           sends lines that lead to a state, and waits for their answers where they come at once
     send(text)          sends
     door(opened)
@@ -22,6 +23,7 @@ BYTES = ("?", HOLD, START, RESET, DOOR, CANCEL, STOP_SPINDLE, FLOOD, MIST, OVERR
 OUTPUTS = frozenset("SFM")
 SPEED_UP = "faster"
 STOPS_AT_M1, PASSES_M1 = "$795=1\n", "$795=0\n"
+LASER, NO_LASER = "$32=1\n", "$32=0\n"
 # States that end by themselves, or that hide what a walk would see.
 UNSTEADY = ("Dwell", "Probe", "Spindle comes up", "Hold:1", "Door:2")
 # Lines that lead to a state, and are answered after it.
@@ -69,7 +71,7 @@ class Model:
     """The controller as its documents tell of it."""
 
     def __init__(self, state="Idle", wanted="", behind="Idle", stopped="", up=True, opened=False, starting=False,
-                 waits=False, braking=False):
+                 waits=False, braking=False, laser=False):
         self.state = state
         self.wanted = set(wanted)    # outputs that the program has on
         self.stopped = set(stopped)  # of them those that a hold or the door has off
@@ -79,6 +81,7 @@ class Model:
         self.starting = starting     # a cycle start waits for it
         self.waits = waits           # a line does: a dwell, or the spindle after M3
         self.braking = braking       # towards the stop of a hold or a door
+        self.laser = laser           # it is up at once, and off at rest
         self.alarm = None            # the last number
 
     def report(self):
@@ -89,7 +92,8 @@ class Model:
         return self.state
 
     def outputs(self):
-        return frozenset(self.wanted - self.stopped)
+        dark = {"S"} if self.laser and not self.moves() else set()
+        return frozenset(self.wanted - self.stopped - dark)
 
     def moves(self):
         return self.braking or self.state in ("Run", "Jog", "Home")
@@ -126,7 +130,7 @@ class Model:
         if self.state not in ("Hold", "Door") or self.opened or self.starting:
             return
         if "S" in self.stopped & self.wanted:
-            self.up = False
+            self.up = self.laser
         self.stopped = set()
         if self.up or "S" not in self.wanted:
             self.state = self.behind
@@ -200,6 +204,8 @@ def states():
         "M0": (Model("Hold", "SF", "Idle"), [on + "M0\n"]),
         "M1, switched on": (Model("Hold", "SF", "Idle"), [on + STOPS_AT_M1 + "M1\n"]),
         "M6": (Model("Hold", "SF", "Idle"), [on + "T1M6\n"]),
+        "Laser": (Model("Run", "SF", laser=True), [LASER] + run),
+        "Laser, held": (Model("Hold", "SF", "Run", laser=True), [LASER] + held),
         "Jog": (Model("Jog", "SF"), [on] + jog),
         "Alarm": (Model("Alarm"), jog + [RESET]),
         "Door:0": (Model("Door", "SF", "Run", "SFM"), closed),

@@ -45,6 +45,7 @@ class MillDriver:
         self.port.wait_for("^Grbl")
         self.port.ask("$X")
         self.port.ask(live_model.PASSES_M1.strip())
+        self.port.ask(live_model.NO_LASER.strip())
         self.away = -self.away
 
     def say(self, text):

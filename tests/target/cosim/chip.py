@@ -22,6 +22,8 @@ WIRED_AS = {"skr2_f429": "skr2_f407", "octopus_f429": "octopus_f446"}
 WITHOUT_CORE = ("driven from outside and from inside", "the wire is driven from both ends")
 # Which USART has the pin as its transmitter.
 USARTS = {"PA9": (), "PA2": ("usart2",), "GP0": ()}
+# Which channel of its timer a pin of spindle pulses has.
+SPINDLE_CHANNEL = {"PA6": 1, "PA7": 2, "PB0": 3, "PB1": 4, "GP10": 1}
 USART_OF_SPINDLE = {"PA2": "2", "PD8": "3"}
 # Contacts to ground that are closed where nothing is tripped.
 CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-from chip import Chip
+from chip import SPINDLE_CHANNEL, Chip
 
 options = None
 SETTINGS = "$0=2\n$32=1\n$30=1000\n$33=1000\n$100=800.000\n$101=800.000\n$120=1000.000\n$800=50000.000\n"
@@ -21,7 +21,6 @@ STEPS_PER_MM = 800
 FEED, SPEED = 50.0, 0.5  # mm/s, of $30
 LINES = ["G21 G90 G61", f"M4 S500 F{60 * FEED:.0f}", "G1 X10", "X2", "G64 P0.05 G1 Y8", "X8 Y9", "G3 X4 Y5 J-4 I0", "G0 X0 Y0",
          "M3 S200 G1 X6", "G0 X0", "M5"]
-CHANNEL = {"PA6": 1, "PA7": 2, "PB0": 3, "PB1": 4, "GP10": 1}
 # ms: a change of power comes with the tick, before which the frame has begun.
 LATE = 0.1
 
@@ -47,7 +46,7 @@ def play():
                 if level:
                     turned = bisect.bisect_right(directions, (time, 2)) - 1
                     steps.append((time, axis, 1 if turned >= 0 and directions[turned][1] else -1))
-        channel = CHANNEL[machine.pins["spindle pulses"]]
+        channel = SPINDLE_CHANNEL[machine.pins["spindle pulses"]]
         duties = [(time, ppm) for time, at, ppm in machine.duties() if at == channel]
         return sorted(steps), duties
 

@@ -2,17 +2,24 @@
 """The board's shipping image in each state, at each realtime byte and line, against a model of Grbl's documents.
 
 usage: live_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [--share K/N] [--walks N] [--seed N]
+                       [-k TEXT]
 The model is that of the virtual mill, tests/senders/live_model.py. --share: each Nth trial, from the Kth on.
+-k: the trials whose name has the text.
 """
 import argparse
 import pathlib
 import re
 import sys
 
-from chip import ROOT, Chip, CosimFailed
+from chip import ROOT, SPINDLE_CHANNEL, Chip, CosimFailed
 
 sys.path.insert(0, str(ROOT / "tests" / "senders"))
 import live_model  # noqa: E402 (beside the other senders)
+
+
+# What a state sets, and the line that undoes it.
+RESTORES = {"$394": "$394=0", live_model.STOPS_AT_M1: live_model.PASSES_M1.strip(),
+            live_model.LASER: live_model.NO_LASER.strip()}
 
 
 class ChipDriver:
@@ -26,7 +33,8 @@ class ChipDriver:
         for line in ("$120=10", "$121=10", "$122=10", "$22=1", "$25=30", "$26=50"):
             machine.ask(line)
         self.away, self.text = 1, ""
-        self.opened = self.delays = self.stops = False
+        self.opened = False
+        self.restores = set()  # what undoes the settings of the state before
 
     def door(self, opened):
         if opened != self.opened:
@@ -39,12 +47,9 @@ class ChipDriver:
         self.machine.send(live_model.RESET)
         self.machine.run(1000, "help]\r\n")
         self.machine.ask("$X")
-        if self.delays:
-            self.machine.ask("$394=0")
-            self.delays = False
-        if self.stops:
-            self.machine.ask(live_model.PASSES_M1.strip())
-            self.stops = False
+        for line in sorted(self.restores):
+            self.machine.ask(line)
+        self.restores.clear()
         self.away = -self.away
 
     def say(self, text):
@@ -54,8 +59,9 @@ class ChipDriver:
                 self.send(line)
             else:
                 self.machine.ask(line.strip())
-            self.delays = self.delays or line.startswith("$394")
-            self.stops = self.stops or line == live_model.STOPS_AT_M1
+            for changed, restored in RESTORES.items():
+                if line.startswith(changed):
+                    self.restores.add(restored)
 
     def send(self, text):
         self.machine.send(text)
@@ -80,7 +86,13 @@ class ChipDriver:
             raise live_model.Differs(f"no report, but {report!r}")
         pins = zip("SFM", ("spindle on", "flood", "mist"))
         outputs = frozenset(letter for letter, signal in pins if levels[self.machine.pins[signal]])
+        if live_model.NO_LASER.strip() in self.restores and not self.power():
+            outputs -= {"S"}
         return match.group(1), outputs, steps > 0, match.group(2) != "0"
+
+    def power(self):
+        channel = SPINDLE_CHANNEL[self.machine.pins["spindle pulses"]]
+        return self.machine.answered("spindle")[str(channel)]
 
     def heard(self):
         text, self.text = self.text, ""
@@ -102,10 +114,12 @@ def main():
     parser.add_argument("--share", default="1/1")
     parser.add_argument("--walks", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("-k", default="")
     arguments = parser.parse_args()
     first, step = map(int, arguments.share.split("/"))
     trials = live_model.all_trials()[first - 1::step]
     trials += [(live_model.walk, seed, 6) for seed in range(arguments.seed, arguments.seed + arguments.walks)]
+    trials = [trial for trial in trials if arguments.k in str(trial[1:])]
     failed = 0
     with Chip(arguments.cosim, pathlib.Path(arguments.image), arguments.board) as machine:
         driver = ChipDriver(machine)
