@@ -44,7 +44,7 @@ public:
 
 private:
     using Cell = FacetCell;
-    // Where the tool can't touch a cell: kSettled if it has no lower position over it, else kBlocked.
+    // A cell that the tool can't touch is kSettled if it has no lower position over it, else kBlocked.
     enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kSettled, kUncovered };
 
     // A copy for another thread: without cells, with the passes of this one.

@@ -1,4 +1,4 @@
-// What a contact blocks of the directions from which a ball cuts down to a point.
+// Directions from which a ball cuts down to a point, and those of them that a contact blocks.
 #pragma once
 
 #include <algorithm>
