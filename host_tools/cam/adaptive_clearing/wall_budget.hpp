@@ -1,4 +1,4 @@
-// What may stay beside walls, shared out between what is cut by chords and what is not looked for.
+// Stock that may stay beside walls, shared out between chords of arcs and slivers that no pass goes for.
 //
 //     const WallShares shares = shares_of(room, radius);  // mm: no more than `room` stays beside a wall
 //

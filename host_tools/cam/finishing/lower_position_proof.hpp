@@ -74,8 +74,8 @@ private:
     std::optional<std::uint64_t> near_block_;  // that the facets are near
     std::vector<Near> near_;
     std::uint64_t proof_{0};
-    std::array<Vec3d, kRecent>
-        recent_;  // contacts of the last proofs, found once more without a search
+    // Contacts of the last proofs, which usually block once more.
+    std::array<Vec3d, kRecent> recent_;
     std::size_t recent_count_{0};
     std::size_t recent_next_{0};
 };

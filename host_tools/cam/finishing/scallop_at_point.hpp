@@ -31,10 +31,10 @@ constexpr double kSteepNormal = 0.2;
 constexpr double kUprightNormal = 0.05;
 // Share of the scallop allowed at points that represent a smallest cell.
 constexpr double kPlaceShare = 0.98;
-// In stepovers: the smallest cell where the tool cannot touch the surface.
+// In stepovers: the smallest cell of a face where the tool cannot touch; smaller ones of a mesh are proved one by one.
 constexpr double kBlockedCell = 0.25;
-// In stepovers: the smallest such cell where the tool can touch no corner, and could remove at its
-// middle no more than this share of the scallop.
+// In stepovers: cells below this are settled as a whole where the tool can touch no corner; those of a face, if
+// it could remove at their middle no more than this share of the scallop.
 constexpr double kSettledCell = 0.5;
 constexpr double kSettledShare = 0.25;
 // In stepovers: the distance of points along a missing pass.

@@ -1,5 +1,5 @@
-// Where a tool that finishes surfaces may be: over their ground, and beside it as far as the tool reaches. What lies
-// beyond is cut by operations with walls, and judged by these.
+// Ground of a tool that finishes surfaces: it may be over them, and beside them as far as it reaches. Operations with
+// walls cut what lies beyond, and these walls judge it.
 //
 //     const FinishedGround ground{operation, part_heights(...).z, grid};
 //     ground.room(x, y);  // mm of the tool's centre, as from walls
@@ -22,8 +22,8 @@ public:
                    const std::vector<double>& heights,
                    const HeightGrid& grid);
 
-    // mm: a place with at least the tool's radius is beside the ground at most. Of everything else the
-    // distance counts as that from a wall. Accuracy: two pitches, to the tool's favour.
+    // mm: a place with at least the tool's radius is beside the ground at most. The distance of any
+    // other place counts as that from a wall. Accuracy: two pitches, to the tool's favour.
     double room(double x, double y) const;
 
 private:

@@ -39,7 +39,7 @@ public:
     // places  boxes of the tools that will be looked at
     ThinStock(const job::Job& job, Place stock, const std::vector<Place>& places);
 
-    // Of a slope what the higher end cuts counts, and both ends.
+    // A slope counts by what its higher end cuts along it, and by both ends.
     void cut(const toolpath::Tool& tool, Vec3d from, Vec3d to);
 
     // The deepest that a tool meets that goes level from `from` to `to`, or stands there.
