@@ -50,8 +50,19 @@ FAULTS = {
         "host_tools/cam/plan/prove_rapids.cpp", "if (deepest->end_depth <= most) {", "if (true) {", "bad_operations"),
     "chamfers below standing stock are not proved": (
         "host_tools/cam/plan/prove_edges.cpp", "if (deepest != met.end() && deepest->path == k) {", "if (false) {", "random_orders"),
-    "a drill meets nothing between the points": (
-        "host_tools/judge/verify/machined_stock.cpp", "if (left < begin || right >= end) {", "if (left <= right) {", "random_orders"),
+    "rapid moves on a slope are looked at at their end": (
+        "host_tools/judge/verify/deep_rapids.cpp", "SweptStock::way_of(runs[r].tool, piece.from, piece.to),",
+        "SweptStock::way_of(runs[r].tool, piece.from.z == piece.to.z ? piece.from : piece.to, piece.to),", "planted_rapids"),
+    "a ramp cuts nothing between its ends": (
+        "host_tools/judge/verify/tool_way.cpp", "return from_.z < to_.z ? passed.begin : passed.end;",
+        "return from_.z < to_.z ? passed.end : passed.begin;", "planted_rapids"),
+    "stock over a rapid move is as high as the highest cut that it touches": (
+        "host_tools/judge/verify/cut_stock.cpp", "height_at(square.middle, search.all, search.wider)", "height_at(square.middle, touching, search.wider)",
+        "planted_rapids"),
+    "walls thinner than a quarter of a millimetre are slivers": (
+        "host_tools/judge/verify/cut_stock.cpp", "kWider = CutStock::kSliver / 2;", "kWider = 0.125;", "verify_test"),
+    "squares end at a tenth of a millimetre": (
+        "host_tools/judge/verify/cut_stock.cpp", "kLeastHalf = 0.001;", "kLeastHalf = 0.05;", "verify_test"),
     "a sinking ball cuts no farther back than a level one": (
         "host_tools/judge/verify/ahead.hpp", "2 * tool.radius * sunk", "0 * sunk", "verify_test"),
     "a sweep ends before its tool": (
@@ -60,9 +71,6 @@ FAULTS = {
     "verify forgives a hundred tolerances beside walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "if (beyond <= limits_.plan_tolerance) {",
         "if (beyond <= 100 * limits_.plan_tolerance) {", "wall_verdicts"),
-    "the pitch at which rapids are looked at grows with the stock": (
-        "host_tools/judge/verify/path_rapids.cpp", "stock_grid(job, floors, pitch, kUnbounded)", "stock_grid(job, floors, pitch)",
-        "rapid_walls"),
     "verify looks at chamfers on the wall": (
         "host_tools/judge/verify/wall_stock.cpp", "? operation_.prismatic->width : 0.0;", "? 0.0 : 0.0;", "verdicts"),
     "a facing move breaks the edges at its height": (

@@ -36,26 +36,16 @@ void add_contacts(const Job& job,
     }
 }
 
-void note_rapid(double depth, const FaultPlace& at, VerifyFigures& figures)
+void look_at_rapids(Verifying& work)
 {
-    if (depth > figures.rapid_cut_max) {
-        figures.rapid_cut_max = depth;
-        figures.rapid_cut_at = at;
-    }
-}
-
-// Rapid moves are looked at in tiles if the stock is so large that its grid is coarser than the tools ask for.
-void look_at_rapids_closer(Verifying& work)
-{
-    const HeightGrid fine = stock_grid(work.job, part_box(work.scene.surfaces, work.scene.mesh),
-                                       std::nullopt, kUnbounded);
-    if (work.settings.pitch || fine.pitch >= work.result.grid.pitch) {
-        return;
-    }
+    const PartBox box = stock_box(work.job, part_box(work.scene.surfaces, work.scene.mesh));
+    VerifyFigures& figures = work.result.figures;
     for (const RapidOfRun& rapid :
-         deep_rapids(work.job, work.runs, work.spacing, fine, RapidCut::kAlong)) {
-        note_rapid(rapid.depth, {rapid.tip, rapid.line, work.runs[rapid.run].tool.number},
-                   work.result.figures);
+         deep_rapids(work.job, work.runs, work.spacing, box, RapidCut::kAlong)) {
+        if (rapid.depth > figures.rapid_cut_max) {
+            figures.rapid_cut_max = rapid.depth;
+            figures.rapid_cut_at = {rapid.tip, rapid.line, work.runs[rapid.run].tool.number};
+        }
     }
 }
 
@@ -80,7 +70,7 @@ void cut_program(Verifying& work)
         }
         ContactTrace contact{result.grid, run, tool_discs(job, run.tool, kProgramSlack),
                              stock_around(job, result.grid)};
-        const CutFigures cut = stock.cut(
+        const double cut_depth = stock.cut(
             run, work.spacing,
             [&](double share) {
                 work.progress(
@@ -93,20 +83,13 @@ void cut_program(Verifying& work)
             result.engagement.push_back(trace->finish());
         }
         done += run.tips.size();
-        const DeepRapid* rapid = cut.deepest_rapid();
-        if (rapid != nullptr) {
-            note_rapid(rapid->depth,
-                       {run.tips[rapid->position], run.lines[rapid->position], run.tool.number},
-                       figures);
-        }
-        figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
-        figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
-        if (cut.cut_depth > 0) {
+        figures.cut_depth_max = std::max(figures.cut_depth_max, cut_depth);
+        if (cut_depth > 0) {
             double& of_tool = figures_of(run.tool, figures).cut_depth_max;
-            of_tool = std::max(of_tool, cut.cut_depth);
+            of_tool = std::max(of_tool, cut_depth);
         }
     }
-    look_at_rapids_closer(work);
+    look_at_rapids(work);
 }
 
 }  // namespace cusp::verify

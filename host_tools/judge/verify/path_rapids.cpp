@@ -1,4 +1,4 @@
-// All paths are cut; what each cut says of its rapid moves is kept.
+// Curves are their chords.
 #include "host_tools/judge/verify/path_rapids.hpp"
 
 #include "host_tools/judge/verify/deep_rapids.hpp"
@@ -12,18 +12,13 @@ using toolpath::Toolpath;
 
 std::vector<RapidInStock> rapids_in_stock(const Job& job, const std::vector<const Toolpath*>& paths)
 {
-    // Twice verify()'s spacing, half of its work. Its pitch: what stands beside two cuts may be thinner than twice that.
-    constexpr double kCoarser = 2;
-    const double spacing = kCoarser * position_spacing(job);
     std::vector<ToolPositions> runs;
     for (const Toolpath* path : paths) {
-        runs.push_back(positions_on(*path, spacing));
+        runs.push_back(positions_on(*path, kUnbounded));
     }
-    const PartBox floors = floors_box(job);
     std::vector<RapidInStock> rapids;
-    for (const RapidOfRun& rapid :
-         deep_rapids(job, runs, spacing, stock_grid(job, floors, std::nullopt, kUnbounded),
-                     RapidCut::kAtEnd)) {
+    for (const RapidOfRun& rapid : deep_rapids(job, runs, position_spacing(job),
+                                               stock_box(job, floors_box(job)), RapidCut::kAtEnd)) {
         rapids.push_back({rapid.run, rapid.line, rapid.depth, rapid.tip, rapid.end_depth});
     }
     return rapids;

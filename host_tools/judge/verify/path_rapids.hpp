@@ -7,7 +7,7 @@
 
 #include "host_tools/geometry/toolpath/toolpath.hpp"
 #include "host_tools/job/job/job.hpp"
-#include "host_tools/judge/verify/machined_stock.hpp"
+#include "host_tools/judge/verify/cut_stock.hpp"
 
 namespace cusp::verify {
 
@@ -20,10 +20,8 @@ struct RapidInStock {
 };
 
 // The rapid moves that cut deeper than kRapidCutAllowed, in order. The paths are cut one after the other from the
-// job's stock and what earlier programs leave of it, at the pitch and twice the spacing of verify(), whatever the
-// stock's size. A move that is
-// found counts as one that comes to its end from above, at feed: later ones are judged after that. Only the
-// surroundings of rapid moves below the stock's top are cut: it costs nothing where there are none.
+// job's stock and what earlier programs leave of it. A move that is found counts as one that comes to its end from
+// above, at feed: later ones are judged after that. It costs nothing where no rapid move is below the stock's top.
 //
 // paths  none is null; each starts with a rapid move over the stock
 std::vector<RapidInStock> rapids_in_stock(const job::Job& job,

@@ -19,7 +19,7 @@ constexpr double kDefaultSpacing = 0.1;
 
 }  // namespace
 
-HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch, double most)
+PartBox stock_box(const Job& job, PartBox parts)
 {
     PartBox box = parts;
     if (const auto plan = prismatic_box(job)) {
@@ -46,6 +46,12 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
         box.y_low = std::max(box.y_low, sides.y_low);
         box.y_high = std::min(box.y_high, sides.y_high);
     }
+    return box;
+}
+
+HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch, double most)
+{
+    const PartBox box = stock_box(job, parts);
     const double width = box.x_high - box.x_low;
     const double height = box.y_high - box.y_low;
     constexpr double kPitchesPerRadius = 16;

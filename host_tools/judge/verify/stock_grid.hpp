@@ -9,13 +9,17 @@
 
 namespace cusp::verify {
 
-// Over the parts, what 2.5-D operations cut, and the stock's extent; over the stock alone in a job
+// The box over the parts, what 2.5-D operations cut, and the stock's extent; over the stock alone in a job
 // with an open pocket, or where it has an outline.
+//
+// parts  the box of all floors
+PartBox stock_box(const job::Job& job, PartBox parts);
+
+// Over the stock's box.
 //
 // parts  the box of all floors
 // pitch  mm; without it 0.173, at most a sixteenth of the least radius of a tool. It is more where
 //        the grid would have over `most` points
-// most   kUnbounded: the pitch holds however large the stock is
 HeightGrid stock_grid(const job::Job& job,
                       PartBox parts,
                       std::optional<double> pitch,

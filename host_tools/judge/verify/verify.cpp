@@ -2,6 +2,7 @@
 #include "host_tools/judge/verify/verify.hpp"
 
 #include "host_tools/judge/verify/between_sides.hpp"
+#include "host_tools/judge/verify/cut_stock.hpp"
 #include "host_tools/judge/verify/earlier_programs.hpp"
 #include "host_tools/judge/verify/uncut_stock.hpp"
 #include "host_tools/judge/verify/verdict.hpp"

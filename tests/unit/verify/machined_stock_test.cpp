@@ -52,7 +52,7 @@ public:
             }
             at = to;
         }
-        const double depth = stock_.cut(way, kSpacing, [](double) {}).cut_depth;
+        const double depth = stock_.cut(way, kSpacing, [](double) {});
         double plain_depth = 0;
         for (std::size_t k = 0; k < way.tips.size(); ++k) {
             const double cut = cut_plainly(tool, way.tips[k]);

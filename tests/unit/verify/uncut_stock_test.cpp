@@ -65,8 +65,8 @@ TEST(UncutStock, is_all_that_a_tool_removes)
     run.tool = {1, toolpath::ToolShape::kFlat, 1, 0};
     const auto cut = [&](Vec3d tip) {
         run.tips = {tip};
-        run.rapid = {true};
-        return stock.cut(run, 0.1, [](double) {}).rapid_cut;
+        run.rapid = {false};
+        return stock.cut(run, 0.1, [](double) {});
     };
     DOUBLES_EQUAL(0, cut({9.3, 0, 0}), 0);
     DOUBLES_EQUAL(0, stock.removed_volume(), 0);

@@ -1,5 +1,5 @@
 // Walls between two cuts, of any thickness and direction.
-#include "host_tools/judge/verify/thin_stock.hpp"
+#include "host_tools/judge/verify/cut_stock.hpp"
 
 #include <cmath>
 #include <random>
@@ -47,20 +47,21 @@ struct Wall {
     {
         const job::Job job = stock_of(50);
         const toolpath::Tool wide = mill(6);
-        ThinStock stock{job, {{-50, -50}, {50, 50}}, {{{-20, -20}, {20, 20}}}};
+        const toolpath::Tool tool = mill(radius);
+        const Vec3d tip = place(along, radius + thick / 2 - into, -2);
+        const ToolWay way = CutStock::way_of(tool, tip, tip);
+        CutStock stock{job, {-50, 50, -50, 50, 0, 0}, {way}};
         for (const double side : {-1.0, 1.0}) {
             const double across = side * (thick / 2 + wide.radius);
             stock.cut(wide, place(-30, across, -3), place(30, across, -3));
         }
-        const toolpath::Tool tool = mill(radius);
-        const Vec3d tip = place(along, radius + thick / 2 - into, -2);
-        return stock.under(tool, tip, tip);
+        return stock.under(way, stock.cuts());
     }
 };
 
-TEST_GROUP(ThinStock){};
+TEST_GROUP(CutStock){};
 
-TEST(ThinStock, WallsAreFoundWhereTheToolReachesThem)
+TEST(CutStock, WallsAreFoundWhereTheToolReachesThem)
 {
     std::mt19937 random{7};
     std::uniform_real_distribution<double> share{0, 1};
@@ -75,7 +76,7 @@ TEST(ThinStock, WallsAreFoundWhereTheToolReachesThem)
     }
 }
 
-TEST(ThinStock, SliversAreNoWalls)
+TEST(CutStock, SliversAreNoWalls)
 {
     for (const double angle : {0.0, 0.4, 0.785, 1.5}) {
         CHECK(!Wall({0.0145, angle}).under(2, 1, 0).has_value());
@@ -83,19 +84,22 @@ TEST(ThinStock, SliversAreNoWalls)
     }
 }
 
-TEST(ThinStock, ALevelMoveMeetsAWallOnItsWay)
+TEST(CutStock, ALevelMoveMeetsAWallOnItsWay)
 {
     const job::Job job = stock_of(50);
     const toolpath::Tool tool = mill(2);
-    ThinStock stock{job, {{-50, -50}, {50, 50}}, {{{-12, -3}, {12, 3}}}};
+    const ToolWay to_it = CutStock::way_of(tool, {-10, 0, -0.5}, {-2.1, 0, -0.5});
+    const ToolWay through = CutStock::way_of(tool, {-10, 0, -0.5}, {10, 0, -0.5});
+    CutStock stock{job, {-50, 50, -50, 50, 0, 0}, {to_it, through}};
     stock.cut(tool, {-10, 0, -1}, {-2.05, 0, -1});
     stock.cut(tool, {2.05, 0, -1}, {10, 0, -1});
-    CHECK(!stock.under(tool, {-10, 0, -0.5}, {-2.1, 0, -0.5}));
-    const auto found = stock.under(tool, {-10, 0, -0.5}, {10, 0, -0.5});
+    const std::size_t with_wall = stock.cuts();
+    stock.cut(tool, {-2.1, 0, -1}, {2.1, 0, -1});
+    CHECK(!stock.under(to_it, with_wall));
+    const auto found = stock.under(through, with_wall);
     CHECK(found.has_value());
     DOUBLES_EQUAL(0.5, found->depth, 1e-9);
-    stock.cut(tool, {-2.1, 0, -1}, {2.1, 0, -1});
-    CHECK(!stock.under(tool, {-10, 0, -0.5}, {10, 0, -0.5}));
+    CHECK(!stock.under(through, stock.cuts()));
 }
 
 }  // namespace
