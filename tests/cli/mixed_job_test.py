@@ -99,6 +99,7 @@ class MixedJob(CuspCase):
         super().setUp()
         entities = rectangle("outline", 0, 0, 30, 20) + rectangle("mark", 12, 8, 18, 12)
         entities += rectangle("pocket", 44, 4, 60, 16)
+        entities += rectangle("near", 30.5, 3, 46, 17)
         entities += "0\nCIRCLE\n8\nholes\n10\n5\n20\n5\n40\n1.5\n"
         self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
         self.write("slope.json", json.dumps(SLOPE))
@@ -135,6 +136,20 @@ class MixedJob(CuspCase):
                 lines = (self.folder / "p.ngc").read_text().splitlines()
                 at_wall = max((k for k, line in enumerate(lines) if re.search(r" X(57\.9\d+|58)\b", line)))
                 lines[at_wall] = re.sub(r"X(57\.9\d+|58)\b", "X58.3", lines[at_wall])
+                self.write("spoiled.ngc", "\n".join(lines) + "\n")
+                said = self.cusp(1, "verify", "job.toml", "spoiled.ngc", "--grid", "0.3")
+                self.assertRegex(said, rf"broken: wall_gouge_max_mm 0\.(29|3)\d* by tool 1 .*, line {at_wall + 1}")
+
+    def test_a_finish_excuses_no_cut_of_others_beside_its_ground(self):
+        for strategy in ("parallel_planes", "steep_shallow"):
+            with self.subTest(strategy=strategy):
+                self.write("job.toml", ONE_TOOL.format(shape="flat", pocket=POCKETS[0][1]).replace(
+                    "parallel_planes", strategy).replace("#pocket", "#near"))
+                self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+                self.cusp(0, "verify", "job.toml", "p.ngc", "--grid", "0.3")
+                lines = (self.folder / "p.ngc").read_text().splitlines()
+                at_wall = max(k for k, line in enumerate(lines) if re.search(r" X(32\.5\d*)\b", line))
+                lines[at_wall] = re.sub(r"X32\.5\d*", "X32.2", lines[at_wall])
                 self.write("spoiled.ngc", "\n".join(lines) + "\n")
                 said = self.cusp(1, "verify", "job.toml", "spoiled.ngc", "--grid", "0.3")
                 self.assertRegex(said, rf"broken: wall_gouge_max_mm 0\.(29|3)\d* by tool 1 .*, line {at_wall + 1}")

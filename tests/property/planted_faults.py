@@ -51,8 +51,8 @@ FAULTS = {
     "chamfers below standing stock are not proved": (
         "host_tools/cam/plan/prove_edges.cpp", "if (deepest != met.end() && deepest->path == k) {", "if (false) {", "random_orders"),
     "rapid moves on a slope are looked at at their end": (
-        "host_tools/judge/verify/deep_rapids.cpp", "SweptStock::way_of(runs[r].tool, piece.from, piece.to),",
-        "SweptStock::way_of(runs[r].tool, piece.from.z == piece.to.z ? piece.from : piece.to, piece.to),", "planted_rapids"),
+        "host_tools/judge/verify/deep_rapids.cpp", "CutStock::way_of(runs[r].tool, piece.from, piece.to),",
+        "CutStock::way_of(runs[r].tool, piece.from.z == piece.to.z ? piece.from : piece.to, piece.to),", "planted_rapids"),
     "a ramp cuts nothing between its ends": (
         "host_tools/judge/verify/tool_way.cpp", "return from_.z < to_.z ? passed.begin : passed.end;",
         "return from_.z < to_.z ? passed.end : passed.begin;", "planted_rapids"),
@@ -71,6 +71,10 @@ FAULTS = {
     "verify forgives a hundred tolerances beside walls": (
         "host_tools/judge/verify/wall_gouge.cpp", "if (beyond <= limits_.plan_tolerance) {",
         "if (beyond <= 100 * limits_.plan_tolerance) {", "wall_verdicts"),
+    "a finish excuses any cut beside its ground": (
+        "host_tools/judge/verify/wall_gouge.cpp", "if (own_[n].empty() || own_[n][k] != 0) {", "if (true) {", "mixed_job"),
+    "a tool that finishes anywhere is not judged at walls": (
+        "host_tools/judge/verify/judge_surfaces.cpp", "&& !is_finished(k)", "&& open.empty()", "mixed_job"),
     "verify looks at chamfers on the wall": (
         "host_tools/judge/verify/wall_stock.cpp", "? operation_.prismatic->width : 0.0;", "? 0.0 : 0.0;", "verdicts"),
     "a facing move breaks the edges at its height": (

@@ -47,6 +47,9 @@ public:
 
     const job::Operation& operation() const { return *operation_; }
 
+    // True of a finish that stays with its ground: around() is inside over it and beside it.
+    bool is_ground() const { return ground_.has_value(); }
+
     // The loop of a profile that is nearest.
     std::size_t nearest_loop(double x, double y) const;
 

@@ -5,15 +5,39 @@
 //     ground.room(x, y);  // mm of the tool's centre, as from walls
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "host_tools/job/job/job.hpp"
 #include "host_tools/judge/verify/height_grid.hpp"
+#include "host_tools/judge/verify/tool_positions.hpp"
 
 namespace cusp::verify {
 
 // True if an operation without walls stays with its ground: it finishes, and does not rough the stock around.
 bool stays_with_ground(const job::Operation& operation);
+
+// True for the positions of whole cuts that stay: a cut, from one rapid move to the next below z `top`, is that of one
+// operation.
+//
+// stays  of a tip: whether the operation may have cut there
+template <class Stays>
+std::vector<char> whole_cuts(const ToolPositions& run, double top, const Stays& stays)
+{
+    std::vector<char> out(run.tips.size());
+    for (std::size_t first = 0; first < out.size();) {
+        std::size_t last = first;
+        bool all = true;
+        while (last < out.size() && run.rapid[last] == run.rapid[first] && run.tips[last].z < top) {
+            all = all && stays(run.tips[last]);
+            ++last;
+        }
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(first),
+                  out.begin() + static_cast<std::ptrdiff_t>(last), all ? 1 : 0);
+        first = std::max(first + 1, last);
+    }
+    return out;
+}
 
 class FinishedGround {
 public:

@@ -1,5 +1,6 @@
 // Balls by exact distances, other ends and scallops by maps of heights.
 #include <algorithm>
+#include <map>
 
 #include "host_tools/geometry/part_model/part_model.hpp"
 #include "host_tools/job/job/finish_keys.hpp"
@@ -103,26 +104,33 @@ double wall_gouge(const Job& job,
                   std::optional<FaultPlace>& at)
 {
     double worst = 0;
+    std::map<const Operation*, FinishedGround> grounds;
     for (const ToolPositions& run : runs) {
         const std::vector<const Operation*> open = open_operations(job, run.tool);
         if (!std::all_of(open.begin(), open.end(),
                          [](const Operation* o) { return stays_with_ground(*o); })) {
             continue;
         }
-        std::vector<FinishedGround> grounds;
+        std::vector<std::vector<char>> finished;
         for (const Operation* o : open) {
-            grounds.emplace_back(*o, part_heights(o->part.floor, o->part.mesh, grid).z, grid);
+            auto ground = grounds.find(o);
+            if (ground == grounds.end()) {
+                const PartHeights part = part_heights(o->part.floor, o->part.mesh, grid);
+                ground = grounds.emplace(o, FinishedGround{*o, part.z, grid}).first;
+            }
+            finished.push_back(whole_cuts(run, top, [&](Vec3d tip) {
+                return ground->second.room(tip.x, tip.y) >= run.tool.radius;
+            }));
         }
-        const auto finishes = [&](Vec3d tip) {
-            return std::any_of(grounds.begin(), grounds.end(), [&](const FinishedGround& ground) {
-                return ground.room(tip.x, tip.y) >= run.tool.radius;
-            });
+        const auto is_finished = [&](std::size_t k) {
+            return std::any_of(finished.begin(), finished.end(),
+                               [k](const std::vector<char>& own) { return own[k] != 0; });
         };
         for (std::size_t k = 0; k < run.tips.size(); ++k) {
             const Vec3d tip = run.tips[k];
             const double depth =
                 tip.z < top - 1e-9 ? run.tool.radius - walls.at(tip.x, tip.y) : 0.0;
-            if (depth > worst && !finishes(tip)) {
+            if (depth > worst && !is_finished(k)) {
                 worst = depth;
                 at = {tip, run.lines[k], run.tool.number};
             }

@@ -27,24 +27,44 @@ bool is_on_curves(const Operation& operation)
 
 class GougeSearch {
 public:
-    GougeSearch(const std::vector<CutRegion>& regions, const WallLimits& limits)
-        : regions_{regions}, limits_{limits}, here_(regions.size())
+    // own  of each region: the positions that its operation may have cut; none: all
+    GougeSearch(const std::vector<CutRegion>& regions,
+                const std::vector<std::vector<char>>& own,
+                const WallLimits& limits)
+        : regions_{regions}, own_{own}, limits_{limits}
     {
     }
 
-    void look_at(const Tool& tool, Vec3d tip, std::uint32_t line)
+    void look_at(const ToolPositions& run, std::size_t k)
     {
-        if (tip.z >= limits_.top) {
+        if (run.tips[k].z >= limits_.top) {
             return;
         }
+        open_.clear();
+        for (std::size_t n = 0; n < regions_.size(); ++n) {
+            if (own_[n].empty() || own_[n][k] != 0) {
+                open_.push_back(&regions_[n]);
+            }
+        }
+        look_at(run.tool, run.tips[k], run.lines[k]);
+    }
+
+    const WallGouge& deepest() const { return deepest_; }
+
+private:
+    static constexpr int kLevels = 8;
+    static constexpr int kPlaces = 96;  // round the edge
+
+    void look_at(const Tool& tool, Vec3d tip, std::uint32_t line)
+    {
         const CutRegion* nearest = nullptr;
         double least = kUnbounded;
-        for (const CutRegion& region : regions_) {
-            const double beyond = beyond_of(region, tool, tip);
+        for (const CutRegion* region : open_) {
+            const double beyond = beyond_of(*region, tool, tip);
             if (beyond <= limits_.plan_tolerance) {
                 return;
             }
-            nearest = beyond < least ? &region : nearest;
+            nearest = beyond < least ? region : nearest;
             least = std::min(least, beyond);
         }
         if (nearest != nullptr && follows_curves(*nearest) &&
@@ -59,12 +79,6 @@ public:
             look_around(tool, tip, height, line);
         }
     }
-
-    const WallGouge& deepest() const { return deepest_; }
-
-private:
-    static constexpr int kLevels = 8;
-    static constexpr int kPlaces = 96;  // round the edge
 
     static bool follows_curves(const CutRegion& region)
     {
@@ -99,8 +113,9 @@ private:
             const double angle = kTurn * k / kPlaces;
             const Vec2d place{tip.x + radius * elementary::cos(angle),
                               tip.y + radius * elementary::sin(angle)};
-            for (std::size_t n = 0; n < regions_.size(); ++n) {
-                here_[n] = regions_[n].around(place);
+            here_.clear();
+            for (const CutRegion* region : open_) {
+                here_.push_back(region->around(place));
             }
             take(cuts_at(here_, z, limits_.top).wall, {place.x, place.y, z}, tool, line);
         }
@@ -115,10 +130,30 @@ private:
     }
 
     const std::vector<CutRegion>& regions_;
+    const std::vector<std::vector<char>>& own_;
     const WallLimits& limits_;
+    std::vector<const CutRegion*> open_;  // at the position
     std::vector<RegionAt> here_;
     WallGouge deepest_;
 };
+
+// The positions that each finish may have cut; all of those that have walls or rough.
+std::vector<std::vector<char>> own_positions(const std::vector<CutRegion>& regions,
+                                             const ToolPositions& run,
+                                             const WallLimits& limits)
+{
+    std::vector<std::vector<char>> out(regions.size());
+    for (std::size_t n = 0; n < regions.size(); ++n) {
+        if (regions[n].is_ground()) {
+            out[n] = whole_cuts(run, limits.top, [&](Vec3d tip) {
+                return radius_at_height(run.tool, limits.top - tip.z) -
+                           regions[n].around(in_plan(tip)).inside <=
+                       limits.plan_tolerance;
+            });
+        }
+    }
+    return out;
+}
 
 }  // namespace
 
@@ -143,11 +178,12 @@ WallGouge deepest_wall_gouge(const std::vector<CutRegion>& regions,
 {
     WallGouge deepest;
     for (const ToolPositions& run : runs) {
+        const std::vector<std::vector<char>> own = own_positions(regions, run, limits);
         std::vector<WallGouge> found(kBands);
         for_each_band(run.tips.size(), [&](std::size_t begin, std::size_t end, std::size_t band) {
-            GougeSearch search{regions, limits};
+            GougeSearch search{regions, own, limits};
             for (std::size_t k = begin; k < end; ++k) {
-                search.look_at(run.tool, run.tips[k], run.lines[k]);
+                search.look_at(run, k);
             }
             found[band] = search.deepest();
         });
