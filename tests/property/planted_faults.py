@@ -74,7 +74,7 @@ FAULTS = {
     "a finish excuses any cut beside its ground": (
         "host_tools/judge/verify/wall_gouge.cpp", "if (own_[n].empty() || own_[n][k] != 0) {", "if (true) {", "mixed_job"),
     "a tool that finishes anywhere is not judged at walls": (
-        "host_tools/judge/verify/judge_surfaces.cpp", "&& !is_finished(k)", "&& open.empty()", "mixed_job"),
+        "host_tools/judge/verify/judge_surfaces.cpp", "&& !is_finished(k)", "&& !is_finished(k) && open.empty()", "mixed_job"),
     "verify looks at chamfers on the wall": (
         "host_tools/judge/verify/wall_stock.cpp", "? operation_.prismatic->width : 0.0;", "? 0.0 : 0.0;", "verdicts"),
     "a facing move breaks the edges at its height": (
