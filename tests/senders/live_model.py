@@ -3,8 +3,8 @@
 A driver of a controller, on the virtual mill or on a chip, is put into each state of states(), given each byte and
 each line, and compared with the model (all_trials, walk). What a driver does:
 
-    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up, after PASSES_M1 and
-                        NO_LASER
+    fresh()             Idle, nothing on, the door closed, 4 s or more until the spindle is up, after PASSES_M1,
+                        NO_LASER and NO_SETTER
     say(text)           sends lines that lead to a state, and waits for their answers where they come at once
     send(text)          sends
     door(opened)
@@ -24,10 +24,16 @@ OUTPUTS = frozenset("SFM")
 SPEED_UP = "faster"
 STOPS_AT_M1, PASSES_M1 = "$795=1\n", "$795=0\n"
 LASER, NO_LASER = "$32=1\n", "$32=0\n"
+# Tool setter: on a homed machine, with a slow way down to it.
+SETTER = "$341=3\n$343=10\n$344=10\n"
+HOMING = "$120=500\n$121=500\n$122=500\n$24=300\n$25=3000\n"
+NO_SETTER = "$120=10\n$121=10\n$122=10\n$25=30\n$341=0\n"
+# States of a homed machine, whose switches close where it comes to them.
+HOMED = ("Tool setter", "Tool setter, held")
 # States that end by themselves, or that hide what a walk would see.
-UNSTEADY = ("Dwell", "Probe", "Spindle comes up", "Hold:1", "Door:2")
+UNSTEADY = ("Dwell", "Probe", "Tool setter", "Tool setter, held", "Spindle comes up", "Hold:1", "Door:2")
 # Lines that lead to a state, and are answered after it.
-UNANSWERED = ("G4P60", "$H", "G91G38.3", "M4")
+UNANSWERED = ("G4P60", "$H", "G91G38.3", "M4", "T1M6")
 
 # A line's answer in each state. A dash: none, for as long as the state lasts. In Hold, Door, Home and Sleep, and while
 # a line waits (dwell, spindle), no line is answered. An arrow: the state behind it.
@@ -71,7 +77,7 @@ class Model:
     """The controller as its documents tell of it."""
 
     def __init__(self, state="Idle", wanted="", behind="Idle", stopped="", up=True, opened=False, starting=False,
-                 waits=False, braking=False, laser=False):
+                 waits=False, braking=False, laser=False, changing=False):
         self.state = state
         self.wanted = set(wanted)    # outputs that the program has on
         self.stopped = set(stopped)  # of them those that a hold or the door has off
@@ -82,6 +88,7 @@ class Model:
         self.waits = waits           # a line does: a dwell, or the spindle after M3
         self.braking = braking       # towards the stop of a hold or a door
         self.laser = laser           # it is up at once, and off at rest
+        self.changing = changing     # the tool: spindle and coolant wait
         self.alarm = None            # the last number
 
     def report(self):
@@ -93,7 +100,7 @@ class Model:
 
     def outputs(self):
         dark = {"S"} if self.laser and not self.moves() else set()
-        return frozenset(self.wanted - self.stopped - dark)
+        return frozenset(set() if self.changing else self.wanted - self.stopped - dark)
 
     def moves(self):
         return self.braking or self.state in ("Run", "Jog", "Home")
@@ -192,6 +199,7 @@ def states():
     on = "M3S1000\nM8\n"
     run, jog, home = [on + "G91G1X{}90F200\n", "=Run"], ["$J=G91X{}90F200\n", "=Jog"], ["$H\n", "=Home"]
     fast = [on + "G91G1X{}90F1200\n", "=Run", SPEED_UP]
+    setter = [HOMING + "$H\n", "=Idle", SETTER + "G10L2P9X-20Y-20Z-15\n" + on + "T1M6\n", "=Hold:0", START, "=Run"]
     held, closed = run + [HOLD, "=Hold:0"], run + [DOOR, "=Door:0"]
     return {
         "Idle": (Model("Idle", "SF"), [on]),
@@ -204,6 +212,8 @@ def states():
         "M0": (Model("Hold", "SF", "Idle"), [on + "M0\n"]),
         "M1, switched on": (Model("Hold", "SF", "Idle"), [on + STOPS_AT_M1 + "M1\n"]),
         "M6": (Model("Hold", "SF", "Idle"), [on + "T1M6\n"]),
+        "Tool setter": (Model("Run", "SF", waits=True, changing=True), setter),
+        "Tool setter, held": (Model("Hold", "SF", "Run", waits=True, changing=True), setter + [HOLD, "=Hold:0"]),
         "Laser": (Model("Run", "SF", laser=True), [LASER] + run),
         "Laser, held": (Model("Hold", "SF", "Run", laser=True), [LASER] + held),
         "Jog": (Model("Jog", "SF"), [on] + jog),

@@ -45,7 +45,8 @@ class MillDriver:
         self.port.wait_for("^Grbl")
         self.port.ask("$X")
         self.port.ask(live_model.PASSES_M1.strip())
-        self.port.ask(live_model.NO_LASER.strip())
+        for line in (live_model.NO_LASER + live_model.NO_SETTER).splitlines():
+            self.port.ask(line)
         self.away = -self.away
 
     def say(self, text):

@@ -117,7 +117,7 @@ def main():
     parser.add_argument("-k", default="")
     arguments = parser.parse_args()
     first, step = map(int, arguments.share.split("/"))
-    trials = live_model.all_trials()[first - 1::step]
+    trials = [trial for trial in live_model.all_trials() if trial[1] not in live_model.HOMED][first - 1::step]
     trials += [(live_model.walk, seed, 6) for seed in range(arguments.seed, arguments.seed + arguments.walks)]
     trials = [trial for trial in trials if arguments.k in str(trial[1:])]
     failed = 0
