@@ -57,7 +57,7 @@ FAULTS = {
         "host_tools/judge/verify/tool_way.cpp", "return from_.z < to_.z ? passed.begin : passed.end;",
         "return from_.z < to_.z ? passed.end : passed.begin;", "planted_rapids"),
     "stock over a rapid move is as high as the highest cut that it touches": (
-        "host_tools/judge/verify/cut_stock.cpp", "height_at(square.middle, search.all, search.wider)", "height_at(square.middle, touching, search.wider)",
+        "host_tools/judge/verify/cut_stock.cpp", "search.wider + corner, job_.stock_top)) {", "search.wider + corner, low)) {",
         "planted_rapids"),
     "walls thinner than a quarter of a millimetre are slivers": (
         "host_tools/judge/verify/cut_stock.cpp", "kWider = CutStock::kSliver / 2;", "kWider = 0.125;", "verify_test"),

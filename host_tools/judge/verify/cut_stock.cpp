@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWider = CutStock::kSliver / 2;  // mm
 constexpr double kLeastHalf = 0.001;              // mm, of squares
-constexpr double kDeeper = 1e-6;                  // mm: less than this is no deeper place
+constexpr double kDeeper = 1e-4;                  // mm: less than this is no deeper place
 constexpr double kFarthest = 50;                  // mm, from the edge of an outline
 constexpr double kMostCells = 4e6;
 
@@ -23,8 +23,7 @@ constexpr double kMostCells = 4e6;
 
 struct CutStock::Search {
     const ToolWay& way;
-    const Sweeps& all;  // near the way
-    double wider;       // mm: of the cuts
+    double wider;  // mm: of the cuts
     std::optional<StandingPlace> deepest{};
     Vec2d place{};  // in plan, where the stock stands
 
@@ -157,26 +156,22 @@ void CutStock::look(const Square& square, const Sweeps& sweeps, Search& search) 
     if (low >= job_.stock_top || inside(square.middle) <= -corner) {
         return;
     }
-    const double high =
-        std::min(search.way.highest(), search.way.lowest(square.middle, -corner)) + search.least();
-    Sweeps touching;
+    // All that cut here count, those over the tool too: they leave the less the deeper places are known.
+    Sweeps cutting;
     for (const std::uint32_t k : sweeps) {
         if (sweeps_[k].is_below(square.middle, search.wider - corner, low)) {
             return;
         }
-        if (sweeps_[k].is_below(square.middle, search.wider + corner, high)) {
-            touching.push_back(k);
+        if (sweeps_[k].is_below(square.middle, search.wider + corner, job_.stock_top)) {
+            cutting.push_back(k);
         }
     }
     const double bottom = search.way.lowest(square.middle, 0);
     if (bottom < kUnbounded && inside(square.middle) >= 0) {
-        // Higher cuts do not touch; they count where the place is the deepest.
-        if (height_at(square.middle, touching, search.wider) - bottom > search.least()) {
-            const double depth = height_at(square.middle, search.all, search.wider) - bottom;
-            if (depth > search.least()) {
-                search.deepest = {depth, search.way.tip_over(square.middle)};
-                search.place = square.middle;
-            }
+        const double depth = height_at(square.middle, cutting, search.wider) - bottom;
+        if (depth > search.least()) {
+            search.deepest = {depth, search.way.tip_over(square.middle)};
+            search.place = square.middle;
         }
     }
     if (square.half <= kLeastHalf) {
@@ -184,14 +179,14 @@ void CutStock::look(const Square& square, const Sweeps& sweeps, Search& search) 
     }
     const double half = square.half / 2;
     for (const Vec2d at : {Vec2d{-half, -half}, {half, -half}, {-half, half}, {half, half}}) {
-        look({square.middle + at, half}, touching, search);
+        look({square.middle + at, half}, cutting, search);
     }
 }
 
 std::optional<StandingPlace> CutStock::under(const ToolWay& way, std::size_t cuts) const
 {
     const Sweeps all = near(way, cuts);
-    Search search{way, all, kWider};
+    Search search{way, kWider};
     const Vec2d low = way.low();
     const Vec2d high = way.high();
     const double half = 0.5 * std::max(high.x - low.x, high.y - low.y);

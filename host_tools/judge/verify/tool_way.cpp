@@ -13,7 +13,6 @@ ToolWay::ToolWay(const Tool& tool, double radius, Vec3d from, Vec3d to)
       radius_{radius},
       from_{from},
       to_{to},
-      highest_{std::max(from.z, to.z) + profile_height(tool, radius)},
       squared_{dot(in_plan(to) - in_plan(from), in_plan(to) - in_plan(from))},
       is_cylinder_{flat_radius(tool) >= tool.radius && !is_conical(tool)}
 {

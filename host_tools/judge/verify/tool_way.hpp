@@ -28,8 +28,6 @@ public:
 
     double radius() const { return radius_; }
     double least_z() const { return from_.z < to_.z ? from_.z : to_.z; }
-    // z that no place that the tool passes is passed above.
-    double highest() const { return highest_; }
     Vec2d low() const;  // of the box in plan
     Vec2d high() const;
 
@@ -51,7 +49,6 @@ private:
     double radius_;
     Vec3d from_;
     Vec3d to_;
-    double highest_;
     double squared_;  // mm^2: of its length in plan
     bool is_cylinder_;
 };
