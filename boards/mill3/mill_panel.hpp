@@ -193,7 +193,7 @@ private:
 // The order of input_pins() is that of the contract's bits.
 static_assert(kLimitX == 1 && kLimitY == 2 && kLimitZ == 4 && kProbe == 8 && kDoor == 16 &&
               kHoldButton == 32 && kStartButton == 64 && kResetButton == 128 &&
-              kEmergencyStop == 256 && kMotorFault == 512 && kSecondLimit == 1024 &&
+              kEmergencyStop == 256 && kMotorFault == 512 && kFourthLimit == 1024 &&
               kAtSpeed == 2048);
 
 }  // namespace cusp::boards

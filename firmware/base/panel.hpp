@@ -21,19 +21,19 @@ enum InputBit : std::uint16_t {
     kEmergencyStop = 1U << 8U,
     kMotorFault = 1U << 9U,
     // The fourth motor's switch: the second one of an axis, or that of A; read where settings 793 and 794 say so.
-    kSecondLimit = 1U << 10U,
+    kFourthLimit = 1U << 10U,
     kAtSpeed =
         1U
         << 11U,  // the spindle's drive: closed to ground at speed; read where setting 797 says so
 };
 
 inline constexpr unsigned kInputCount = 12;
-inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ | kSecondLimit;
+inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ | kFourthLimit;
 // The switch of an axis, X first; that of A is the fourth motor's.
 constexpr std::uint16_t limit_input(unsigned axis) noexcept
 {
     return static_cast<std::uint16_t>(axis < kLinearAxes ? unsigned{kLimitX} << axis
-                                                         : unsigned{kSecondLimit});
+                                                         : unsigned{kFourthLimit});
 }
 
 // Outputs that settings 15 and 16 may invert.

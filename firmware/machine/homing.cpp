@@ -94,9 +94,9 @@ std::uint16_t Homing::switches(const Settings& settings) const noexcept
     const unsigned first = limit_input(axis_);
     if (phase_ == Phase::kSquare) {
         return static_cast<std::uint16_t>(lagging_ == Motors::kFirst ? first
-                                                                     : unsigned{kSecondLimit});
+                                                                     : unsigned{kFourthLimit});
     }
-    return static_cast<std::uint16_t>(settings.squares(axis_) ? first | kSecondLimit : first);
+    return static_cast<std::uint16_t>(settings.squares(axis_) ? first | kFourthLimit : first);
 }
 
 void Homing::note_contact(const Motion& motion) noexcept
@@ -107,9 +107,9 @@ void Homing::note_contact(const Motion& motion) noexcept
     }
     contact_ = (*motion.contact())[axis_];
     const bool first = (motion.contact_inputs() & limit_input(axis_)) != 0;
-    lagging_ = first ? Motors::kSecond : Motors::kFirst;
+    lagging_ = first ? Motors::kFourth : Motors::kFirst;
     later_contact_.reset();
-    const bool both = first && (motion.contact_inputs() & kSecondLimit) != 0;
+    const bool both = first && (motion.contact_inputs() & kFourthLimit) != 0;
     if (both) {
         later_contact_ = contact_;
     } else if (const std::optional<Position> later = motion.later_contact()) {
@@ -172,7 +172,7 @@ std::int64_t Homing::alignment(const Motion& motion, const Settings& settings) c
 {
     const std::int64_t offset = nanometres(settings.value(Setting::kSquareOffset, axis_));
     return later_contact_.value_or(other_at_) + other_at_ - contact_ +
-           (lagging_ == Motors::kSecond ? offset : -offset) - motion.tail()[axis_];
+           (lagging_ == Motors::kFourth ? offset : -offset) - motion.tail()[axis_];
 }
 
 void Homing::go(Motion& motion, std::int64_t distance, float mm_per_minute) const noexcept
@@ -199,7 +199,7 @@ auto Homing::finish_search(const Motion& motion, const Settings& settings) noexc
     } else {
         // A switch that closes while the axis stops may be seen after the watch has ended.
         const unsigned later =
-            lagging_ == Motors::kFirst ? unsigned{limit_input(axis_)} : unsigned{kSecondLimit};
+            lagging_ == Motors::kFirst ? unsigned{limit_input(axis_)} : unsigned{kFourthLimit};
         const bool known = later_contact_.has_value() || closed(motion, later);
         phase_ = known ? Phase::kAlign : Phase::kSquare;
     }

@@ -64,7 +64,7 @@ void Motion::configure(const Settings& settings) noexcept
     const unsigned control_bits = control_inputs(settings.whole(Setting::kControlInvert));
     inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits | kAtSpeed);
     second_motor_axis_ = settings.second_motor_axis();
-    const unsigned unused = (settings.has_fourth_switch() ? 0U : unsigned{kSecondLimit}) |
+    const unsigned unused = (settings.has_fourth_switch() ? 0U : unsigned{kFourthLimit}) |
                             (settings.on(Setting::kAtSpeedInput) ? 0U : unsigned{kAtSpeed});
     used_inputs_ = static_cast<std::uint16_t>(0xFFFFU & ~unused);
     laser_.configure(settings);
@@ -204,7 +204,7 @@ void Motion::drive(Motors motors) noexcept
     }
     const PulseLines first = step_line(*second_motor_axis_);
     const PulseLines lines = motors == Motors::kFirst ? first
-                             : motors == Motors::kSecond
+                             : motors == Motors::kFourth
                                  ? kSecondStepLine
                                  : static_cast<PulseLines>(first | kSecondStepLine);
     pulses_.set_step_lines(*second_motor_axis_, lines);

@@ -28,8 +28,8 @@ struct Watch {
     bool filtered{false};     // through the filter of $790, for switches; probes answer at once
 };
 
-// Which motors of an axis with two of them step.
-enum class Motors : std::uint8_t { kBoth, kFirst, kSecond };
+// The motors that step, of an axis with two of them: its own, and the fourth.
+enum class Motors : std::uint8_t { kBoth, kFirst, kFourth };
 
 class Motion {
 public:

@@ -30,8 +30,8 @@ void Reports::write_status() noexcept
     status.spindle = core_.outputs.spindle_speed();
     status.inputs = motion.inputs().steady();
     const std::optional<unsigned> axis = core_.settings().second_motor_axis();
-    if (axis && core_.input_on(kSecondLimit)) {  // by the letter of its axis
-        const unsigned others = status.inputs & ~unsigned{kSecondLimit};
+    if (axis && core_.input_on(kFourthLimit)) {  // by the letter of its axis
+        const unsigned others = status.inputs & ~unsigned{kFourthLimit};
         status.inputs = static_cast<std::uint16_t>(others | limit_input(*axis));
     }
     status.overrides = core_.outputs.overrides();

@@ -99,7 +99,7 @@ enum class Setting : std::uint8_t {
     kLinkWatchdog,                  // $791 ms; 0: off
     kStopOnError,                   // $792
     kSecondMotor,  // $793, of the fourth motor: 0 none, 1 to 3 the second one of X, Y or Z, 4 axis A
-    kSquaring,     // $794: the fourth motor has a switch of its own
+    kFourthSwitch,                          // $794: the fourth motor has a switch of its own
     kOptionalStop,                          // $795: M1 stops
     kHoldWhenLeft,                          // $796: a sender that leaves while something moves
     kAtSpeedInput,                          // $797: the spindle's drive says when it is at speed
@@ -237,13 +237,13 @@ public:
     // True if homing squares this axis on two switches.
     bool squares(unsigned axis) const noexcept
     {
-        return on(Setting::kSquaring) && second_motor_axis() == axis;
+        return on(Setting::kFourthSwitch) && second_motor_axis() == axis;
     }
 
     // The fourth motor has a switch, which is read.
     bool has_fourth_switch() const noexcept
     {
-        return on(Setting::kSquaring) && whole(Setting::kSecondMotor) > 0;
+        return on(Setting::kFourthSwitch) && whole(Setting::kSecondMotor) > 0;
     }
     // Axes that homing can find: those with a switch.
     AxisMask axes_with_switches() const noexcept

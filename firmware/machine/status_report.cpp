@@ -60,7 +60,7 @@ void write_pins(std::uint16_t inputs, ReplyQueue& out) noexcept
                                          {kLimitX, 'X'},
                                          {kLimitY, 'Y'},
                                          {kLimitZ, 'Z'},
-                                         {kSecondLimit, 'A'},
+                                         {kFourthLimit, 'A'},
                                          {kDoor, 'D'},
                                          {kHoldButton, 'H'},
                                          {kResetButton, 'R'},

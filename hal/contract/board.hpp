@@ -80,6 +80,7 @@ using cusp::InputBit;
 using cusp::kAtSpeed;
 using cusp::kDoor;
 using cusp::kEmergencyStop;
+using cusp::kFourthLimit;
 using cusp::kHoldButton;
 using cusp::kLimitX;
 using cusp::kLimitY;
@@ -87,7 +88,6 @@ using cusp::kLimitZ;
 using cusp::kMotorFault;
 using cusp::kProbe;
 using cusp::kResetButton;
-using cusp::kSecondLimit;
 using cusp::kStartButton;
 using cusp::OutputLevels;
 

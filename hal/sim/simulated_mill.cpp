@@ -54,12 +54,12 @@ std::uint16_t SimulatedMill::inputs() const noexcept
         const double second = second_place() - *geometry_.second_switch;
         const double travel = geometry_.travel[*geometry_.second_motor];
         const double beyond = geometry_.switch_distance;
-        bits |= second >= beyond || second <= -travel - beyond ? unsigned{kSecondLimit} : 0U;
+        bits |= second >= beyond || second <= -travel - beyond ? unsigned{kFourthLimit} : 0U;
     }
     if (geometry_.rotary) {
         constexpr double kTurn = 360.0;
         const double turned = angle() - kTurn * std::floor(angle() / kTurn);
-        bits |= turned < geometry_.rotary->flag ? unsigned{kSecondLimit} : 0U;
+        bits |= turned < geometry_.rotary->flag ? unsigned{kFourthLimit} : 0U;
     }
     if (geometry_.plate_above_start &&
         at.z - geometry_.start.z <= *geometry_.plate_above_start + 1e-9) {

@@ -30,12 +30,12 @@ struct MillGeometry {
     // Directions whose direction line the drives invert, one bit an axis (setting 3 is applied by
     // the firmware, so it stays 0 unless a wiring fault is wanted).
     std::uint8_t inverted_directions{0};
-    // The axis with a second motor; its switch is read as kSecondLimit.
+    // The axis with a second motor; its switch is read as kFourthLimit.
     std::optional<unsigned> second_motor;
     double second_ahead{0.0};  // its lead towards plus at the start, mm
     // Lead of its switches towards plus over those of the first motor, mm; none: it has none.
     std::optional<double> second_switch{0.0};
-    // The table that the fourth motor turns, with a flag that closes kSecondLimit from 0 degrees on.
+    // The table that the fourth motor turns, with a flag that closes kFourthLimit from 0 degrees on.
     struct RotaryTable {
         double steps_per_degree{0.0};
         double start{0.0};  // degrees

@@ -86,7 +86,7 @@ TEST(RotaryHoming, NeedsASwitch)
 
 TEST(RotaryHoming, FailsWithinOneAndAHalfTurns)
 {
-    bench.board.mill.force_low(kSecondLimit);
+    bench.board.mill.force_low(kFourthLimit);
     expect("$HA", "ALARM:9");
     CHECK(angle() < 511);
 }

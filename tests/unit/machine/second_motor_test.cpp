@@ -231,7 +231,7 @@ TEST(SecondMotor, HasASwitchThatIsReadWithSquaringAlone)
 {
     for (const char* setting : {"$794=0\n", "$793=0\n"}) {
         Bench bench{{1, 0, 0}};
-        bench.board.mill.force_high(kSecondLimit);
+        bench.board.mill.force_high(kFourthLimit);
         (void)bench.say(setting);
         (void)bench.say("$21=1\n");
         CHECK_FALSE(has_text(bench.say("G91G1Y1F3000\n"), "ALARM"));
