@@ -5,11 +5,14 @@
 #include <cmath>
 #include <functional>
 
+#include "host_tools/geometry/part_model/grid_square.hpp"
+
 namespace cusp::finishing {
 
 using drop_cutter::HalfSphereCover;
 using part_model::Facet;
 using part_model::facet_distance;
+using part_model::square_key;
 
 namespace {
 
@@ -28,11 +31,6 @@ constexpr double kSharesOfWay[] = {1, 0.5, 0.2, 0.06};
 Vec3d unit(Vec3d a) { return a / norm(a); }
 
 double square(double a) { return a * a; }
-
-std::uint64_t key(std::int64_t i, std::int64_t j)
-{
-    return (static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
-}
 
 // The order is that of the model's facets.
 void keep_distinct(std::vector<const Facet*>& facets)
@@ -57,7 +55,7 @@ const LowerPositionProof::Block& LowerPositionProof::block(std::int64_t i, std::
     if (blocks_.size() > kMostBlocks) {
         blocks_.clear();
     }
-    const auto [at, is_new] = blocks_.try_emplace(key(i, j));
+    const auto [at, is_new] = blocks_.try_emplace(square_key(i, j));
     if (!is_new) {
         return at->second;
     }
@@ -78,7 +76,7 @@ void LowerPositionProof::find_near(Vec3d point)
     const double side = static_cast<double>(kSide) * pitch_;
     const auto i = static_cast<std::int64_t>(std::floor(point.x / side));
     const auto j = static_cast<std::int64_t>(std::floor(point.y / side));
-    if (near_block_ == key(i, j)) {
+    if (near_block_ == square_key(i, j)) {
         return;
     }
     Block all;
@@ -91,7 +89,7 @@ void LowerPositionProof::find_near(Vec3d point)
     for (const Facet* facet : all) {
         add_near(*facet);
     }
-    near_block_ = key(i, j);
+    near_block_ = square_key(i, j);
 }
 
 void LowerPositionProof::add_near(const Facet& facet)

@@ -10,6 +10,7 @@
 namespace cusp::finishing {
 
 using part_model::cap_reach;
+using part_model::square_key;
 using part_model::ToolCore;
 
 namespace {
@@ -73,7 +74,7 @@ void SweptTool::add(const std::vector<Vec3d>& tips)
             const double at_b = side + slope * (b - from);
             for (std::int64_t j = cell(std::min(at_a, at_b)); j <= cell(std::max(at_a, at_b));
                  ++j) {
-                squares_[by_x ? key(i, j) : key(j, i)].push_back(number);
+                squares_[by_x ? square_key(i, j) : square_key(j, i)].push_back(number);
             }
         }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_tools/geometry/part_model/facet_drop.hpp"
+#include "host_tools/geometry/part_model/grid_square.hpp"
 
 namespace cusp::finishing {
 
@@ -44,7 +45,7 @@ public:
         const std::int64_t j_end = cell(middle.y + window.around);
         for (std::int64_t i = cell(middle.x - window.around); i <= i_end; ++i) {
             for (std::int64_t j = cell(middle.y - window.around); j <= j_end; ++j) {
-                const auto found = squares_.find(key(i, j));
+                const auto found = squares_.find(part_model::square_key(i, j));
                 if (found == squares_.end()) {
                     continue;
                 }
@@ -76,10 +77,6 @@ private:
         Vec3d to;
     };
     using Key = std::uint64_t;
-    static Key key(std::int64_t i, std::int64_t j)
-    {
-        return (static_cast<Key>(i) << 32) ^ (static_cast<Key>(j) & 0xffffffffU);
-    }
     std::int64_t cell(double at) const;
     // mm from the core along the move to a point; exact between `enough` and `far`.
     static double point_apart(const Move& move, Vec3d point);

@@ -5,8 +5,12 @@
 #include <cmath>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/geometry/part_model/grid_square.hpp"
 
 namespace cusp::finishing {
+
+using part_model::square_key;
+
 namespace {
 
 constexpr double kUprightWay = 1e-9;  // mm, seen from above
@@ -56,11 +60,6 @@ std::int64_t SweptVolume::cell(double at) const
     return static_cast<std::int64_t>(std::floor(at / pitch_));
 }
 
-SweptVolume::Key SweptVolume::key(std::int64_t i, std::int64_t j)
-{
-    return (static_cast<Key>(i) << 32) ^ (static_cast<Key>(j) & 0xffffffffU);
-}
-
 std::size_t SweptVolume::number_in_block(std::int64_t i, std::int64_t j)
 {
     return static_cast<std::size_t>((i & (kBlock - 1)) * kBlock + (j & (kBlock - 1)));
@@ -83,7 +82,7 @@ void SweptVolume::add(const std::vector<Vec3d>& tips)
                 move.from + (move.to - move.from) * (static_cast<double>(part) / parts);
             const std::int64_t i = cell(at.x);
             const std::int64_t j = cell(at.y);
-            Block& block = blocks_[key(i >> kBlockBits, j >> kBlockBits)];
+            Block& block = blocks_[square_key(i >> kBlockBits, j >> kBlockBits)];
             Square& here = block.squares[number_in_block(i, j)];
             if (here.moves.empty() || here.moves.back() != number) {
                 here.moves.push_back(number);
@@ -101,7 +100,7 @@ void SweptVolume::visit_around(Vec3d centre, const Visit& visit) const
     const std::int64_t j_end = cell(centre.y + reach);
     for (std::int64_t i = cell(centre.x - reach); i <= cell(centre.x + reach); ++i) {
         for (std::int64_t j = cell(centre.y - reach); j <= j_end; ++j) {
-            const auto block = blocks_.find(key(i >> kBlockBits, j >> kBlockBits));
+            const auto block = blocks_.find(square_key(i >> kBlockBits, j >> kBlockBits));
             if (block == blocks_.end()) {
                 continue;
             }
@@ -250,7 +249,7 @@ SweptVolume::Lowest SweptVolume::lowest(double x, double y) const
     const std::int64_t j_end = cell(y + reach) >> kBlockBits;
     for (std::int64_t i = cell(x - reach) >> kBlockBits; i <= i_end; ++i) {
         for (std::int64_t j = cell(y - reach) >> kBlockBits; j <= j_end; ++j) {
-            const auto block = blocks_.find(key(i, j));
+            const auto block = blocks_.find(square_key(i, j));
             if (block != blocks_.end() &&
                 may(block->second.low, i * kBlock, j * kBlock, static_cast<double>(kBlock))) {
                 look_into(block->second, i * kBlock, j * kBlock);

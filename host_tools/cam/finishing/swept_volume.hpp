@@ -75,7 +75,6 @@ private:
     std::optional<double> lowest_share(const Move& move, double x, double y) const;
     void try_move(std::uint32_t number, double x, double y, Lowest& best) const;
     bool may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const;
-    static Key key(std::int64_t i, std::int64_t j);
     static std::size_t number_in_block(std::int64_t i, std::int64_t j);
     std::int64_t cell(double at) const;
 

@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/geometry/part_model/grid_square.hpp"
 #include "host_tools/geometry/part_model/pattern_search.hpp"
 
 namespace cusp::drop_cutter {
 
 using part_model::pattern_search;
+using part_model::square_key;
 using toolpath::Tool;
 
 namespace {
@@ -77,7 +79,7 @@ LowestPositionSearch::Nodes LowestPositionSearch::take_nodes()
 
 const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(std::int64_t i, std::int64_t j)
 {
-    const std::uint64_t key = key_of(i, j);
+    const std::uint64_t key = square_key(i, j);
     if (known_ != nullptr) {
         const auto known = known_->find(key);
         if (known != known_->end()) {
@@ -231,11 +233,6 @@ std::int64_t LowestPositionSearch::cell(double at) const
     return static_cast<std::int64_t>(std::floor(at / pitch_));
 }
 
-std::uint64_t LowestPositionSearch::key_of(std::int64_t i, std::int64_t j)
-{
-    return (static_cast<std::uint64_t>(i) << 32U) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
-}
-
 // The known contact that blocks a ball with this centre by most.
 ApproachBlock LowestPositionSearch::greatest_block(Vec3d point, Vec3d centre) const
 {
@@ -284,7 +281,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_than(d
     if (proofs_.size() > kMostProofs) {
         proofs_.clear();
     }
-    std::vector<Vec3d>& last = proofs_[key_of(cell(place.x), cell(place.y))];
+    std::vector<Vec3d>& last = proofs_[square_key(cell(place.x), cell(place.y))];
     contacts_.insert(contacts_.begin(), last.begin(), last.end());
     last.clear();
     HalfSphereCover cover;

@@ -82,7 +82,6 @@ public:
 
 private:
     std::int64_t cell(double at) const;
-    static std::uint64_t key_of(std::int64_t i, std::int64_t j);
     const DroppedTool& node(std::int64_t i, std::int64_t j);
     double lowest_known(Vec3d place, Vec2d at) const;
     Vec2d improved(Vec3d place, Vec2d at);

@@ -6,6 +6,7 @@
 
 #include "host_tools/base/elementary/elementary.hpp"
 #include "host_tools/geometry/nurbs/knot_insertion.hpp"
+#include "host_tools/geometry/part_model/grid_square.hpp"
 
 namespace cusp::part_model {
 
@@ -162,17 +163,12 @@ void EdgeGougeCheck::add(const Piece& piece)
     pieces_.push_back(piece);
     longest_ = std::max(longest_, 0.5 * norm(piece.to - piece.from));
     const Vec3d middle = (piece.from + piece.to) * 0.5;
-    cells_[key(cell(middle.x), cell(middle.y))].push_back(number);
+    cells_[square_key(cell(middle.x), cell(middle.y))].push_back(number);
 }
 
 std::int64_t EdgeGougeCheck::cell(double at) const
 {
     return static_cast<std::int64_t>(std::floor(at / (kSquare * radius_)));
-}
-
-std::uint64_t EdgeGougeCheck::key(std::int64_t i, std::int64_t j) const
-{
-    return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
 }
 
 // Calls visit(piece) for the pieces that may be nearer than `around` in plan.
@@ -183,7 +179,7 @@ void EdgeGougeCheck::visit_around(Vec3d centre, double around, const Visit& visi
     const std::int64_t j_end = cell(centre.y + around);
     for (std::int64_t i = cell(centre.x - around); i <= cell(centre.x + around); ++i) {
         for (std::int64_t j = cell(centre.y - around); j <= j_end; ++j) {
-            const auto found = cells_.find(key(i, j));
+            const auto found = cells_.find(square_key(i, j));
             if (found == cells_.end()) {
                 continue;
             }

@@ -74,7 +74,6 @@ private:
                         EdgeViolation violation,
                         double margin) const;
     Vec3d missing_clearance(Vec3d centre, double margin) const;
-    std::uint64_t key(std::int64_t i, std::int64_t j) const;
     std::int64_t cell(double at) const;
 
     double radius_;

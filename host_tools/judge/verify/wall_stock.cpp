@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "host_tools/base/elementary/elementary.hpp"
+#include "host_tools/geometry/part_model/grid_square.hpp"
 #include "host_tools/geometry/toolpath/tool_tip.hpp"
 #include "host_tools/job/job/chamfer_tip.hpp"
 #include "host_tools/job/job/hole_depth.hpp"
@@ -19,6 +20,7 @@ using job::loop_polyline;
 using job::NestedLoop;
 using job::Operation;
 using job::Prismatic;
+using part_model::square_key;
 using toolpath::end_height;
 using toolpath::radius_at_height;
 using toolpath::Tool;
@@ -105,7 +107,7 @@ public:
         const double reach = (radius ? widest_ : 0.0) + kThickest;
         for (auto i = column(place.x - reach); i <= column(place.x + reach); ++i) {
             for (auto j = column(place.y - reach); j <= column(place.y + reach); ++j) {
-                const auto found = squares_.find(key(i, j));
+                const auto found = squares_.find(square_key(i, j));
                 if (found == squares_.end()) {
                     continue;
                 }
@@ -136,7 +138,7 @@ private:
              i <= column(std::max(piece.from.x, piece.to.x)); ++i) {
             for (auto j = column(std::min(piece.from.y, piece.to.y));
                  j <= column(std::max(piece.from.y, piece.to.y)); ++j) {
-                squares_[key(i, j)].push_back(piece);
+                squares_[square_key(i, j)].push_back(piece);
             }
         }
     }
@@ -194,11 +196,6 @@ private:
     static std::int32_t column(double x)
     {
         return static_cast<std::int32_t>(std::floor(x / kSquare));
-    }
-    static std::uint64_t key(std::int32_t i, std::int32_t j)
-    {
-        return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32U) |
-               static_cast<std::uint32_t>(j);
     }
 
     double z_;
