@@ -28,7 +28,6 @@ using offset::Contour;
 using offset::fit_contour;
 using offset::Region2d;
 using offset::RegionFault;
-using offset::RegionFaultKind;
 using offset::reversed;
 using toolpath::OperationStats;
 using toolpath::Tool;
@@ -63,21 +62,8 @@ void check_range(
         return contour == 0 ? operation.outline.boundary_file
                             : operation.outline.island_files.at(contour - 1);
     };
-    const std::string at = " at " + place_text(fault.where) + " mm";
-    switch (fault.kind) {
-        case RegionFaultKind::kNoLength:
-            throw InputError(file(fault.first) + ": a curve has no length" + at);
-        case RegionFaultKind::kCrossesItself:
-            throw InputError(file(fault.first) + ": the loop crosses itself" + at);
-        case RegionFaultKind::kCross:
-            throw InputError(file(fault.first) + ": crosses " + file(fault.second) + at);
-        case RegionFaultKind::kHoleOutside:
-            throw InputError(file(fault.second) + ": the island lies outside the boundary" + at);
-        case RegionFaultKind::kHoleInHole:
-            throw InputError(file(fault.second) + ": the island lies inside another, " +
-                             file(fault.first) + "," + at);
-    }
-    throw InputError(operation.outline.boundary_file + ": the pocket has no valid region" + at);
+    throw InputError(
+        fault_text(fault, file(fault.first), file(fault.second), place_text(fault.where) + " mm"));
 }
 
 }  // namespace

@@ -25,7 +25,6 @@ using offset::Contour;
 using offset::fit_contour;
 using offset::Region2d;
 using offset::RegionFault;
-using offset::RegionFaultKind;
 using offset::reversed;
 using toolpath::Tool;
 
@@ -57,21 +56,9 @@ std::string fault_text(const Job& job, const Operation& operation, const RegionF
         return contour <= islands.size() ? islands[contour - 1]
                                          : "island " + std::to_string(contour);
     };
-    const std::string where =
-        " at x " + length_text(job, fault.where.x) + ", y " + length_text(job, fault.where.y);
-    switch (fault.kind) {
-        case RegionFaultKind::kNoLength:
-            return name(fault.first) + " has an edge without length" + where;
-        case RegionFaultKind::kCrossesItself:
-            return name(fault.first) + " crosses itself" + where;
-        case RegionFaultKind::kCross:
-            return name(fault.first) + " and " + name(fault.second) + " cross" + where;
-        case RegionFaultKind::kHoleOutside:
-            return name(fault.second) + " lies outside " + name(fault.first) + where;
-        case RegionFaultKind::kHoleInHole:
-            break;
-    }
-    return name(fault.second) + " lies inside " + name(fault.first) + where;
+    return offset::fault_text(
+        fault, name(fault.first), name(fault.second),
+        "x " + length_text(job, fault.where.x) + ", y " + length_text(job, fault.where.y));
 }
 
 }  // namespace

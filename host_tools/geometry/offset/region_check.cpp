@@ -124,4 +124,25 @@ std::optional<RegionFault> find_fault(const Region2d& region)
     return find_stray_hole(region);
 }
 
+std::string fault_text(const RegionFault& fault,
+                       const std::string& first,
+                       const std::string& second,
+                       const std::string& where)
+{
+    const std::string at = " at " + where;
+    switch (fault.kind) {
+        case RegionFaultKind::kNoLength:
+            return first + ": a curve has no length" + at;
+        case RegionFaultKind::kCrossesItself:
+            return first + ": the loop crosses itself" + at;
+        case RegionFaultKind::kCross:
+            return first + ": crosses " + second + at;
+        case RegionFaultKind::kHoleOutside:
+            return second + ": the island lies outside the boundary" + at;
+        case RegionFaultKind::kHoleInHole:
+            break;
+    }
+    return second + ": the island lies inside another, " + first + "," + at;
+}
+
 }  // namespace cusp::offset

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "host_tools/geometry/offset/contour.hpp"
 
@@ -26,5 +27,14 @@ struct RegionFault {
 // The first fault of a region whose first contour is the outer one and all others are its holes.
 // Contours may touch in a point.
 std::optional<RegionFault> find_fault(const Region2d& region);
+
+// The fault in words, the contour at fault first: "FIRST: crosses SECOND at WHERE".
+//
+//   first, second  names of the contours of the fault
+//   where          the place of the fault
+std::string fault_text(const RegionFault& fault,
+                       const std::string& first,
+                       const std::string& second,
+                       const std::string& where);
 
 }  // namespace cusp::offset
