@@ -138,7 +138,8 @@ class AdaptiveLevels(CuspCase):
         job.write_text(job.read_text().replace("max_depth = 4", "").replace("allowance = 0.3", ""))
         self.assertIn("needs max_depth or layers", self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
         self.assertIn('clearing: "adaptive" needs roughing = true',
-                      refused("parallel_planes", adaptive + "scallop = 0.1"))
+                      refused("adaptive_isocurve", adaptive + "scallop = 0.1"))
+        self.assertIn("allowance: is no key of parallel_planes", refused("parallel_planes", "scallop = 0.1"))
         self.assertIn("max_engagement: needs clearing", refused("hull_rough", "max_engagement = 60"))
         self.assertIn("max_engagement", refused("hull_rough", adaptive + "max_engagement = 170"))
 

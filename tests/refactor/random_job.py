@@ -163,7 +163,7 @@ class RandomJob:
                 self.keys["iso_spacing"] = pick.choice(["halving", "even"])
         far = pick.choice([0.06, 0.1, 0.2]) if key == "scallop" else self.radius * pick.uniform(0.2, 0.6)
         self.keys[key] = self.length(far)
-        if self.chance(0.3):
+        if self.chance(0.3) and self.strategy not in ("parallel_planes", "waterline", "steep_shallow"):
             self.keys["roughing"] = True
             self.keys["max_depth"] = self.length(pick.uniform(1.5, 4))
             self.keys["allowance"] = self.length(pick.choice([0.1, 0.3]))

@@ -1,6 +1,4 @@
 // The record of hull_rough.
-#include <algorithm>
-
 #include "host_tools/cam/hull_rough/hull_rough.hpp"
 #include "host_tools/job/job/operation_check.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
@@ -34,22 +32,12 @@ void check(const Operation& operation, const Refuse& refuse)
     }
 }
 
-// Hulls bound what is cut, not what is left.
-std::vector<job::Key> keys_without_scallop()
-{
-    std::vector<job::Key> keys = job::surface_keys({"tools"});
-    keys.erase(std::remove_if(keys.begin(), keys.end(),
-                              [](const job::Key& key) { return key.name == "scallop"; }),
-               keys.end());
-    return keys;
-}
-
 }  // namespace
 
 const job::Strategy kHullRough{
     "hull_rough",
     "rough layers around the hulls of the surfaces' control points",
-    keys_without_scallop(),
+    job::surface_keys({"tools"}, {"scallop"}),  // hulls bound what is cut, not what is left
     {{"max_depth", Kind::kLength, "needed", "deepest cut of a layer", job::kPositive},
      {"overlap", Kind::kLength, "0", "of neighbouring passes", job::kNotNegative},
      {"extra_subdivision",

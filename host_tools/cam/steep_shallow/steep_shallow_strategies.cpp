@@ -50,7 +50,6 @@ void check_planes(const Operation& operation, const Refuse& refuse)
     check_finishing_end(operation, refuse);
     need(operation.passes.step_over || operation.tolerance.scallop, "step_over", "it or scallop",
          operation, refuse);
-    check_adaptive_roughing(operation, refuse);
 }
 
 void check_levels(const Operation& operation, const Refuse& refuse)
@@ -58,7 +57,6 @@ void check_levels(const Operation& operation, const Refuse& refuse)
     check_finishing_end(operation, refuse);
     need(operation.tolerance.scallop.has_value(), "scallop",
          "the height of the scallops that may remain", operation, refuse);
-    check_adaptive_roughing(operation, refuse);
 }
 
 const Key kStepOver{"step_over", Kind::kLength, "this or `scallop`", "between planes",
@@ -88,28 +86,21 @@ Traits section_traits()
 }  // namespace
 
 const job::Strategy kParallelPlanes{
-    "parallel_planes",
-    "finishes a part along parallel planes",
-    job::surface_keys({"roughing"}),
-    job::with_ranges({kStepOver, job::direction_key(), kPlaneAngle}),
-    section_traits(),
-    read_planes,
-    check_planes,
-    plan_parallel_planes};
+    "parallel_planes",     "finishes a part along parallel planes",
+    job::finishing_keys(), job::with_ranges({kStepOver, job::direction_key(), kPlaneAngle}),
+    section_traits(),      read_planes,
+    check_planes,          plan_parallel_planes};
 
-const job::Strategy kWaterline{"waterline",
-                               "finishes steep ground of a part along level loops or a spiral",
-                               job::surface_keys({"roughing"}),
-                               job::with_ranges({kSpiral}),
-                               section_traits(),
-                               read_levels,
-                               check_levels,
-                               plan_waterline};
+const job::Strategy kWaterline{
+    "waterline",           "finishes steep ground of a part along level loops or a spiral",
+    job::finishing_keys(), job::with_ranges({kSpiral}),
+    section_traits(),      read_levels,
+    check_levels,          plan_waterline};
 
 const job::Strategy kSteepShallow{
     "steep_shallow",
     "finishes a part along levels where it is steep, along planes elsewhere",
-    job::surface_keys({"roughing"}),
+    job::finishing_keys(),
     job::with_ranges({job::direction_key(), kPlaneAngle, kSpiral, kSteepFrom}),
     section_traits(),
     read_both,

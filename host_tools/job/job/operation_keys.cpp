@@ -187,7 +187,8 @@ std::vector<std::string> with_text(std::vector<std::string> names)
     return names;
 }
 
-std::vector<Key> surface_keys(const std::vector<std::string>& names)
+std::vector<Key> surface_keys(const std::vector<std::string>& names,
+                              const std::vector<std::string>& left_out)
 {
     std::vector<std::string> all{"floor",     "intersect", "islands",        "output",
                                  "scallop",   "join_gaps", "tolerance_side", "direction_of_cut",
@@ -195,7 +196,17 @@ std::vector<Key> surface_keys(const std::vector<std::string>& names)
                                  "min_depth", "layers",    "clearing",       "max_engagement",
                                  "chip_load", "feed_min",  "feed_max"};
     all.insert(all.end(), names.begin(), names.end());
+    const auto is_left_out = [&](const std::string& name) {
+        return std::find(left_out.begin(), left_out.end(), name) != left_out.end();
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), is_left_out), all.end());
     return shared_keys(all);
+}
+
+std::vector<Key> finishing_keys()
+{
+    return surface_keys(
+        {}, {"allowance", "max_depth", "min_depth", "layers", "clearing", "max_engagement"});
 }
 
 const KeyTable& tabs_table()

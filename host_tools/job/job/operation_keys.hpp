@@ -30,8 +30,11 @@ std::vector<Key> shared_keys(const std::vector<std::string>& names);
 
 // The names, and those of the keys that spell a text in place of a drawing.
 std::vector<std::string> with_text(std::vector<std::string> names);
-// Keys that all strategies on surfaces take, then the keys of these names.
-std::vector<Key> surface_keys(const std::vector<std::string>& names = {});
+// Keys that strategies on surfaces take, but for those of `left_out`; then the keys of these names.
+std::vector<Key> surface_keys(const std::vector<std::string>& names = {},
+                              const std::vector<std::string>& left_out = {});
+// Keys of strategies that finish surfaces and rough none.
+std::vector<Key> finishing_keys();
 // `tabs` of a profile.
 const KeyTable& tabs_table();
 
