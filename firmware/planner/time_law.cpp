@@ -9,23 +9,23 @@
 #include "firmware/base/path_units.hpp"
 #include "firmware/planner/law_bounds.hpp"
 #include "firmware/planner/law_rows.hpp"
+#include "firmware/planner/law_start.hpp"
 
 namespace cusp::planner {
 namespace {
 
 constexpr float kFirstMu = 0.1F;
-constexpr float kLastMu = 0.002F;
-constexpr float kMuRatio = 0.7007F;   // eleven steps from the first to the last
+constexpr float kLastMu = 0.001F;
+constexpr float kMuRatio = 0.7007F;   // thirteen steps from the first to the last
 constexpr float kSpeedWeight = 0.2F;  // of mu, in the last steps
-constexpr std::uint8_t kFinalSteps = 6;
+constexpr std::uint8_t kFinalSteps = 3;
 constexpr float kFinalSpeedWeight = 0.005F;  // of mu, in these: feeds are reached
 constexpr float kTimeHessian = 0.15F;        // in the first steps: x may grow by 1.67 a step
-constexpr float kTimeHessianUntil = 5.0F;    // times the last mu
+constexpr float kTimeHessianUntil = 2.0F;    // times the last mu
 constexpr std::uint32_t kWindow = 40;        // coefficients, but for the last of a stretch
-constexpr std::uint8_t kLeastSteps = 12;     // of a window
-constexpr std::uint8_t kMostSteps = 24;
-constexpr float kSettled = 0.01F;           // change by a step of what is as good as it gets
-constexpr float kShortestStation = 0.003F;  // s
+constexpr std::uint8_t kMostSteps = 24;      // of a window, before its last
+constexpr float kSettled = 0.003F;           // change by a step of what is as good as it gets
+constexpr float kShortestStation = 0.003F;   // s
 constexpr float kLongestStation = 0.02F;
 constexpr float kCrawlUse = 0.3F;         // greatest use of a limit in the crawl
 constexpr float kCrawlOfEnd = 0.5F;       // of the caps at the ends
@@ -152,13 +152,10 @@ void TimeLaw::end(const StopElement& stop, float overlap, bool disjoint) noexcep
     ended_ = true;
 }
 
-// True if the next window needs more stations. It begins with as many as find room, so that it does not
-// depend on when they came.
-bool TimeLaw::waits() const noexcept { return has_room(); }
-
 void TimeLaw::work() noexcept
 {
-    if (state_ == State::kWaits && !waits()) {
+    // A window begins with as many stations as find room, so that it does not depend on when they came.
+    if (state_ == State::kWaits && !has_room()) {
         begin_window(kLawAdvance);
     }
     if (state_ != State::kWorks) {
@@ -168,11 +165,16 @@ void TimeLaw::work() noexcept
         extend();
         return;
     }
+    if (!begun_) {
+        start_near();
+        return;
+    }
+    const bool is_last = mu_ <= last_mu_;
     const float change = newton_step(spline_, window_, weight());
     mu_ = std::max(mu_ * kMuRatio, last_mu_);
     ++steps_;
     ++step_;
-    const bool is_settled = step_ >= kMostSteps || (step_ >= kLeastSteps && change < kSettled);
+    const bool is_settled = step_ >= kMostSteps || (is_last && change < kSettled);
     finishing_ = static_cast<std::uint8_t>(finishing_ + (is_settled || finishing_ > 0 ? 1 : 0));
     if (finishing_ > kFinalSteps) {
         state_ = State::kChecks;
@@ -206,6 +208,7 @@ void TimeLaw::begin_window(std::uint32_t least_behind) noexcept
         window_.end_factor = end_factor_;
     }
     extended_ = false;
+    begun_ = false;
     attempts_ = 0;
     retreats_ = 0;
     last_mu_ = kLastMu;
@@ -298,6 +301,18 @@ void TimeLaw::extend() noexcept
         if (has_plan()) {
             rest();
         }
+    }
+}
+
+// Steps start close to the law where that holds; a plan that is refused is made from afar.
+void TimeLaw::start_near() noexcept
+{
+    begun_ = true;
+    start_by_ramps(spline_, window_, end_of_kept(spline_, window_, in_force_));
+    if (greatest_use(spline_, window_) < kStillHolds) {
+        mu_ = last_mu_;
+    } else {
+        restore();
     }
 }
 

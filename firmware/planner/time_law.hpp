@@ -106,13 +106,13 @@ private:
     static constexpr std::uint32_t kCellsAtEnds =
         3;  // both elements, or one and two from the crawl
 
-    bool waits() const noexcept;
     void begin_window(std::uint32_t least_behind) noexcept;
     void make_room_behind(std::uint32_t least_behind) noexcept;
     float crawl_within(float distance) const noexcept;
     float length_behind(std::uint32_t k) const noexcept;
     void restart() noexcept;
     void extend() noexcept;
+    void start_near() noexcept;
     void ramp(std::uint32_t from, std::uint32_t to, float goal) noexcept;
     void restrict_crawl(const Station& station) noexcept;
     void restore() noexcept;
@@ -132,7 +132,8 @@ private:
     State state_{State::kDone};
     bool ended_{false};
     bool rests_{false};          // the plan ends before the stretch does
-    bool extended_{false};       // the window has values to start from
+    bool extended_{false};       // the window has values
+    bool begun_{false};          // and those that its steps start from
     std::uint8_t attempts_{0};   // at such values
     std::uint8_t step_{0};       // of the window
     std::uint8_t finishing_{0};  // of its last steps
