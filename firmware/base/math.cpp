@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace cusp {
 namespace {
@@ -135,10 +134,10 @@ float cube_root(float q) noexcept
     constexpr std::uint32_t kTwoThirdsOfBias = 709'921'077;  // Kahan's
     constexpr float kAbove = 1.037F;
     std::uint32_t bits;
-    std::memcpy(&bits, &q, sizeof(bits));
+    __builtin_memcpy(&bits, &q, sizeof(bits));
     bits = bits / 3 + kTwoThirdsOfBias;
     float v;
-    std::memcpy(&v, &bits, sizeof(v));
+    __builtin_memcpy(&v, &bits, sizeof(v));
     v *= kAbove;
     for (int i = 0; i < 8; ++i) {
         const float next = (2.0F * v + q / (v * v)) / 3.0F;
