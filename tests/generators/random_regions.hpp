@@ -54,26 +54,35 @@ inline offset::Contour random_star(
     return contour;
 }
 
-// A star with up to three islands, none of which cross.
-inline offset::Region2d random_region(Random& random)
+struct RegionSize {
+    double scale{1.0};   // of 120 mm
+    double corners{12};  // below this
+    double islands{4};   // likewise
+};
+
+// A star with islands, none of which cross.
+inline offset::Region2d random_region(Random& random, RegionSize size = {})
 {
-    const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 : 0.0;
+    const double scale = size.scale;
+    const double least_area = scale * scale;
+    const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 * scale : 0.0;
     while (true) {
         offset::Region2d region;
-        const int corners = static_cast<int>(uniform(random, 3.0, 12.0));
-        region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0, corners, grid));
-        const int islands = static_cast<int>(uniform(random, 0.0, 4.0));
+        const int corners = static_cast<int>(uniform(random, 3.0, size.corners));
+        region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0 * scale, corners, grid));
+        const int islands = static_cast<int>(uniform(random, 0.0, size.islands));
         for (int i = 0; i < islands; ++i) {
-            const Vec2d centre{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
+            const Vec2d centre =
+                scale * Vec2d{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
             const int sides = static_cast<int>(uniform(random, 3.0, 7.0));
             region.contours.push_back(offset::reversed(
-                random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
+                random_star(random, centre, scale * uniform(random, 4.0, 14.0), sides, grid)));
         }
         const bool turned = std::any_of(region.contours.begin(), region.contours.end(),
                                         [&](const offset::Contour& contour) {
                                             const bool outer = &contour == &region.contours.front();
-                                            return (offset::area(contour) > 1.0) != outer ||
-                                                   std::abs(offset::area(contour)) < 1.0;
+                                            return (offset::area(contour) > least_area) != outer ||
+                                                   std::abs(offset::area(contour)) < least_area;
                                         });
         if (!turned && !find_fault(region)) {
             return region;
