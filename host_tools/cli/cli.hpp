@@ -9,6 +9,9 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+
+#include "host_tools/base/files/files.hpp"
 
 #include "CLI/App.hpp"
 
@@ -33,6 +36,15 @@ void run_when_called(CLI::App& command, Work& work, std::shared_ptr<Options> opt
             return run(*options);
         };
     });
+}
+
+// Writes what `text_of` gives; nothing without the name of a file.
+template <class TextOf>
+void write_wanted(const std::string& file, const TextOf& text_of)
+{
+    if (!file.empty()) {
+        files::write_text(file, text_of());
+    }
 }
 
 // Adds one subcommand to `app`; its callback sets `work`. A new command is one file

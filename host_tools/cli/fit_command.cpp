@@ -33,10 +33,8 @@ int run_fit(const FitOptions& options)
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const program_fit::FitReport& report = fitted.report;
-    if (!options.stats.empty()) {
-        files::write_text(options.stats,
-                          program_fit::statistics_json(report, options.tolerance, seconds));
-    }
+    write_wanted(options.stats,
+                 [&] { return program_fit::statistics_json(report, options.tolerance, seconds); });
     fmt::print(
         "{} feed moves became {}: {} lines, {} arcs; off by at most {:.4f} mm at a vertex, "
         "{:.4f} mm between\n",

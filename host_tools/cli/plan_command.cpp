@@ -36,6 +36,7 @@ struct PlanFiles {
 };
 
 struct PlanArguments {
+    const CLI::App* command{};
     PlanCall call;
     PlanFiles output;
     double blend{};  // in the job's units: G64 P; 0: the exact path
@@ -52,10 +53,10 @@ bool explain_jobs(const PlanArguments& options)
 {
     if (options.schema) {
         fmt::print("{}", import::job_schema(strategies::all()));
-    } else if (options.help_job && options.help_name.empty()) {
-        fmt::print("{}", import::job_help(strategies::all()));
     } else if (options.help_job) {
-        fmt::print("{}", import::job_help(strategies::all(), options.help_name));
+        fmt::print("{}", options.help_name.empty()
+                             ? import::job_help(strategies::all())
+                             : import::job_help(strategies::all(), options.help_name));
     }
     if (options.list_posts) {
         for (const toolpath::Post& post : import::all_posts()) {
@@ -84,9 +85,7 @@ void write_files(const Job& job, const plan::PlannedProgram& program, const Plan
 {
     const cancellation::FinishOutput finish;
     files::write_text(files.program, program.gcode);
-    if (!files.stats.empty()) {
-        files::write_text(files.stats, plan::statistics_json(job, program));
-    }
+    write_wanted(files.stats, [&] { return plan::statistics_json(job, program); });
 }
 
 // A program for each; those before it have made the stock of the later ones.
@@ -169,13 +168,13 @@ int run_plan(PlanArguments& options)
     return kDone;
 }
 
-int run_call(const CLI::App& command, PlanArguments& options)
+int run_call(PlanArguments& options)
 {
-    options.help_job = command.count("--help-job") > 0;
+    options.help_job = options.command->count("--help-job") > 0;
     if (explain_jobs(options)) {
         return kDone;
     }
-    sort_call(command, options.call);
+    sort_call(*options.command, options.call);
     return run_plan(options);
 }
 
@@ -262,11 +261,8 @@ void add_plan_command(CLI::App& app, Work& work)
     add_explaining_options(*command, *options);
     add_resource_options(*command, options->resources);
     add_one_line_options(*command, options->call);
-    command->callback([&work, command, options] {
-        work = [command, options] {
-            return run_call(*command, *options);
-        };
-    });
+    options->command = command;
+    run_when_called(*command, work, options, run_call);
 }
 
 }  // namespace cusp::cli

@@ -1,9 +1,9 @@
 // `cusp sim`: runs a program through the firmware's core, or serves a virtual controller.
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
@@ -59,36 +59,29 @@ int run_once(const SimArguments& arguments)
         };
     }
     const simulate::SimulationResult result = simulate::simulate(arguments.program, options);
-    if (!arguments.stats_file.empty()) {
-        files::write_text(arguments.stats_file, statistics_json(result));
-    }
-    if (!arguments.picture_file.empty()) {
-        files::write_text(arguments.picture_file,
-                          report::motion_picture(profile, options.settings.limits()));
-    }
+    write_wanted(arguments.stats_file, [&] { return statistics_json(result); });
+    write_wanted(arguments.picture_file,
+                 [&] { return report::motion_picture(profile, options.settings.limits()); });
     fmt::print("{}", summary_text(result, options.settings.limits()));
     std::fflush(stdout);
     fmt::print(stderr, "{}", faults_text(arguments.program, result));
     return result.good() ? kDone : kFoundWrong;
 }
 
-hal::TcpAddress address_of(const std::string& text, const char* option)
+// What was parsed of an option's text.
+template <class Value>
+Value value_of(const std::optional<Value>& parsed, const std::string& option, const char* fault)
 {
-    const auto address = hal::parse_tcp_address(text);
-    if (!address) {
-        throw InputError{fmt::format("{} {}: is not HOST:PORT", option, text)};
+    if (!parsed) {
+        throw InputError{fmt::format("{}: {}", option, fault)};
     }
-    return *address;
+    return *parsed;
 }
 
 hal::LineFaults faults_of(const std::string& text)
 {
-    const auto faults = simulate::parse_line_faults(text);
-    if (!faults) {
-        throw InputError{fmt::format(
-            "--line-faults {}: is no list of noise=, loss=, doubling=, delay= with 0 to 1", text)};
-    }
-    return *faults;
+    return value_of(simulate::parse_line_faults(text), "--line-faults " + text,
+                    "is no list of noise=, loss=, doubling=, delay= with 0 to 1");
 }
 
 int run_server(const SimArguments& arguments)
@@ -149,7 +142,8 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
     };
     const auto address = [](const char* option) {
         return [option](const std::string& text) {
-            return address_of(text, option);
+            return value_of(hal::parse_tcp_address(text), fmt::format("{} {}", option, text),
+                            "is not HOST:PORT");
         };
     };
     command

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host_tools/base/cancellation/cancellation.hpp"
-#include "host_tools/base/files/files.hpp"
 #include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/program_job.hpp"
 #include "host_tools/cli/resource_options.hpp"
@@ -71,15 +70,11 @@ bool asks_for_engagement(const VerifyOptions& options, const Job& job)
 void write_output(const Job& job, const verify::Verification& result, const VerifyOutput& output)
 {
     const cancellation::FinishOutput finish;
-    const auto write = [](const std::string& file, const auto& text_of) {
-        if (!file.empty()) {
-            files::write_text(file, text_of());
-        }
-    };
-    write(output.stats, [&] { return statistics_json(result); });
-    write(output.path_picture, [&] { return report::path_picture(job, result.program); });
-    write(output.left_picture, [&] { return report::left_picture(job, result); });
-    write(output.engagement_picture, [&] { return report::engagement_picture(job, result); });
+    write_wanted(output.stats, [&] { return statistics_json(result); });
+    write_wanted(output.path_picture, [&] { return report::path_picture(job, result.program); });
+    write_wanted(output.left_picture, [&] { return report::left_picture(job, result); });
+    write_wanted(output.engagement_picture,
+                 [&] { return report::engagement_picture(job, result); });
 }
 
 int run_verify(const VerifyOptions& options)

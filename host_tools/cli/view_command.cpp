@@ -84,9 +84,7 @@ int run_view(const ViewArguments& arguments)
     }
     const view::RunPage page = page_of(arguments);
     write_text(arguments.page, page.html);
-    if (!arguments.still.empty()) {
-        write_text(arguments.still, view::page_still(arguments.page));
-    }
+    write_wanted(arguments.still, [&] { return view::page_still(arguments.page); });
     constexpr double kMegabyte = 1048576.0;
     fmt::print("{}: {} ticks, {:.2f} MB\n{}\n", arguments.page, page.ticks,
                static_cast<double>(page.html.size()) / kMegabyte, page.verdict);
