@@ -131,11 +131,11 @@ class Copies(CuspCase):
 
     def test_wrong_places_are_named(self):
         self.write("angle.dxf", drawing(ANGLE))
-        for keys, words in (("grid = [2, 2]", "needs both"), ("pitch = 3", "needs both"),
+        for keys, words in (("grid = [2, 2]", "grid: needs pitch"), ("pitch = 3", "pitch: needs grid"),
                             ("grid = [0, 2]\npitch = 3", "whole numbers"), ("grid = [2]\npitch = 3", "rows"), ("grid = [2, 2]\npitch = []", "pitch"),
                             ("copies = []", "has 0 places"), ("copies_rotate = 90", "needs copies"),
                             ("copies = [[0, 0], [70, 0]]\ncopies_rotate = [1, 2, 3]", "has 3 numbers"),
-                            ("copies = [[0, 0]]\ngrid = [2, 2]\npitch = 9", "not both"), ("copies = [1, 2]", "pairs")):
+                            ("copies = [[0, 0]]\ngrid = [2, 2]\npitch = 9", "copies: is given beside grid: one of them"), ("copies = [1, 2]", "pairs")):
             self.write("job.toml", HEAD + f"[[placing]]\n{keys}\n" + PROFILE)
             said = self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
             self.assertIn(words, said)

@@ -191,7 +191,7 @@ class Machines(CuspCase):
     def test_faults_of_the_file(self):
         for machine, words in (
                 (MACHINE + "speed = 3\n", "mill.toml:7: speed: unknown key"),
-                (MACHINE.replace("[300, 200, 80]", "[300, 200]"), "mill.toml:2: travel: has 2 numbers, those of x, y and z are needed"),
+                (MACHINE.replace("[300, 200, 80]", "[300, 200]"), "mill.toml:2: travel: has 2 numbers, needed: three lengths"),
                 (MACHINE.replace("300", "-1"), "mill.toml:2: travel: is -1, it must be above 0"),
                 (MACHINE.replace("grblhal", "grblhall"), 'machine: post "grblhall": there is none of that name'),
                 ('settings = "none.settings"\n', "settings: none.settings"),

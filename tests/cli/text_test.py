@@ -208,8 +208,8 @@ class Text(CuspCase):
     def test_what_can_not_be_written_is_refused_in_words(self):
         (self.folder / "no.ttf").write_bytes(b"no font at all")
         for keys, words in (
-                ('text = "A"\n', "size: is missing"),
-                ('size = 4\n', "size: belongs to a text"),
+                ('text = "A"\n', "text: needs size: of text: height of its capitals"),
+                ('size = 4\n', "size: needs text"),
                 ('text = "A"\nsize = 4\nboundary = "a.dxf"\n', "one of them"),
                 ('text = "A"\nsize = 4\nat = [1]\n', "at: has 1 numbers"),
                 ('text = "A☃"\nsize = 4\n', "does not have ☃ (U+2603)"),

@@ -65,7 +65,7 @@ tool = "6mm ball"
         self.refused('units: is "cm", known are "mm", "inch"', library=self.LIBRARY.replace('"mm"', '"cm"'))
         self.refused("diameter: is missing", library=self.LIBRARY.replace("diameter = 6\n", ""))
         self.refused("feeed: unknown key; the nearest known one is feed", library=self.LIBRARY.replace("feed", "feeed"))
-        self.refused('two tools are "6mm ball"', library=self.LIBRARY.replace("3mm ball", "6mm ball"))
+        self.refused('two tools are named "6mm ball"', library=self.LIBRARY.replace("3mm ball", "6mm ball"))
         self.refused("tool: is missing: name a tool of the library", self.JOB.replace('tool = "6mm ball"\n', ""))
         self.refused('library "metal": there is none of that name', self.JOB.replace("tools.toml", "metal"))
         self.refused("has the number 2, and so has a [[tool]] of the job",
@@ -116,11 +116,11 @@ class Fixtures(PocketCase):
         self.assertIn("vice at x ", said)
 
     def test_errors(self):
-        for table, words in (("x = [0, 1]\ntop = 1\n", "fixture 1: y: is missing"),
+        for table, words in (("x = [0, 1]\ntop = 1\n", "fixture 1: x: needs y"),
                              ("x = [1, 0]\ny = [0, 1]\ntop = 1\n", "fixture 1: x: two numbers [min, max]"),
                              ("x = [0, 1]\ny = [0, 1]\n", "fixture 1: top: is missing"),
-                             ("centre = [0, 1]\ntop = 1\n", "fixture 1: diameter: is missing"),
-                             ("centre = [0, 1]\ndiameter = 2\nx = [0, 1]\ntop = 1\n", "x: is a box'"),
+                             ("centre = [0, 1]\ntop = 1\n", "fixture 1: centre: needs diameter"),
+                             ("centre = [0, 1]\ndiameter = 2\nx = [0, 1]\ntop = 1\n", "x: is given beside centre: one of them"),
                              ("center = [0, 1]\n", "center: unknown key; the nearest known one is centre")):
             self.job(more="[[fixture]]\n" + table)
             self.assertIn(words, self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))

@@ -23,13 +23,10 @@ job::Traits traits()
     return traits;
 }
 
-std::any read(const KeyValues& values, const Operation& operation, const Refuse& refuse)
+std::any read(const KeyValues& values, const Operation& operation, const Refuse&)
 {
     GridKeys keys;
     const auto grid = values.find<std::vector<double>>("grid").value_or(std::vector{0.0});
-    if (grid.empty() || grid.size() > 2) {
-        refuse("grid", "two numbers [gx, gy] are needed");
-    }
     keys.grid_x = grid.front();
     keys.grid_y = grid.back();
     for (const auto& axis : values.find<std::vector<std::string>>("zigzag").value_or(Axes{})) {
@@ -62,7 +59,7 @@ const job::Strategy kGridPocket{
     "grid_pocket",
     "what a boundary encloses, in cells of a grid, down to a floor of surfaces",
     job::surface_keys(),
-    {{"grid", Kind::kLengths, "needed", "size of a cell, `[gx, gy]`", kPositive},
+    {{"grid", Kind::kMargin, "needed", "size of a cell, `[gx, gy]`", kPositive},
      {"zigzag",
       Kind::kTexts,
       "none",

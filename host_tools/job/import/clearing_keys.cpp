@@ -2,7 +2,6 @@
 #include "host_tools/job/import/clearing_keys.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/base/elementary/elementary.hpp"
@@ -15,11 +14,9 @@ using job::Operation;
 
 void read_clearing(JobTable& table, const job::Strategy& strategy, Operation& operation)
 {
-    const auto clearing = table.choice("clearing");
-    const bool is_given = table.has("max_engagement");
     const double engagement = table.number_or_default("max_engagement");
     const double least = table.range_of("max_engagement").low;
-    if (clearing == "adaptive") {
+    if (table.choice("clearing") == "adaptive") {
         operation.passes.max_engagement = engagement;
         const double radius = operation.tool.radius;
         // Elsewhere a step over is that of the finish.
@@ -37,21 +34,13 @@ void read_clearing(JobTable& table, const job::Strategy& strategy, Operation& op
                                      *operation.passes.step_over, *operation.passes.max_engagement,
                                      radius, least));
         }
-    } else if (is_given) {
-        table.refuse("max_engagement", "needs clearing = \"adaptive\"");
     }
 }
 
-void read_chip_load(JobTable& table, double unit, Operation& operation)
+void read_chip_load(JobTable& table, Operation& operation)
 {
-    const bool wanted = table.flag_or_default("chip_load");
-    const job::ChipLoad load{table.length("feed_min", unit), table.length("feed_max", unit)};
-    for (const char* key : {"feed_min", "feed_max"}) {
-        if (!wanted && (std::string_view{key} == "feed_min" ? load.feed_min : load.feed_max)) {
-            table.refuse(key, "needs chip_load = true");
-        }
-    }
-    if (!wanted) {
+    const job::ChipLoad load{table.number("feed_min"), table.number("feed_max")};
+    if (!table.flag_or_default("chip_load")) {
         return;
     }
     const auto is_flat = [](const toolpath::Tool& tool) {

@@ -11,8 +11,6 @@ namespace cusp::import {
 void read_clearing(JobTable& table, const job::Strategy& strategy, job::Operation& operation);
 
 // chip_load, feed_min, feed_max. The tools have been read.
-//
-// unit  mm in a unit of the job
-void read_chip_load(JobTable& table, double unit, job::Operation& operation);
+void read_chip_load(JobTable& table, job::Operation& operation);
 
 }  // namespace cusp::import

@@ -33,17 +33,12 @@ bool is_excepted(const std::vector<double>& diameters, const FileLoop& loop)
 
 }  // namespace
 
-DrawingChoice read_drawing_choice(JobTable& table,
-                                  double millimetres,
-                                  const job::Operation& operation)
+DrawingChoice read_drawing_choice(JobTable& table, const job::Operation& operation)
 {
     DrawingChoice choice;
     choice.layers = table.texts("drawing_layers").value_or(choice.layers);
     choice.loops = table.choice_or_default("loops");
-    for (const double diameter :
-         table.numbers("except_diameters").value_or(std::vector<double>{})) {
-        choice.except_diameters.push_back(diameter * millimetres);
-    }
+    choice.except_diameters = table.numbers("except_diameters").value_or(std::vector<double>{});
     if (choice.loops == "open" && !operation.cuts(job::Region::kGrooves)) {
         table.refuse("loops", "\"open\" is for engrave: other strategies need closed loops");
     }

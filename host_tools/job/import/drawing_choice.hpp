@@ -27,9 +27,7 @@ struct DrawingChoice {
 };
 
 // Reads the three keys. Errors: InputError: open lines for another strategy than engrave.
-DrawingChoice read_drawing_choice(JobTable& table,
-                                  double millimetres,
-                                  const job::Operation& operation);
+DrawingChoice read_drawing_choice(JobTable& table, const job::Operation& operation);
 
 // The loops without circles of these diameters (mm), nested anew.
 std::vector<FileLoop> without_circles(const std::vector<FileLoop>& loops,

@@ -12,17 +12,13 @@ namespace cusp::import {
 
 // Those that are in the set-up, or in all.
 //
-// top          of the job
-// file         of the job, for messages
-// setup        place of the set-up among all
-// millimetres  of one unit of the job
+// top    of the job
+// setup  place of the set-up among all
 //
 // Errors: InputError with line and key.
 std::vector<job::Fixture> read_fixtures(JobTable& top,
-                                        const std::string& file,
                                         const SetupTables& setups,
-                                        std::size_t setup,
-                                        double millimetres);
+                                        std::size_t setup);
 
 // Raises the job's clearance over the highest fixture, with a note. Rapid moves go over every fixture.
 void rise_over_fixtures(job::Job& job);

@@ -57,8 +57,8 @@ std::string columns(const Rows& rows)
 // "(length above 0; 5 mm)"
 std::string value_words(const Key& key)
 {
-    std::string form =
-        key.choices.empty() ? words_of(key.kind) : fmt::format("{}", fmt::join(key.choices, " | "));
+    std::string form = key.choices.empty() ? form_of(key.kind).words
+                                           : fmt::format("{}", fmt::join(key.choices, " | "));
     if (!key.choices.empty() || key.members != nullptr) {
         // no limits
     } else if (key.range.high < job::kLargest) {

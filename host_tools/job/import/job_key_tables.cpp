@@ -98,13 +98,13 @@ const KeyTable& machine_table()
           "file with what the controller (Grbl, grblHAL, `cusp`) prints for `$$`: $30, $31, $110 "
           "to "
           "$132 take the place of keys that are absent"},
-         {"travel", Kind::kLengths, "unknown", "`[x, y, z]`: of the axes", kPositive},
-         {"max_rate", Kind::kLengths, "unknown",
+         {"travel", Kind::kThree, "unknown", "`[x, y, z]`: of the axes", kPositive},
+         {"max_rate", Kind::kThree, "unknown",
           "`[x, y, z]`, lengths a minute: feeds are at most the slower one of x and y, plunge "
           "feeds "
           "that of z",
           job::kFeedRange},
-         {"acceleration", Kind::kLengths, "unknown",
+         {"acceleration", Kind::kThree, "unknown",
           "`[x, y, z]`, lengths a second and second: for the time that a program takes", kPositive},
          {"spindle", Kind::kNumbers, "unknown", "rpm, `[least, greatest]`; 0 is always allowed",
           kNotNegative},
@@ -138,9 +138,10 @@ const KeyTable& tool_table()
          choice("shape", {"ball", "flat", "bull", "vee", "drill", "taper"},
                 "`\"taper\"`: a flat end or a ball under slanted flanks", "needed"),
          {"diameter", Kind::kLength, "needed", "of a taper at its upper end", kPositive},
-         {"corner_radius", Kind::kLength, "bull: needed",
-          "of a bull-nose end; of a taper that of a ball at its tip, in place of `tip_diameter`",
-          kPositive},
+         Key{"corner_radius", Kind::kLength, "bull: needed",
+             "of a bull-nose end; of a taper that of a ball at its tip, in place of `tip_diameter`",
+             kPositive}
+             .excluding({"tip_diameter"}),
          {"tip_angle",
           Kind::kAngle,
           "vee: needed; drill: 118",
@@ -162,13 +163,17 @@ const KeyTable& tool_table()
           {1, 20}},
          {"flute_length", Kind::kLength, "none", "of the teeth, from the tip", kPositive},
          {"length", Kind::kLength, "none", "out of the holder, from the tip", kPositive},
-         {"shank_diameter", Kind::kLength, "none",
-          "of the shank above the flutes; needs `flute_length`", kPositive},
-         {"holder", Kind::kPairs, "none",
-          "`[[diameter, length], ...]`: cylinders from the holder's lower face up; needs `length`",
-          kPositive},
-         {"holder_clearance", Kind::kLength, "0.5 mm",
-          "that the shank and the holder keep to stock, to the sides and downward", kNotNegative},
+         Key{"shank_diameter", Kind::kLength, "none",
+             "of the shank above the flutes; needs `flute_length`", kPositive}
+             .needing({"flute_length"}),
+         Key{"holder", Kind::kPairs, "none",
+             "`[[diameter, length], ...]`: cylinders from the holder's lower face up; needs "
+             "`length`",
+             kPositive}
+             .needing({"length"}),
+         Key{"holder_clearance", Kind::kLength, "0.5 mm",
+             "that the shank and the holder keep to stock, to the sides and downward", kNotNegative}
+             .needing({"shank_diameter", "holder"}),
          {"feed", Kind::kRate, "of `[cutting]`", "of this tool", kFeedRange},
          {"plunge_feed", Kind::kRate, "of `[cutting]`",
           "of this tool; a `feed` without it makes it a quarter of itself", kFeedRange},
@@ -202,22 +207,26 @@ const KeyTable& stock_table()
          {"bottom", Kind::kLength, "the parts' box", "z of the stock's bottom"},
          {"x", Kind::kExtent, "the parts' box", "of the stock, seen from above"},
          {"y", Kind::kExtent, "the parts' box", "of the stock, seen from above"},
-         {"margin", Kind::kMargin, "none",
-          "in place of `x` and `y`: how far the stock reaches beyond the parts; one number, or "
-          "`[in x, in y]`",
-          kNotNegative},
-         {"margin_top", Kind::kLength, "none", "in place of `top`: above the parts' highest place",
-          kNotNegative},
-         {"margin_bottom", Kind::kLength, "none",
-          "in place of `bottom`: below the parts' lowest place", kNotNegative},
+         Key{"margin", Kind::kMargin, "none",
+             "in place of `x` and `y`: how far the stock reaches beyond the parts; one number, or "
+             "`[in x, in y]`",
+             kNotNegative}
+             .excluding({"x", "y"}),
+         Key{"margin_top", Kind::kLength, "none",
+             "in place of `top`: above the parts' highest place", kNotNegative}
+             .excluding({"top"}),
+         Key{"margin_bottom", Kind::kLength, "none",
+             "in place of `bottom`: below the parts' lowest place", kNotNegative}
+             .excluding({"bottom"}),
          {"program", Kind::kFiles, "none",
           "program, or list of programs, that were cut before: the stock of all operations is what "
           "they leave (Rest machining, below)"},
          {"least_floor", Kind::kLength, "0.5 mm", "between the cuts of two sides (Set-ups, below)",
           kNotNegative},
-         {"outline", Kind::kText, "none",
-          "in place of `x` and `y`: the stock's outline, a drawing as `boundary` names it: "
-          "`\"bar.dxf#stock\"` (Stock of any outline, below)"}}};
+         Key{"outline", Kind::kText, "none",
+             "in place of `x` and `y`: the stock's outline, a drawing as `boundary` names it: "
+             "`\"bar.dxf#stock\"` (Stock of any outline, below)"}
+             .excluding({"x", "y", "margin"})}};
     return kTable;
 }
 
@@ -227,13 +236,15 @@ const KeyTable& placing_table()
         "placing",
         "How files lie; all optional, in the order in which they act.",
         {{"file", Kind::kFiles, "all others", "the file or files that the table is for"},
-         {"width", Kind::kLength, "of a picture: needed", "of the relief that a picture (.png) is",
-          job::kToleranceRange},
-         {"heights", Kind::kLengths, "of a picture: needed", "`[z of black, z of white]`"},
+         Key{"width", Kind::kLength, "of a picture: needed",
+             "of the relief that a picture (.png) is", job::kToleranceRange}
+             .needing({"heights"}),
+         Key{"heights", Kind::kTwo, "of a picture: needed", "`[z of black, z of white]`"}.needing(
+             {"width"}),
          {"scale", Kind::kNumber, "1", "factor", job::kScaleRange},
          choice("up", {"+x", "-x", "+y", "-y", "+z", "-z"}, "the file's axis that points up", "+z"),
          {"rotate",
-          Kind::kNumbers,
+          Kind::kTurn,
           "0",
           "degrees: about z, or `[x, y, z]`, about x first",
           {-360, 360}},
@@ -241,17 +252,23 @@ const KeyTable& placing_table()
                 "`\"top\"`: the part's top at z = 0; `\"corner\"`: also its least x and y at 0; "
                 "`\"centre\"`: also its middle in x and y at 0",
                 "the file's"),
-         {"move", Kind::kLengths, "`[0, 0, 0]`", "`[x, y, z]`"},
-         {"grid", Kind::kNumbers, "none",
-          "`[columns, rows]` of the part, the first one where all above puts it"},
-         {"pitch", Kind::kMargin, "with a `grid`: needed", "from part to part, or `[in x, in y]`"},
-         {"copies", Kind::kPairs, "none",
-          "`[[x, y], ...]`, in place of a `grid`: all places of the part, moved by these"},
-         {"copies_rotate",
-          Kind::kNumbers,
-          "0",
-          "degrees of the copies about the origin, before they are moved: one number, or one each",
-          {-360, 360}}}};
+         {"move", Kind::kThree, "`[0, 0, 0]`", "`[x, y, z]`"},
+         Key{"grid", Kind::kNumbers, "none",
+             "`[columns, rows]` of the part, the first one where all above puts it"}
+             .needing({"pitch"}),
+         Key{"pitch", Kind::kMargin, "with a `grid`: needed",
+             "from part to part, or `[in x, in y]`"}
+             .needing({"grid"}),
+         Key{"copies", Kind::kPairs, "none",
+             "`[[x, y], ...]`, in place of a `grid`: all places of the part, moved by these"}
+             .excluding({"grid"}),
+         Key{"copies_rotate",
+             Kind::kNumbers,
+             "0",
+             "degrees of the copies about the origin, before they are moved: one number, or one "
+             "each",
+             {-360, 360}}
+             .needing({"copies"})}};
     return kTable;
 }
 
@@ -261,11 +278,17 @@ const KeyTable& fixture_table()
         "fixture",
         "What holds the stock; any number of `[[fixture]]`.",
         {{"name", Kind::kText, "its place", "for messages"},
-         {"x", Kind::kExtent, "of a box: needed", "of the box, seen from above"},
-         {"y", Kind::kExtent, "of a box: needed", "of the box, seen from above"},
-         {"centre", Kind::kLengths, "of a vertical cylinder: needed", "`[x, y]`"},
-         {"diameter", Kind::kLength, "of a vertical cylinder: needed", "of the cylinder",
-          kPositive},
+         Key{"x", Kind::kExtent, "of a box: needed", "of the box, seen from above"}
+             .needing({"y"})
+             .excluding({"centre"}),
+         Key{"y", Kind::kExtent, "of a box: needed", "of the box, seen from above"}
+             .needing({"x"})
+             .excluding({"centre"}),
+         Key{"centre", Kind::kTwo, "of a vertical cylinder: needed", "`[x, y]`"}.needing(
+             {"diameter"}),
+         Key{"diameter", Kind::kLength, "of a vertical cylinder: needed", "of the cylinder",
+             kPositive}
+             .needing({"centre"}),
          {"top", Kind::kLength, "needed", "z; below it there is the fixture, down to the table"},
          {"margin", Kind::kLength, "1 mm", "that tools keep from it", kNotNegative},
          {"setup", Kind::kText, "all", "name of the set-up that it holds in"}}};

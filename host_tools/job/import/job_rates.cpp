@@ -43,29 +43,19 @@ std::optional<MachineLimit> most_of(const MachineTool& machine, const std::strin
 
 JobRates::JobRates(JobTable& top,
                    const std::filesystem::path& folder,
-                   double unit,
                    const std::string& machine,
                    JobTools& tools,
                    Job& job)
-    : unit_{unit}, tools_{tools}, job_{job}
+    : tools_{tools}, job_{job}
 {
     const auto named = top.text("machine");
-    try {
-        job_.machine = !machine.empty() ? read_machine(machine, "")
-                       : named          ? read_machine(*named, folder)
-                                        : MachineTool{};
-    } catch (const InputError& error) {
-        if (!machine.empty()) {
-            throw;
-        }
-        top.refuse("machine", error.what());
+    if (!machine.empty()) {
+        job_.machine = read_machine(machine, "");
+    } else if (named) {
+        job_.machine = top.blamed("machine", [&] { return read_machine(*named, folder); });
     }
     if (const auto name = top.text("material")) {
-        try {
-            material_ = read_material(*name, folder);
-        } catch (const InputError& error) {
-            top.refuse("material", error.what());
-        }
+        material_ = top.blamed("material", [&] { return read_material(*name, folder); });
     }
     read_cutting(top);
 }
@@ -73,11 +63,15 @@ JobRates::JobRates(JobTable& top,
 void JobRates::read_cutting(JobTable& top)
 {
     const bool needed = !tools_.has_feeds() && !material_;
-    cutting_.emplace(cutting_in(top, needed), job_.file, "cutting", cutting_table().keys);
-    job_.feed =
-        (needed ? cutting_->required_number("feed") : cutting_->number("feed").value_or(0)) * unit_;
+    cutting_.emplace(cutting_in(top, needed), job_.file, "cutting", cutting_table().keys,
+                     top.unit());
+    cutting_->check();
+    if (needed && !cutting_->has("feed")) {
+        cutting_->refuse("feed", "is missing: not all tools have one");
+    }
+    job_.feed = cutting_->number("feed").value_or(0);
     // cutter makers recommend a quarter of the feed for plunging where they give no figure
-    job_.plunge_feed = cutting_->length("plunge_feed", unit_).value_or(job_.feed / 4);
+    job_.plunge_feed = cutting_->number("plunge_feed").value_or(job_.feed / 4);
     job_.spindle = cutting_->number_or_default("spindle");
     cutting_->check_all_read();
 }
@@ -171,7 +165,7 @@ void JobRates::choose_tools(JobTable& table, Operation& operation) const
         operation.tools.push_back(operation.tool);
     }
     const auto finish = [&](Tool& tool) {
-        read_rates(table, unit_, tool);
+        read_rates(table, tool);
         fill_in(tool);
         check(table, tool);
     };
@@ -181,7 +175,7 @@ void JobRates::choose_tools(JobTable& table, Operation& operation) const
 
 void JobRates::read_load(JobTable& table, Operation& operation) const
 {
-    read_chip_load(table, unit_, operation);
+    read_chip_load(table, operation);
     if (!operation.passes.chip_load) {
         return;
     }

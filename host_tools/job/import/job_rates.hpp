@@ -18,13 +18,11 @@ public:
     //
     // top      of the job
     // folder   that the machine's path is relative to
-    // unit     mm, of the job
     // machine  file of a machine in place of the job's, relative to the current folder; "": the job's
     //
     // Throws InputError.
     JobRates(JobTable& top,
              const std::filesystem::path& folder,
-             double unit,
              const std::string& machine,
              JobTools& tools,
              job::Job& job);
@@ -45,7 +43,6 @@ private:
     double bounded(const JobTable* giver, const char* key, double value) const;
     void check(const JobTable& table, toolpath::Tool& tool) const;
 
-    double unit_;
     JobTools& tools_;
     job::Job& job_;
     std::optional<job::Material> material_;

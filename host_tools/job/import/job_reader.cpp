@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/geometry/part_model/model_intersection.hpp"
@@ -77,7 +76,6 @@ public:
     Job read(std::size_t setup, std::size_t& setups);
 
 private:
-    void read_units(JobTable& top);
     void read_operation(const toml::table& table, std::size_t index);
     std::optional<std::string> read_boundary(JobTable& table, const Operation& operation);
     std::vector<Operation> read_pockets(JobTable& table,
@@ -104,7 +102,7 @@ private:
     const Strategies& strategies_;
     std::vector<Key> all_keys_;
     PartFiles& parts_;
-    double unit_{1.0};  // mm
+    double unit_{1.0};  // mm, of the job
     Job job_;
     std::optional<JobTools> tools_;
     std::optional<JobRates> rates_;
@@ -113,25 +111,16 @@ private:
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
 };
 
-void JobReader::read_units(JobTable& top)
-{
-    job_.inch = top.choice_or_default("units") == "inch";
-    unit_ = job_.inch ? kMillimetresPerInch : 1.0;
-}
-
 void JobReader::read_common(JobTable& table, Operation& operation)
 {
-    const auto output = table.choice_or_default("output");
-    operation.output = output == "lines"  ? OutputForm::kLines
-                       : output == "arcs" ? OutputForm::kArcs
-                                          : OutputForm::kNurbs;
-    operation.tolerance.plan = table.length_or_default("plan_tolerance", unit_);
-    operation.tolerance.join_gaps = table.length("join_gaps", unit_);
-    operation.tolerance.floor = table.length_or_default("floor_tolerance", unit_);
-    operation.tolerance.side = table.choice_or_default("tolerance_side") == "both"
-                                   ? ToleranceSide::kBoth
-                                   : ToleranceSide::kOutside;
-    operation.tolerance.scallop = table.length("scallop", unit_);
+    operation.output =
+        *table.chosen("output", {OutputForm::kLines, OutputForm::kArcs, OutputForm::kNurbs});
+    operation.tolerance.plan = table.number_or_default("plan_tolerance");
+    operation.tolerance.join_gaps = table.number("join_gaps");
+    operation.tolerance.floor = table.number_or_default("floor_tolerance");
+    operation.tolerance.side =
+        *table.chosen("tolerance_side", {ToleranceSide::kOutside, ToleranceSide::kBoth});
+    operation.tolerance.scallop = table.number("scallop");
     if (operation.tolerance.scallop && operation.tolerance.side == ToleranceSide::kOutside &&
         *operation.tolerance.scallop <= operation.tolerance.floor) {
         table.refuse("scallop",
@@ -139,24 +128,20 @@ void JobReader::read_common(JobTable& table, Operation& operation)
                                  "includes; raise it or set tolerance_side = \"both\"",
                                  *operation.tolerance.scallop, operation.tolerance.floor));
     }
-    operation.passes.direction_of_cut = table.choice_or_default("direction_of_cut") == "climb"
-                                            ? CutDirection::kClimb
-                                            : CutDirection::kConventional;
-    const auto entry = table.choice_or_default("entry");
-    operation.passes.entry = entry == "auto"    ? EntryKind::kAuto
-                             : entry == "helix" ? EntryKind::kHelix
-                             : entry == "ramp"  ? EntryKind::kRamp
-                                                : EntryKind::kPlunge;
+    operation.passes.direction_of_cut =
+        *table.chosen("direction_of_cut", {CutDirection::kClimb, CutDirection::kConventional});
+    operation.passes.entry = *table.chosen(
+        "entry", {EntryKind::kAuto, EntryKind::kHelix, EntryKind::kRamp, EntryKind::kPlunge});
     operation.passes.traversal =
-        table.choice_or_default("traversal") == "zigzag" ? Traversal::kZigzag : Traversal::kOneWay;
-    operation.passes.allowance = table.length_or_default("allowance", unit_);
+        *table.chosen("traversal", {Traversal::kZigzag, Traversal::kOneWay});
+    operation.passes.allowance = table.number_or_default("allowance");
 }
 
 void JobReader::read_rest(JobTable& table, Operation& operation)
 {
     operation.rest.after = read_programs(table, "after", folder_);
     operation.may_open = table.flag_or_default("may_open");
-    operation.rest.tolerance = table.length("rest_tolerance", unit_);
+    operation.rest.tolerance = table.number("rest_tolerance");
     if (operation.rest.tolerance && operation.rest.after.empty() && job_.stock_programs.empty() &&
         !job_.setup) {
         table.refuse("rest_tolerance", "needs after, or program in [stock], or a set-up");
@@ -165,8 +150,8 @@ void JobReader::read_rest(JobTable& table, Operation& operation)
 
 void JobReader::read_depths(JobTable& table, Operation& operation)
 {
-    operation.levels.max_depth = table.length("max_depth", unit_);
-    operation.levels.min_depth = table.length("min_depth", unit_);
+    operation.levels.max_depth = table.number("max_depth");
+    operation.levels.min_depth = table.number("min_depth");
     if (operation.levels.max_depth && operation.levels.min_depth &&
         *operation.levels.min_depth > *operation.levels.max_depth) {
         table.refuse("min_depth",
@@ -175,10 +160,10 @@ void JobReader::read_depths(JobTable& table, Operation& operation)
     }
     double above = 0;
     for (const double depth : table.numbers("layers").value_or(std::vector<double>{})) {
-        if (depth * unit_ <= above) {
+        if (depth <= above) {
             table.refuse("layers", "depths below stock.top must grow from layer to layer");
         }
-        above = depth * unit_;
+        above = depth;
         operation.levels.layers.push_back(above);
     }
 }
@@ -188,9 +173,9 @@ void JobReader::read_strategy_keys(JobTable& table, const Strategy& strategy, Op
     operation.passes.roughing = table.flag_or_default("roughing");
     if (strategy.parameters != nullptr) {
         operation.parameters =
-            strategy.parameters(table.values(strategy.own, unit_), operation, refuse_in(table));
+            strategy.parameters(table.values(strategy.own), operation, refuse_in(table));
     }
-    operation.passes.step_over = table.length("step_over", unit_);
+    operation.passes.step_over = table.number("step_over");
     read_clearing(table, strategy, operation);
     rates_->read_load(table, operation);
 }
@@ -240,10 +225,8 @@ void JobReader::intersect(JobTable& table,
 
 void JobReader::read_parts(JobTable& table, const Strategy& strategy, Operation& operation)
 {
-    const std::vector<std::string> floor =
-        table.texts("floor").value_or(std::vector<std::string>{});
-    const std::vector<std::string> bodies =
-        table.texts("intersect").value_or(std::vector<std::string>{});
+    const std::vector<std::string> floor = table.all_texts("floor");
+    const std::vector<std::string> bodies = table.all_texts("intersect");
     const bool mesh = bodies.empty() && takes_mesh(strategy, floor);
     for (const std::string& name : floor) {
         operation.part.floor_files.push_back(path_of(name));
@@ -274,10 +257,7 @@ std::optional<std::string> JobReader::read_boundary(JobTable& table, const Opera
 {
     const auto file = table.text("boundary");
     const bool spells = find_key(keys_of(*operation.strategy), "text") != nullptr;
-    const auto text = spells ? read_text(table, unit_, folder_, operation, parts_) : std::nullopt;
-    if (file && text) {
-        table.refuse("text", "takes the place of boundary: one of them");
-    }
+    const auto text = spells ? read_text(table, folder_, operation, parts_) : std::nullopt;
     return text ? text : file ? std::optional{path_of(*file)} : std::nullopt;
 }
 
@@ -290,7 +270,7 @@ std::vector<Operation> JobReader::read_pockets(JobTable& table,
         return parts_.loops(file, unit_, {operation.tolerance.plan, operation.tolerance.join_gaps});
     };
     std::vector<FileLoop> islands;
-    for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
+    for (const std::string& name : table.all_texts("islands")) {
         for (const FileLoop& loop : loops_of(path_of(name))) {
             if (loop.depth == 0) {
                 islands.push_back(loop);
@@ -316,7 +296,7 @@ void JobReader::place_files(JobTable& top,
                             const std::vector<const toml::table*>& operations,
                             const std::string& outline)
 {
-    const auto placings = read_placings(top.tables("placing"), file_, folder_, unit_);
+    const auto placings = read_placings(top, folder_);
     if (parts_.is_placed()) {
         return;
     }
@@ -326,7 +306,7 @@ void JobReader::place_files(JobTable& top,
     }
     try {
         place_parts(placings, files, unit_, parts_);
-    } catch (const PlacingError& error) {
+    } catch (const PlacingError& error) {  // others name the file
         top.refuse("placing", error.what());
     }
 }
@@ -347,16 +327,16 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     operation.number = static_cast<int>(index);
     const Strategy& strategy = strategy_of(any, strategies_);
     operation.strategy = &strategy;
-    JobTable table{entry, file_, place, keys_of(strategy), all_keys_};
-    table.check_values();
+    JobTable table{entry, file_, place, keys_of(strategy), unit_, all_keys_};
+    table.check();
     table.leave({"strategy", "setup"});
     read_rest(table, operation);
     rates_->choose_tools(table, operation);
     read_common(table, operation);
     read_depths(table, operation);
     read_strategy_keys(table, strategy, operation);
-    read_prismatic_keys(table, unit_, strategy, operation);
-    const DrawingChoice choice = read_drawing_choice(table, unit_, operation);
+    read_prismatic_keys(table, strategy, operation);
+    const DrawingChoice choice = read_drawing_choice(table, operation);
     if (operation.prismatic) {
         if (table.has("floor")) {  // of an engraving
             read_parts(table, strategy, operation);
@@ -368,7 +348,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     if (operation.prismatic && !strategy.traits.pocket) {
         operation.prismatic->file = read_boundary(table, operation).value_or("");
         check_operation(strategy, operation, refuse_in(table));
-        read_drawing(table, choice, unit_, parts_, operation);
+        read_drawing(table, choice, parts_, operation);
         job_.operations.push_back(std::move(operation));
     } else {
         for (Operation& pocket : read_pockets(table, choice, std::move(operation))) {
@@ -384,29 +364,26 @@ Job JobReader::read(std::size_t setup, std::size_t& setups)
 {
     const toml::table document = parsed_toml(text_, file_);
     JobTable top{document, file_, "", job_table().keys};
-    read_units(top);
-    tools_.emplace(top, file_, folder_, unit_);
-    rates_.emplace(top, folder_, unit_, machine_, *tools_, job_);
+    top.take_unit();
+    top.check();
+    unit_ = top.unit();
+    job_.inch = top.choice_or_default("units") == "inch";
+    tools_.emplace(top, folder_);
+    rates_.emplace(top, folder_, machine_, *tools_, job_);
     const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
     const SetupTables tables{top, file_, all_keys_};
     setups = tables.all().size();
-    job_.fixtures = read_fixtures(top, file_, tables, setup, unit_);
+    job_.fixtures = read_fixtures(top, tables, setup);
     const auto named_post = top.text("post");
     const std::string post = named_post                  ? *named_post
                              : job_.machine.post.empty() ? "cusp"
                                                          : job_.machine.post;
-    try {
-        job_.post = read_post(post, folder_);
-    } catch (const InputError& error) {
-        top.refuse(named_post ? "post" : "machine", error.what());
-    }
+    job_.post =
+        top.blamed(named_post ? "post" : "machine", [&] { return read_post(post, folder_); });
     job_.group_by_tool = top.flag_or_default("group_by_tool");
     const auto operations = top.tables("operation");
     place_files(top, operations, stock.outline());
     top.check_all_read();
-    if (operations.empty()) {
-        top.refuse("operation", "is missing: at least one [[operation]]");
-    }
     tables.check_used(operations);
     stock.read_outline(parts_, job_);
     if (setups > 0) {

@@ -1,6 +1,9 @@
 // One form a kind; an operation is one of the strategies, told by its name.
 #include "host_tools/job/import/job_schema.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "host_tools/base/json_text/json_text.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
 #include "host_tools/job/job/operation_keys.hpp"
@@ -36,10 +39,14 @@ Schema number_form(const Key& key)
 
 Schema list_of(const Schema& items) { return {{"type", "array"}, {"items", items}}; }
 
-Schema pair_of(const Schema& items)
+Schema sized(Schema list, std::size_t count)
 {
-    return {{"type", "array"}, {"items", items}, {"minItems", 2}, {"maxItems", 2}};
+    list["minItems"] = count;
+    list["maxItems"] = count;
+    return list;
 }
+
+Schema pair_of(const Schema& items) { return sized(list_of(items), 2); }
 
 // A value or a list. No `anyOf`, for editors then mark the whole and not what is wrong in it: limits of
 // numbers do not apply to lists, nor those of lists to numbers.
@@ -93,8 +100,14 @@ Schema form_of(const Key& key)
         }
         case Kind::kLengths:
             return list_of(number);
+        case Kind::kTwo:
+            return sized(list_of(number), 2);
+        case Kind::kThree:
+            return sized(list_of(number), 3);
         case Kind::kNumbers:
             return one_or(number, list_of(number));
+        case Kind::kTurn:
+            return one_or(number, sized(list_of(number), 3));
         case Kind::kMargin:
         case Kind::kInterval:
             return one_or(number, pair_of(number));
@@ -118,13 +131,43 @@ Schema described(const Key& key)
 {
     Schema form = form_of(key);
     form["description"] = key.help;
-    form["x-kind"] = words_of(key.kind);
+    form["x-kind"] = job::form_of(key.kind).words;
     form["x-default"] = key.otherwise;
+    return form;
+}
+
+// A table that has the key, or has it with that value.
+Schema has(const std::string& rule)
+{
+    const std::size_t equals = rule.find(" = ");
+    const std::string name = rule.substr(0, equals);
+    Schema form{{"required", {name}}};
+    if (equals != std::string::npos) {
+        form["properties"] = {{name, {{"const", Schema::parse(rule.substr(equals + 3))}}}};
+    }
+    return form;
+}
+
+Schema has_any(const std::vector<std::string>& rules)
+{
+    Schema any = Schema::array();
+    std::transform(rules.begin(), rules.end(), std::back_inserter(any), has);
+    return {{"anyOf", any}};
+}
+
+// What the rest of the table has to have, or not, beside the key.
+Schema dependency_of(const Key& key)
+{
+    Schema form = key.needs.empty() ? Schema::object() : has_any(key.needs);
+    if (!key.excludes.empty()) {
+        form["not"] = has_any(key.excludes);
+    }
     return form;
 }
 
 Schema members_of(const std::vector<Key>& keys)
 {
+    Schema dependencies = Schema::object();
     Schema properties = Schema::object();
     Schema required = Schema::array();
     for (const Key& key : keys) {
@@ -132,10 +175,16 @@ Schema members_of(const std::vector<Key>& keys)
         if (key.otherwise == "needed") {
             required.push_back(key.name);
         }
+        if (!key.needs.empty() || !key.excludes.empty()) {
+            dependencies[key.name] = dependency_of(key);
+        }
     }
     Schema out{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
     if (!required.empty()) {
         out["required"] = required;
+    }
+    if (!dependencies.empty()) {
+        out["dependencies"] = dependencies;
     }
     return out;
 }

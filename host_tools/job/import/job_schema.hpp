@@ -8,7 +8,7 @@
 namespace cusp::import {
 
 // A JSON Schema (draft-07) of the job file, indented. `x-default`, `x-kind` and `x-strategies` are for
-// docs/job_tables.py. It takes what the reader takes, but for conditions between keys.
+// docs/job_tables.py. It takes what the reader takes, but for conditions between the values of keys.
 std::string job_schema(const job::Strategies& strategies);
 
 // The strategies, tables and single keys of a job, a line each, at most 100 characters wide.

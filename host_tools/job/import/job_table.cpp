@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "host_tools/base/input_error/input_error.hpp"
+#include "firmware/base/inch.hpp"
 #include "host_tools/job/import/job_text.hpp"
 #include "host_tools/job/import/nearest_name.hpp"
 
@@ -61,11 +61,13 @@ JobTable::JobTable(const toml::table& table,
                    std::string file,
                    std::string place,
                    std::vector<job::Key> known,
+                   double unit,
                    std::vector<job::Key> elsewhere)
     : table_{table},
       file_{std::move(file)},
       place_{std::move(place)},
       known_{std::move(known)},
+      unit_{unit},
       elsewhere_{std::move(elsewhere)}
 {
     refuse_unknown_keys();
@@ -123,19 +125,13 @@ double JobTable::checked(const toml::node& node, const char* key) const
         const std::string limit = range_in_words(range);
         refuse(key, fmt::format("is {:g}, it must be {}", *value, limit), limit);
     }
-    return *value;
+    return form_of(key_of(key).kind).has_unit ? *value * unit_ : *value;
 }
 
 std::optional<double> JobTable::number(const char* key)
 {
     const toml::node* node = find(key);
     return node == nullptr ? std::nullopt : std::optional{checked(*node, key)};
-}
-
-std::optional<double> JobTable::length(const char* key, double millimetres)
-{
-    const auto value = number(key);
-    return value ? std::optional{*value * millimetres} : std::nullopt;
 }
 
 std::optional<int> JobTable::whole_number(const char* key)
@@ -193,13 +189,13 @@ std::optional<std::string> JobTable::choice(const char* key)
     return value;
 }
 
-std::optional<std::vector<double>> JobTable::one_or_more(const char* key)
+std::optional<std::size_t> JobTable::place_among_choices(const char* key,
+                                                         const std::string& word) const
 {
-    const toml::node* node = find(key);
-    if (node != nullptr && node->is_number()) {
-        return std::vector<double>{checked(*node, key)};
-    }
-    return numbers(key);
+    const std::vector<std::string>& all = key_of(key).choices;
+    const auto found = std::find(all.begin(), all.end(), word);
+    return found == all.end() ? std::nullopt
+                              : std::optional{static_cast<std::size_t>(found - all.begin())};
 }
 
 std::optional<std::vector<double>> JobTable::numbers(const char* key)
@@ -208,25 +204,33 @@ std::optional<std::vector<double>> JobTable::numbers(const char* key)
     if (node == nullptr) {
         return std::nullopt;
     }
-    if (!node->is_array()) {
-        refuse(key, "a list of numbers is needed");
-    }
+    const job::KindForm& form = form_of(key_of(key).kind);
     std::vector<double> out;
-    for (const toml::node& entry : *node->as_array()) {
-        out.push_back(checked(entry, key));
+    if (node->is_number() && form.one_or_list) {
+        out.push_back(checked(*node, key));
+    } else if (!node->is_array()) {
+        refuse(key, "a list of numbers is needed");
+    } else {
+        for (const toml::node& entry : *node->as_array()) {
+            out.push_back(checked(entry, key));
+        }
+    }
+    const std::vector<std::size_t>& counts = form.counts;
+    if (!counts.empty() && std::find(counts.begin(), counts.end(), out.size()) == counts.end()) {
+        refuse(key, fmt::format("has {} numbers, needed: {}, {}", out.size(), form.words,
+                                key_of(key).plain_help()));
     }
     return out;
 }
 
-std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* key,
-                                                                  const char* words)
+std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* key)
 {
     const toml::node* node = find(key);
     if (node == nullptr) {
         return std::nullopt;
     }
     const auto refuse_form = [&] {
-        refuse(key, fmt::format("a list of pairs is needed: [{}, ...]", words));
+        refuse(key, fmt::format("a list of pairs is needed: {}", key_of(key).plain_help()));
     };
     if (!node->is_array()) {
         refuse_form();
@@ -244,31 +248,26 @@ std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* ke
 
 std::optional<std::array<double, 2>> JobTable::interval(const char* key)
 {
-    const toml::node* node = find(key);
-    if (node == nullptr) {
-        return std::nullopt;
-    }
-    if (!node->is_array()) {
-        const double value = checked(*node, key);
-        return std::array{value, value};
-    }
-    const std::vector<double> ends = *numbers(key);
-    if (ends.size() != 2 || ends[0] > ends[1]) {
+    const auto ends = numbers(key);
+    if (ends && (ends->empty() || ends->size() > 2 || ends->front() > ends->back())) {
         refuse(key, "a number is needed, or two: [least, greatest]");
     }
-    return std::array{ends[0], ends[1]};
+    return ends ? std::optional{std::array{ends->front(), ends->back()}} : std::nullopt;
 }
 
-std::optional<std::array<double, 2>> JobTable::extent(const char* key, double millimetres)
+std::optional<std::array<double, 2>> JobTable::extent(const char* key)
 {
     const auto ends = numbers(key);
-    if (!ends) {
-        return std::nullopt;
-    }
-    if (ends->size() != 2 || !((*ends)[0] < (*ends)[1])) {
+    if (ends && !(ends->front() < ends->back())) {
         refuse(key, "two numbers [min, max] are needed, min below max");
     }
-    return std::array{(*ends)[0] * millimetres, (*ends)[1] * millimetres};
+    return ends ? std::optional{std::array{ends->front(), ends->back()}} : std::nullopt;
+}
+
+std::optional<Vec2d> JobTable::point(const char* key)
+{
+    const auto at = numbers(key);
+    return at ? std::optional{Vec2d{(*at)[0], (*at)[1]}} : std::nullopt;
 }
 
 std::optional<std::vector<std::string>> JobTable::texts(const char* key)
@@ -322,7 +321,20 @@ JobTable JobTable::inner(const toml::table& table,
                          const char* key,
                          std::vector<job::Key> known) const
 {
-    return {table, file_, fmt::format("{}: {}", place_, key), std::move(known)};
+    JobTable members{table, file_, fmt::format("{}: {}", place_, key), std::move(known), unit_};
+    members.check();
+    return members;
+}
+
+std::vector<JobTable> JobTable::each(const char* key, const job::KeyTable& known)
+{
+    std::vector<JobTable> out;
+    for (const toml::table* const table : tables(key)) {
+        out.emplace_back(*table, file_, fmt::format("{} {}", key, out.size() + 1), known.keys,
+                         unit_);
+        out.back().check();
+    }
+    return out;
 }
 
 std::vector<const toml::table*> JobTable::tables(const char* key)
@@ -344,79 +356,103 @@ std::vector<const toml::table*> JobTable::tables(const char* key)
     return out;
 }
 
-job::KeyValues JobTable::values(const std::vector<job::Key>& keys, double millimetres)
+job::KeyValues JobTable::values(const std::vector<job::Key>& keys)
 {
     job::KeyValues out;
     for (const job::Key& key : keys) {
-        if (auto given = value(key, millimetres)) {
+        if (auto given = value(key)) {
             out.set(key.name, std::move(*given));
         }
     }
     return out;
 }
 
-void JobTable::check_values()
+void JobTable::take_unit()
 {
-    const std::set<std::string> read = read_;
-    values(known_, 1.0);
-    read_ = read;  // looked at, not used
+    unit_ = choice_or_default("units") == "inch" ? kMillimetresPerInch : 1.0;
 }
 
 // No value where the key is absent and has no default, or where it is a table or a tool.
-std::optional<job::KeyValues::Value> JobTable::value(const job::Key& key, double millimetres)
+std::optional<job::KeyValues::Value> JobTable::value(const job::Key& key)
 {
     using Value = std::optional<job::KeyValues::Value>;
     const char* const name = key.name.c_str();
-    const auto list = [](std::optional<std::vector<double>> numbers, double unit) -> Value {
-        for (std::size_t i = 0; numbers && i < numbers->size(); ++i) {
-            (*numbers)[i] *= unit;
-        }
-        return numbers ? Value{std::move(*numbers)} : std::nullopt;
-    };
-    const auto number_or_none = [&](double unit) -> Value {
-        const auto given = length(name, unit);
-        return given                        ? Value{*given}
-               : key.has_number_otherwise() ? Value{key.number_otherwise()}
-                                            : std::nullopt;
+    const auto wrapped = [](auto given) -> Value {
+        return given ? Value{std::move(*given)} : std::nullopt;
     };
     switch (key.kind) {
-        case job::KeyKind::kLength:
-        case job::KeyKind::kRate:
-            return number_or_none(millimetres);
         case job::KeyKind::kCount:
             whole_number(name);
-            return number_or_none(1.0);
+            [[fallthrough]];
+        case job::KeyKind::kLength:
+        case job::KeyKind::kRate:
         case job::KeyKind::kNumber:
-        case job::KeyKind::kAngle:
-            return number_or_none(1.0);
+        case job::KeyKind::kAngle: {
+            const auto given = number(name);
+            return !given && key.has_number_otherwise() ? Value{key.number_otherwise()}
+                                                        : wrapped(given);
+        }
         case job::KeyKind::kFlag:
             return flag_or_default(name);
-        case job::KeyKind::kText: {
-            auto given = text(name);
-            return given ? Value{std::move(*given)} : std::nullopt;
-        }
+        case job::KeyKind::kText:
+            return wrapped(text(name));
         case job::KeyKind::kChoice:
             return choice_or_default(name);
         case job::KeyKind::kFiles:
-        case job::KeyKind::kTexts: {
-            auto given = texts(name);
-            return given ? Value{std::move(*given)} : std::nullopt;
-        }
-        case job::KeyKind::kLengths:
-        case job::KeyKind::kMargin:
-        case job::KeyKind::kInterval:
+        case job::KeyKind::kTexts:
+            return wrapped(texts(name));
         case job::KeyKind::kExtent:
-            return list(one_or_more(name), millimetres);
+            extent(name);
+            return wrapped(numbers(name));
+        case job::KeyKind::kInterval:
+            interval(name);
+            return wrapped(numbers(name));
+        case job::KeyKind::kLengths:
+        case job::KeyKind::kTwo:
+        case job::KeyKind::kThree:
+        case job::KeyKind::kTurn:
+        case job::KeyKind::kMargin:
         case job::KeyKind::kNumbers:
-            return list(one_or_more(name), 1.0);
+            return wrapped(numbers(name));
         case job::KeyKind::kPairs:
+            pairs(name);
+            break;
         case job::KeyKind::kTool:
+            is_text(name) ? static_cast<void>(text(name)) : static_cast<void>(whole_number(name));
+            break;
         case job::KeyKind::kTools:
+            is_text(name) ? static_cast<void>(texts(name)) : static_cast<void>(numbers(name));
+            break;
         case job::KeyKind::kTable:
+            table(name);
+            break;
         case job::KeyKind::kTables:
+            tables(name);
             break;
     }
     return std::nullopt;
+}
+
+double JobTable::number_or_default(const char* key)
+{
+    const auto value = number(key);
+    return value ? *value : key_of(key).number_otherwise();
+}
+
+int JobTable::whole_number_or_default(const char* key)
+{
+    const auto value = whole_number(key);
+    return value ? *value : static_cast<int>(key_of(key).number_otherwise());
+}
+
+bool JobTable::flag_or_default(const char* key)
+{
+    return flag(key).value_or(key_of(key).otherwise == "true");
+}
+
+std::string JobTable::choice_or_default(const char* key)
+{
+    return choice(key).value_or(key_of(key).otherwise);
 }
 
 void JobTable::refuse_unknown_keys() const

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/base/inch.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/job/import/data_file.hpp"
@@ -26,36 +25,35 @@ namespace fs = std::filesystem;
 constexpr DataKind kLibraries{"library", "tool_libraries", "wood"};
 constexpr std::size_t kNearest = 3;
 
-JobTable table_of_tool(const toml::table& table, const std::string& file, std::size_t index)
-{
-    return {table, file, fmt::format("tool {}", index), tool_table().keys};
-}
-
 }  // namespace
 
-JobTools::JobTools(JobTable& top, const std::string& file, const fs::path& folder, double unit)
+JobTools::JobTools(JobTable& top, const fs::path& folder)
 {
-    const auto tables = top.tables("tool");
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        const ReadTool read = read_tool(*tables[i], file, i + 1, unit);
-        for (const Entry& other : own_) {
-            if (other.read.tool.number == read.tool.number) {
-                top.refuse("tool", fmt::format("two tools have the number {}", read.tool.number));
-            }
-            if (!read.facts.name.empty() && other.read.facts.name == read.facts.name) {
-                top.refuse("tool", fmt::format("two tools are named \"{}\"", read.facts.name));
-            }
-        }
-        own_.push_back({read, true, table_of_tool(*tables[i], file, i + 1)});
+    read_tables(top, own_);
+    for (Entry& entry : own_) {
+        entry.used = true;
     }
     if (const auto library = top.text("library")) {
-        try {
-            read_library(*library, folder);
-        } catch (const InputError& error) {
-            top.refuse("library", error.what());
-        }
+        top.blamed("library", [&] { read_library(*library, folder); });
     } else if (own_.empty()) {
         top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
+    }
+}
+
+void JobTools::read_tables(JobTable& top, std::vector<Entry>& entries)
+{
+    for (JobTable& keys : top.each("tool", tool_table())) {
+        const ReadTool read = read_tool(keys, entries.size() + 1);
+        for (const Entry& other : entries) {
+            if (!read.facts.name.empty() && other.read.facts.name == read.facts.name) {
+                keys.refuse("name", fmt::format("two tools are named \"{}\"", read.facts.name));
+            }
+            if (other.read.tool.number == read.tool.number) {
+                keys.refuse("number",
+                            fmt::format("two tools have the number {}", read.tool.number));
+            }
+        }
+        entries.push_back({read, false, keys});
     }
 }
 
@@ -64,31 +62,13 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
     library_file_ = data_file(kLibraries, name, folder).string();
     library_document_ = parsed_toml(files::text_of_file(library_file_), library_file_);
     JobTable top{library_document_, library_file_, "", library_table().keys};
-    const auto units = top.choice("units");
-    if (!units) {
-        top.refuse("units", "is missing: \"mm\" or \"inch\", of the library's lengths and feeds");
-    }
-    const auto tables = top.tables("tool");
-    if (tables.empty()) {
-        top.refuse("tool", "is missing: several [[tool]]");
-    }
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        const ReadTool read = read_tool(*tables[i], library_file_, i + 1,
-                                        *units == "inch" ? kMillimetresPerInch : 1.0);
-        const JobTable place = table_of_tool(*tables[i], library_file_, i + 1);
-        if (read.facts.name.empty()) {
-            place.refuse("name", "is missing: operations name the tools of a library");
+    top.take_unit();
+    top.check();
+    read_tables(top, library_);
+    for (const Entry& entry : library_) {
+        if (entry.read.facts.name.empty()) {
+            entry.table.refuse("name", "is missing: operations name the tools of a library");
         }
-        for (const Entry& other : library_) {
-            if (other.read.facts.name == read.facts.name) {
-                place.refuse("name", fmt::format("two tools are \"{}\"", read.facts.name));
-            }
-            if (other.read.tool.number == read.tool.number) {
-                place.refuse("number", fmt::format("tool \"{}\" has the number {} too",
-                                                   other.read.facts.name, read.tool.number));
-            }
-        }
-        library_.push_back({read, false, place});
     }
 }
 
@@ -179,8 +159,7 @@ std::vector<Tool> JobTools::tools(JobTable& table)
         tools.push_back(tool);
     };
     if (table.is_text(kKey)) {
-        const std::vector<std::string> names = table.texts(kKey).value();
-        for (const std::string& name : names) {
+        for (const std::string& name : table.all_texts(kKey)) {
             add(by_name(table, kKey, name));
         }
         return tools;

@@ -14,15 +14,10 @@ namespace cusp::import {
 class JobTools {
 public:
     // top     of the job: its keys tool and library are read
-    // file    of the job, for messages
     // folder  that the library's path is relative to
-    // unit    mm, of the job
     //
     // Throws InputError where there is no tool, or a library can't be read.
-    JobTools(JobTable& top,
-             const std::string& file,
-             const std::filesystem::path& folder,
-             double unit);
+    JobTools(JobTable& top, const std::filesystem::path& folder);
 
     // True if every tool has a feed of its own.
     bool has_feeds() const;
@@ -47,6 +42,7 @@ private:
         bool used;
         JobTable table;
     };
+    static void read_tables(JobTable& top, std::vector<Entry>& entries);
     void read_library(const std::string& name, const std::filesystem::path& folder);
     const Entry& chosen(int number) const;
     Entry& by_number(const JobTable& table, const char* key, int number);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <sstream>
 
-#include "firmware/base/inch.hpp"
 #include "host_tools/base/files/files.hpp"
 #include "host_tools/base/input_error/input_error.hpp"
 #include "host_tools/base/number_text/number_text.hpp"
@@ -100,19 +99,17 @@ public:
     MachineTool read()
     {
         const fs::path folder = fs::path{file_}.parent_path();
-        const double unit = table_.choice_or_default("units") == "inch" ? kMillimetresPerInch : 1.0;
+        table_.take_unit();
+        table_.check();
         if (const auto settings = table_.text("settings")) {
-            try {
-                read_controller((folder / *settings).string(), machine_);
-            } catch (const InputError& error) {
-                table_.refuse("settings", error.what());
-            }
+            table_.blamed("settings",
+                          [&] { read_controller((folder / *settings).string(), machine_); });
         }
         machine_.file = file_;
         machine_.name = table_.text("name").value_or("");
-        take("travel", unit, machine_.travel);
-        take("max_rate", unit, machine_.max_rate);
-        take("acceleration", unit, machine_.acceleration);
+        take("travel", machine_.travel);
+        take("max_rate", machine_.max_rate);
+        take("acceleration", machine_.acceleration);
         take_spindle();
         machine_.post = table_.text("post").value_or("");
         if (path_ending(machine_.post) == ".toml") {
@@ -128,18 +125,11 @@ private:
         return {value, table_.place_of(key)};
     }
 
-    void take(const char* key, double unit, AxisValues& values)
+    void take(const char* key, AxisValues& values)
     {
         const auto numbers = table_.numbers(key);
-        if (!numbers) {
-            return;
-        }
-        if (numbers->size() != values.size()) {
-            table_.refuse(key, fmt::format("has {} numbers, those of x, y and z are needed",
-                                           numbers->size()));
-        }
-        for (std::size_t axis = 0; axis < values.size(); ++axis) {
-            values[axis] = limit(key, (*numbers)[axis] * unit);
+        for (std::size_t axis = 0; numbers && axis < values.size(); ++axis) {
+            values[axis] = limit(key, (*numbers)[axis]);
         }
     }
 

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 OfDiameter read_table(JobTable& table, const char* key)
 {
-    const auto pairs = table.pairs(key, "[diameter, value]");
-    if (!pairs || pairs->empty()) {
+    const auto pairs = table.pairs(key);
+    if (pairs->empty()) {
         table.refuse(key, "is missing: [[diameter, value], ...]");
     }
     for (std::size_t k = 1; k < pairs->size(); ++k) {
@@ -41,12 +41,13 @@ Material read_material(const std::string& name, const fs::path& folder)
         data_file({"material", "materials", "aluminium"}, name, folder).string();
     const toml::table document = parsed_toml(files::text_of_file(file), file);
     JobTable table{document, file, "", material_table().keys};
+    table.check();
     Material material;
     material.name = fs::path{file}.stem().string();
-    material.source = table.required_text("source");
-    material.surface_speed = table.required_number("surface_speed");
+    material.source = table.text("source").value();
+    material.surface_speed = table.number("surface_speed").value();
     material.chip = read_table(table, "chip");
-    material.drill_speed = table.required_number("drill_speed");
+    material.drill_speed = table.number("drill_speed").value();
     material.drill_feed = read_table(table, "drill_feed");
     table.check_all_read();
     return material;

@@ -16,62 +16,29 @@ namespace {
 // One number turns about z, three about x, y and z.
 Vec3d read_turn(JobTable& keys)
 {
-    const auto turn = keys.one_or_more("rotate");
-    if (!turn) {
-        return {};
-    }
-    if (turn->size() == 1) {
-        return {0, 0, turn->front()};
-    }
-    if (turn->size() != 3) {
-        keys.refuse("rotate",
-                    fmt::format("has {} numbers: degrees about z, or [x, y, z]", turn->size()));
-    }
-    return {(*turn)[0], (*turn)[1], (*turn)[2]};
+    const auto turn = keys.numbers("rotate");
+    return !turn               ? Vec3d{}
+           : turn->size() == 1 ? Vec3d{0, 0, turn->front()}
+                               : Vec3d{(*turn)[0], (*turn)[1], (*turn)[2]};
 }
 
-Vec3d read_move(JobTable& keys, double millimetres)
-{
-    const auto move = keys.numbers("move");
-    if (!move) {
-        return {};
-    }
-    if (move->size() != 3) {
-        keys.refuse("move", fmt::format("has {} numbers, [x, y, z] is needed", move->size()));
-    }
-    return millimetres * Vec3d{(*move)[0], (*move)[1], (*move)[2]};
-}
-
-std::optional<ReliefSize> read_relief_size(JobTable& keys, double millimetres)
+std::optional<ReliefSize> read_relief_size(JobTable& keys)
 {
     const auto width = keys.number("width");
-    const auto heights = keys.numbers("heights");
-    if (!width && !heights) {
-        return std::nullopt;
-    }
-    if (!width || !heights || heights->size() != 2) {
-        keys.refuse(width ? "heights" : "width",
-                    "a picture needs its width and two heights: width = 80, "
-                    "heights = [-6, 0] of black and of white");
-    }
-    return ReliefSize{millimetres * *width, millimetres * (*heights)[0],
-                      millimetres * (*heights)[1]};
+    const auto heights = keys.point("heights");
+    return width ? std::optional{ReliefSize{*width, heights->x, heights->y}} : std::nullopt;
 }
 
 // A grid of columns and rows, `pitch` apart.
-std::vector<CopyPlace> read_grid(JobTable& keys, double millimetres)
+std::vector<CopyPlace> read_grid(JobTable& keys)
 {
     const auto grid = keys.numbers("grid");
-    const auto pitch = keys.one_or_more("pitch");
-    if (!grid && !pitch) {
+    const auto pitch = keys.numbers("pitch");
+    if (!grid) {
         return {};
     }
-    if (!grid || !pitch) {
-        keys.refuse(grid ? "grid" : "pitch", "a grid needs both grid and pitch");
-    }
-    if (grid->size() != 2 || pitch->empty() || pitch->size() > 2) {
-        keys.refuse(grid->size() != 2 ? "grid" : "pitch",
-                    "[columns, rows] are needed, and one distance or [in x, in y]");
+    if (grid->size() != 2) {
+        keys.refuse("grid", "[columns, rows] are needed");
     }
     for (const double count : *grid) {
         if (count < 1 || count != std::floor(count) || (*grid)[0] * (*grid)[1] > kMostPlaces) {
@@ -84,26 +51,19 @@ std::vector<CopyPlace> read_grid(JobTable& keys, double millimetres)
     std::vector<CopyPlace> places;
     for (int row = 0; row < static_cast<int>((*grid)[1]); ++row) {
         for (int column = 0; column < static_cast<int>((*grid)[0]); ++column) {
-            places.push_back(
-                {millimetres * Vec2d{column * pitch->front(), row * pitch->back()}, 0});
+            places.push_back({Vec2d{column * pitch->front(), row * pitch->back()}, 0});
         }
     }
     return places;
 }
 
-std::vector<CopyPlace> read_copies(JobTable& keys, double millimetres)
+std::vector<CopyPlace> read_copies(JobTable& keys)
 {
-    const auto turns = keys.one_or_more("copies_rotate");
-    const auto given = keys.pairs("copies", "[x, y]");
-    std::vector<CopyPlace> places = read_grid(keys, millimetres);
-    if (turns && !given) {
-        keys.refuse("copies_rotate", "needs copies");
-    }
+    const auto turns = keys.numbers("copies_rotate");
+    const auto given = keys.pairs("copies");
+    std::vector<CopyPlace> places = read_grid(keys);
     if (!given) {
         return places;
-    }
-    if (!places.empty()) {
-        keys.refuse("copies", "a placing has copies or a grid, not both");
     }
     if (given->empty() || given->size() > static_cast<std::size_t>(kMostPlaces)) {
         keys.refuse("copies",
@@ -116,7 +76,7 @@ std::vector<CopyPlace> read_copies(JobTable& keys, double millimetres)
     }
     for (std::size_t i = 0; i < given->size(); ++i) {
         const double degrees = !turns ? 0.0 : turns->size() == 1 ? turns->front() : (*turns)[i];
-        places.push_back({millimetres * Vec2d{(*given)[i][0], (*given)[i][1]}, degrees});
+        places.push_back({Vec2d{(*given)[i][0], (*given)[i][1]}, degrees});
     }
     return places;
 }
@@ -152,26 +112,23 @@ std::string path_in(const std::filesystem::path& folder, const std::string& name
     return std::filesystem::path{name}.is_absolute() ? name : (folder / name).string();
 }
 
-std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables,
-                                   const std::string& file,
-                                   const std::filesystem::path& folder,
-                                   double millimetres)
+std::vector<Placing> read_placings(JobTable& top, const std::filesystem::path& folder)
 {
     std::vector<Placing> placings;
-    for (const toml::table* const table : tables) {
-        JobTable keys{*table, file, fmt::format("placing {}", placings.size() + 1),
-                      placing_table().keys};
+    for (JobTable& keys : top.each("placing", placing_table())) {
         Placing placing;
-        for (const std::string& name : keys.texts("file").value_or(std::vector<std::string>{})) {
+        for (const std::string& name : keys.all_texts("file")) {
             placing.files.push_back(path_in(folder, name));
         }
-        placing.relief = read_relief_size(keys, millimetres);
+        placing.relief = read_relief_size(keys);
         placing.scale = keys.number_or_default("scale");
         placing.up = keys.choice_or_default("up");
         placing.rotate = read_turn(keys);
         placing.origin = keys.choice("origin").value_or("");
-        placing.move = read_move(keys, millimetres);
-        placing.copies = read_copies(keys, millimetres);
+        if (const auto move = keys.numbers("move")) {
+            placing.move = {(*move)[0], (*move)[1], (*move)[2]};
+        }
+        placing.copies = read_copies(keys);
         keys.check_all_read();
         placings.push_back(placing);
     }

@@ -10,15 +10,11 @@
 
 namespace cusp::import {
 
-// file         of the job, for messages
-// folder       that paths in it are relative to
-// millimetres  of one unit of the job
+// top     of the job
+// folder  that paths in it are relative to
 //
 // Errors: InputError with line and key.
-std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables,
-                                   const std::string& file,
-                                   const std::filesystem::path& folder,
-                                   double millimetres);
+std::vector<Placing> read_placings(JobTable& top, const std::filesystem::path& folder);
 
 // The files that the operations name, even of operations that are invalid otherwise.
 PlacedFiles files_of_operations(const std::vector<const toml::table*>& operations,

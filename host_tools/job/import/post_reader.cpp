@@ -81,31 +81,22 @@ void check_line(const JobTable& table, const LineKey& key, const std::string& li
 Post post_of(const toml::table& document, const std::string& file, const std::string& name)
 {
     JobTable table{document, file, "", post_table().keys};
+    table.check();
     Post post;
     post.name = name;
     post.about = table.text("about").value_or("a controller of its own file");
-    post.mm_decimals = table.whole_number("mm_decimals").value_or(0);
-    post.inch_decimals = table.whole_number("inch_decimals").value_or(0);
-    if (post.mm_decimals == 0 || post.inch_decimals == 0) {
-        table.refuse(post.mm_decimals == 0 ? "mm_decimals" : "inch_decimals", "is missing");
-    }
-    const auto arcs = table.choice("arcs");
-    const auto comments = table.choice("comments");
-    if (!arcs || !comments) {
-        table.refuse(arcs ? "comments" : "arcs", arcs ? "is missing: \"()\", \";\" or \"none\""
-                                                      : "is missing: \"IJ\", \"R\" or \"none\"");
-    }
-    post.arcs = *arcs == "R" ? ArcForm::kRadius : *arcs == "IJ" ? ArcForm::kCentre : ArcForm::kNone;
-    post.comments = *comments == "()"  ? CommentForm::kParentheses
-                    : *comments == ";" ? CommentForm::kSemicolon
-                                       : CommentForm::kNone;
-    post.nurbs = table.required_flag("nurbs");
+    post.mm_decimals = table.whole_number("mm_decimals").value();
+    post.inch_decimals = table.whole_number("inch_decimals").value();
+    post.arcs = *table.chosen("arcs", {ArcForm::kCentre, ArcForm::kRadius, ArcForm::kNone});
+    post.comments = *table.chosen(
+        "comments", {CommentForm::kParentheses, CommentForm::kSemicolon, CommentForm::kNone});
+    post.nurbs = table.flag("nurbs").value();
     post.drill_cycles = table.flag_or_default("drill_cycles");
-    post.point = table.required_flag("point");
+    post.point = table.flag("point").value();
     post.rapid_feed = table.number_or_default("rapid_feed");
     post.line_numbers = table.whole_number_or_default("line_numbers");
     for (const LineKey& key : line_keys()) {
-        post.*key.lines = table.required_texts(key.key);
+        post.*key.lines = table.all_texts(key.key);
         for (const std::string& line : post.*key.lines) {
             check_line(table, key, line);
         }
@@ -119,10 +110,6 @@ Post post_in(const fs::path& file, const std::string& name)
     const toml::table document = parsed_toml(files::text_of_file(file.string()), file.string());
     return post_of(document, file.string(), name);
 }
-
-}  // namespace
-
-namespace {
 
 // "T M6, G43 H" of the words that the lines hold, in their order.
 std::string words_among(const std::vector<std::string>& words,

@@ -38,7 +38,7 @@ using toolpath::Tool;
 
 namespace {
 
-Tabs read_tabs(JobTable& keys, double unit)
+Tabs read_tabs(JobTable& keys)
 {
     Tabs tabs;
     tabs.count = keys.whole_number("count").value_or(0);
@@ -47,13 +47,13 @@ Tabs read_tabs(JobTable& keys, double unit)
         keys.refuse("places", "an even count of numbers is needed: [x, y, x, y]");
     }
     for (std::size_t i = 0; places && i < places->size(); i += 2) {
-        tabs.places.push_back({(*places)[i] * unit, (*places)[i + 1] * unit});
+        tabs.places.push_back({(*places)[i], (*places)[i + 1]});
     }
-    if ((tabs.count > 0) == places.has_value()) {
+    if (tabs.count == 0 && !places) {
         keys.refuse("count", "either count or places is needed, such as count = 4");
     }
-    tabs.width = keys.required_number("width") * unit;
-    tabs.height = keys.required_number("height") * unit;
+    tabs.width = keys.number("width").value();
+    tabs.height = keys.number("height").value();
     tabs.ramped = keys.choice_or_default("shape") == "ramp";
     keys.check_all_read();
     return tabs;
@@ -69,7 +69,7 @@ void choose_pocket_tolerances(JobTable& table, Operation& operation)
     if (!operation.tolerance.scallop) {
         operation.tolerance.default_scallop = true;
         operation.tolerance.scallop = operation.tool.corner_radius > 0
-                                          ? table.length_or_default("scallop", 1.0)
+                                          ? table.number_or_default("scallop")
                                           : 2 * operation.tolerance.floor;
     }
 }
@@ -280,14 +280,11 @@ nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
 }  // namespace
 
 // Over 60 lines: one key after the other.
-void read_prismatic_keys(JobTable& table,
-                         double unit,
-                         const job::Strategy& strategy,
-                         Operation& operation)
+void read_prismatic_keys(JobTable& table, const job::Strategy& strategy, Operation& operation)
 {
     Prismatic cut;
-    const auto depth = table.length("depth", unit);
-    cut.given_top = table.length("top", unit);
+    const auto depth = table.number("depth");
+    cut.given_top = table.number("top");
     const std::string side = table.choice_or_default("side");
     // as a loop that runs counter-clockwise has its inside on the left
     cut.side = side == "outside" || side == "right" ? ProfileSide::kOutside
@@ -295,17 +292,15 @@ void read_prismatic_keys(JobTable& table,
                                                     : ProfileSide::kOn;
     if (const toml::table* tabs = table.inline_table("tabs")) {
         JobTable keys = table.inner(*tabs, "tabs", job::tabs_table().keys);
-        cut.tabs = read_tabs(keys, unit);
+        cut.tabs = read_tabs(keys);
     }
-    cut.lead_in = table.length("lead_in", unit);
-    cut.lead_out = table.length("lead_out", unit);
-    cut.peck = table.length("peck", unit);
-    cut.countersink = table.length("countersink", unit);
-    cut.overhang = table.length("overhang", unit);
-    const auto width = table.length("width", unit);
-    if (const auto wanted = table.interval("diameter")) {
-        cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
-    }
+    cut.lead_in = table.number("lead_in");
+    cut.lead_out = table.number("lead_out");
+    cut.peck = table.number("peck");
+    cut.countersink = table.number("countersink");
+    cut.overhang = table.number("overhang");
+    const auto width = table.number("width");
+    cut.diameters = table.interval("diameter");
     if (!strategy.is_prismatic()) {
         return;
     }
@@ -317,7 +312,7 @@ void read_prismatic_keys(JobTable& table,
         cut.depth = cut.width * slope;
     } else if (operation.cuts(job::Region::kValleys)) {
         cut.depth = depth.value_or(job::flank_height(operation.tool));
-        operation.tolerance.scallop = table.length_or_default("scallop", unit);
+        operation.tolerance.scallop = table.number_or_default("scallop");
     }
     operation.prismatic = cut;
     if (operation.cuts(job::Region::kLevelPocket)) {
@@ -349,10 +344,10 @@ void read_reliefs(JobTable& table, PartFiles& parts, Operation& operation)
 
 void read_drawing(JobTable& table,
                   const DrawingChoice& choice,
-                  double unit,
                   PartFiles& parts,
                   Operation& operation)
 {
+    const double unit = table.unit();
     Prismatic& cut = *operation.prismatic;
     const std::string& file = cut.file;
     const EndDistance gaps{operation.tolerance.plan, operation.tolerance.join_gaps};

@@ -13,13 +13,8 @@ namespace cusp::import {
 
 // Reads the keys; the operation has `prismatic` afterwards where its strategy is one of them.
 //
-// millimetres  of one unit of the job
-//
 // Errors: InputError with the line: values out of range, keys that the strategy needs and lacks.
-void read_prismatic_keys(JobTable& table,
-                         double millimetres,
-                         const job::Strategy& strategy,
-                         job::Operation& operation);
+void read_prismatic_keys(JobTable& table, const job::Strategy& strategy, job::Operation& operation);
 
 // Reads the drawing, `prismatic->file`, that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
 //
@@ -29,7 +24,6 @@ void read_prismatic_keys(JobTable& table,
 // than the tool.
 void read_drawing(JobTable& table,
                   const DrawingChoice& choice,
-                  double millimetres,
                   PartFiles& parts,
                   job::Operation& operation);
 

@@ -31,7 +31,7 @@ bool is_plain(const std::string& name)
 Setup read_setup(JobTable& keys, std::size_t index)
 {
     Setup setup;
-    setup.name = keys.required_text("name");
+    setup.name = keys.text("name").value();
     if (!is_plain(setup.name)) {
         keys.refuse("name",
                     fmt::format("is \"{}\": letters, digits, _ and - only, for it is part of the "
@@ -41,8 +41,7 @@ Setup read_setup(JobTable& keys, std::size_t index)
     const int by_place = std::min(kFirstOffset + static_cast<int>(index), kLastOffset);
     const std::string offset = keys.choice("offset").value_or(fmt::format("G{}", by_place));
     setup.offset = std::stoi(offset.substr(1));
-    const auto flip = keys.choice("flip");
-    setup.flip = !flip ? Flip::kNone : *flip == "x" ? Flip::kX : Flip::kY;
+    setup.flip = keys.chosen("flip", {Flip::kX, Flip::kY}).value_or(Flip::kNone);
     return setup;
 }
 
@@ -53,9 +52,7 @@ SetupTables::SetupTables(JobTable& top,
                          const std::vector<job::Key>& operation_keys)
     : file_{file}, operation_keys_{operation_keys}
 {
-    for (const toml::table* table : top.tables("setup")) {
-        JobTable keys{*table, file, fmt::format("setup {}", setups_.size() + 1),
-                      setup_table().keys};
+    for (JobTable& keys : top.each("setup", setup_table())) {
         const Setup setup = read_setup(keys, setups_.size());
         for (const Setup& other : setups_) {
             if (other.name == setup.name) {

@@ -23,12 +23,6 @@ namespace {
 constexpr double kOutlineGap = 0.02;  // mm: between ends of curves, that is closed
 const toml::table kNoStock;
 
-std::string path_of_text(JobTable& keys, const char* key, const std::filesystem::path& folder)
-{
-    const auto name = keys.text(key);
-    return name ? path_in(folder, *name) : "";
-}
-
 // Beside the middle of each side of a counter-clockwise polyline, inside.
 std::vector<Vec2d> places_inside(const std::vector<Vec2d>& closed)
 {
@@ -76,7 +70,7 @@ std::vector<std::string> read_programs(JobTable& table,
 {
     std::vector<std::string> programs;
     const auto names = table.texts(key);
-    for (const std::string& name : names.value_or(std::vector<std::string>{})) {
+    for (const std::string& name : table.all_texts(key)) {
         programs.push_back(path_in(folder, name));
         if (!files::is_file(programs.back())) {
             table.refuse(key, fmt::format("names {}, which is no file", programs.back()));
@@ -93,47 +87,26 @@ StockTable::StockTable(const toml::table* table,
                        const std::filesystem::path& folder,
                        double millimetres,
                        Job& job)
-    : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_table().keys},
-      unit_{millimetres}
+    : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_table().keys, millimetres}
 {
-    top_ = keys_.length("top", unit_);
+    keys_.check();
+    top_ = keys_.number("top");
     job.stock_top = top_.value_or(0.0);
-    job.clearance = keys_.length_or_default("clearance", unit_);
-    job.stock_bottom = keys_.length("bottom", unit_);
-    job.least_floor = keys_.length_or_default("least_floor", unit_);
-    job.stock_x = keys_.extent("x", unit_);
-    job.stock_y = keys_.extent("y", unit_);
-    outline_ = path_of_text(keys_, "outline", folder);
-    read_margin();
-    margin_top_ = keys_.length("margin_top", unit_);
-    margin_bottom_ = keys_.length("margin_bottom", unit_);
+    job.clearance = keys_.number_or_default("clearance");
+    job.stock_bottom = keys_.number("bottom");
+    job.least_floor = keys_.number_or_default("least_floor");
+    job.stock_x = keys_.extent("x");
+    job.stock_y = keys_.extent("y");
+    if (const auto outline = keys_.text("outline")) {
+        outline_ = path_in(folder, *outline);
+    }
+    if (const auto margin = keys_.numbers("margin")) {
+        margin_ = std::array{margin->front(), margin->back()};
+    }
+    margin_top_ = keys_.number("margin_top");
+    margin_bottom_ = keys_.number("margin_bottom");
     job.stock_programs = read_programs(keys_, "program", folder);
-    const auto refuse_both = [&](bool both, const char* margin, const char* place) {
-        if (both) {
-            keys_.refuse(margin, fmt::format("is given beside {}: one of them", place));
-        }
-    };
-    refuse_both(!outline_.empty() && job.stock_x, "outline", "x");
-    refuse_both(!outline_.empty() && job.stock_y, "outline", "y");
-    refuse_both(!outline_.empty() && margin_, "outline", "margin");
-    refuse_both(margin_ && job.stock_x, "margin", "x");
-    refuse_both(margin_ && job.stock_y, "margin", "y");
-    refuse_both(margin_top_ && top_, "margin_top", "top");
-    refuse_both(margin_bottom_ && job.stock_bottom, "margin_bottom", "bottom");
     keys_.check_all_read();
-}
-
-void StockTable::read_margin()
-{
-    const auto values = keys_.one_or_more("margin");
-    if (!values) {
-        return;
-    }
-    if (values->empty() || values->size() > 2) {
-        keys_.refuse("margin", fmt::format("has {} numbers: one for all sides, or [in x, in y]",
-                                           values->size()));
-    }
-    margin_ = std::array{values->front() * unit_, values->back() * unit_};
 }
 
 void StockTable::read_outline(PartFiles& parts, Job& job) const
@@ -141,12 +114,9 @@ void StockTable::read_outline(PartFiles& parts, Job& job) const
     if (outline_.empty()) {
         return;
     }
-    std::vector<FileLoop> loops;
-    try {
-        loops = parts.loops(outline_, unit_, {kOutlineGap, std::nullopt});
-    } catch (const InputError& error) {
-        keys_.refuse("outline", error.what());
-    }
+    const std::vector<FileLoop> loops = keys_.blamed("outline", [&] {
+        return parts.loops(outline_, keys_.unit(), {kOutlineGap, std::nullopt});
+    });
     job.stock_outline.clear();
     for (const FileLoop& loop : loops) {
         if (loop.depth > 1 || (loop.depth == 0) != job.stock_outline.empty()) {

@@ -52,13 +52,11 @@ public:
     bool has_top() const { return top_.has_value(); }
 
 private:
-    void read_margin();
     void settle_sides(job::Job& job) const;
     void settle_heights(job::Job& job) const;
     void check_pockets(const job::Job& job) const;
 
     JobTable keys_;
-    double unit_;  // mm
     std::string outline_;
     std::optional<double> top_;
     std::optional<std::array<double, 2>> margin_;  // mm, in x and in y

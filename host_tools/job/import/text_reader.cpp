@@ -76,46 +76,26 @@ std::string font_file(JobTable& table, const fs::path& folder)
     return file;
 }
 
-Vec2d read_place(JobTable& table, double millimetres)
-{
-    const auto at = table.numbers("at");
-    if (at && at->size() != 2) {
-        table.refuse("at", fmt::format("has {} numbers, [x, y] is needed", at->size()));
-    }
-    return at ? Vec2d{(*at)[0] * millimetres, (*at)[1] * millimetres} : Vec2d{0, 0};
-}
-
 }  // namespace
 
 std::optional<std::string> read_text(JobTable& table,
-                                     double millimetres,
                                      const fs::path& folder,
                                      const job::Operation& operation,
                                      PartFiles& parts)
 {
     const auto text = table.text("text");
     if (!text) {
-        for (const char* const key : {"font", "size", "at", "align", "angle", "arc"}) {
-            if (table.has(key)) {
-                table.refuse(key, "belongs to a text: text is missing");
-            }
-        }
         table.leave({"font", "size", "at", "align", "angle", "arc"});
         return std::nullopt;
     }
     Lettering lettering;
     lettering.font_file = font_file(table, folder);
-    lettering.size = table.length("size", millimetres).value_or(0);
-    lettering.at = read_place(table, millimetres);
-    const std::string align = table.choice_or_default("align");
-    lettering.align = align == "centre"  ? TextAlign::kCentre
-                      : align == "right" ? TextAlign::kRight
-                                         : TextAlign::kLeft;
-    lettering.angle = table.number("angle").value_or(0);
-    lettering.arc = table.length("arc", millimetres).value_or(0);
-    if (!(lettering.size > 0)) {
-        table.refuse("size", "is missing: text needs the height of its capitals");
-    }
+    lettering.size = table.number("size").value();
+    lettering.at = table.point("at").value_or(Vec2d{0, 0});
+    lettering.align =
+        *table.chosen("align", {TextAlign::kLeft, TextAlign::kCentre, TextAlign::kRight});
+    lettering.angle = table.number_or_default("angle");
+    lettering.arc = table.number("arc").value_or(0);
     lettering.text = *text;
     const std::string name = fmt::format("operation {}: text", operation.number);
     parts.draw(name, {paths_of_text(lettering, name), 0});

@@ -13,12 +13,10 @@ namespace cusp::import {
 
 // Draws the text among the parts. Returns the name of that drawing; nothing without the key `text`.
 //
-// millimetres  of one unit of the job
-// folder       of the job: fonts are looked for there, and by their names in the system's folders of fonts
+// folder  of the job: fonts are looked for there, and by their names in the system's folders of fonts
 //
-// Errors: InputError: keys of a text without it, a font that is not there, and those of paths_of_text().
+// Errors: InputError: a font that is not there, and those of paths_of_text().
 std::optional<std::string> read_text(JobTable& table,
-                                     double millimetres,
                                      const std::filesystem::path& folder,
                                      const job::Operation& operation,
                                      PartFiles& parts);

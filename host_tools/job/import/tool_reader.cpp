@@ -2,6 +2,7 @@
 #include "host_tools/job/import/tool_reader.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/job/import/job_key_tables.hpp"
@@ -17,48 +18,36 @@ using toolpath::ToolShape;
 namespace {
 
 // The tool above the flutes.
-void read_body(JobTable& keys, double millimetres, job::ToolFacts& facts)
+void read_body(JobTable& keys, job::ToolFacts& facts)
 {
-    facts.shank_diameter = keys.length("shank_diameter", millimetres);
-    if (facts.shank_diameter && !facts.flute_length) {
-        keys.refuse("shank_diameter", "needs flute_length: the shank begins above the flutes");
-    }
-    if (const auto cylinders = keys.pairs("holder", "[diameter, length]")) {
+    facts.shank_diameter = keys.number("shank_diameter");
+    if (auto cylinders = keys.pairs("holder")) {
         if (cylinders->empty()) {
             keys.refuse("holder", "is empty: a holder is at least one [diameter, length]");
         }
-        if (!facts.length) {
-            keys.refuse("holder", "needs length: how far the tool is out of the holder");
-        }
-        for (const auto& [diameter, length] : *cylinders) {
-            facts.holder.push_back({diameter * millimetres, length * millimetres});
-        }
+        facts.holder = std::move(*cylinders);
     }
-    const auto clearance = keys.length("holder_clearance", millimetres);
-    if (clearance && !facts.shank_diameter && facts.holder.empty()) {
-        keys.refuse("holder_clearance", "needs shank_diameter or holder");
-    }
-    facts.holder_clearance = keys.length_or_default("holder_clearance", millimetres);
+    facts.holder_clearance = keys.number_or_default("holder_clearance");
 }
 
 // A depth of cut is judged by them when the job is planned.
-job::ToolFacts read_facts(JobTable& keys, double millimetres)
+job::ToolFacts read_facts(JobTable& keys)
 {
     job::ToolFacts facts;
     facts.name = keys.text("name").value_or("");
     facts.flutes = keys.whole_number("flutes").value_or(0);
-    facts.flute_length = keys.length("flute_length", millimetres);
-    facts.length = keys.length("length", millimetres);
+    facts.flute_length = keys.number("flute_length");
+    facts.length = keys.number("length");
     if (facts.length && facts.flute_length && *facts.flute_length > *facts.length) {
         keys.refuse("flute_length", fmt::format("is {:g} mm, the tool is {:g} mm long",
                                                 *facts.flute_length, *facts.length));
     }
-    read_body(keys, millimetres, facts);
+    read_body(keys, facts);
     return facts;
 }
 
 // The cone of a vee, a drill or a taper.
-void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool& tool)
+void read_tip(JobTable& keys, const std::string& shape, Tool& tool)
 {
     constexpr double kTwistDrill = 118;
     const auto angle = keys.number("tip_angle");
@@ -87,12 +76,9 @@ void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool
                     "is missing: a taper needs the diameter of its flat end, or "
                     "corner_radius, that of its ball");
     }
-    if (tapers && flat && tool.corner_radius > 0) {
-        keys.refuse("corner_radius", "is given beside tip_diameter: the end is a ball or flat");
-    }
     if (is_conical(tool)) {
         tool.tip_angle = (tapers ? 2 * *taper : angle.value_or(kTwistDrill)) * kPi / 180;
-        tool.tip_radius = flat.value_or(0) * millimetres / 2;
+        tool.tip_radius = flat.value_or(0) / 2;
     }
     if (is_conical(tool) && tool.tip_radius >= tool.radius) {
         keys.refuse("tip_diameter", fmt::format("is {:g} mm, the tool's diameter is only {:g} mm",
@@ -102,48 +88,35 @@ void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool
 
 }  // namespace
 
-void read_rates(JobTable& keys, double millimetres, Tool& tool)
+void read_rates(JobTable& keys, Tool& tool)
 {
     const auto feed = keys.number("feed");
     const auto plunge_feed = keys.number("plunge_feed");
     if (feed) {
-        tool.rates.feed = *feed * millimetres;
+        tool.rates.feed = *feed;
         tool.rates.plunge_feed = tool.rates.feed / 4;
     }
     if (plunge_feed) {
-        tool.rates.plunge_feed = *plunge_feed * millimetres;
+        tool.rates.plunge_feed = *plunge_feed;
     }
     if (const auto spindle = keys.number("spindle")) {
         tool.rates.spindle = spindle;
     }
-    if (const auto coolant = keys.choice("coolant")) {
-        tool.coolant = *coolant == "off"    ? Coolant::kOff
-                       : *coolant == "mist" ? Coolant::kMist
-                                            : Coolant::kFlood;
+    if (const auto coolant =
+            keys.chosen("coolant", {Coolant::kOff, Coolant::kMist, Coolant::kFlood})) {
+        tool.coolant = *coolant;
     }
 }
 
-ReadTool read_tool(const toml::table& table,
-                   const std::string& file,
-                   std::size_t index,
-                   double millimetres)
+ReadTool read_tool(JobTable& keys, std::size_t index)
 {
-    JobTable keys{table, file, fmt::format("tool {}", index), tool_table().keys};
     Tool tool;
     tool.number = keys.whole_number("number").value_or(static_cast<int>(index));
-    const std::string shape = keys.choice("shape").value_or("");
-    if (shape.empty()) {
-        keys.refuse("shape",
-                    "is missing: \"ball\", \"flat\", \"bull\", \"vee\", \"drill\" or \"taper\"");
-    }
-    tool.shape = shape == "ball"    ? ToolShape::kBall
-                 : shape == "flat"  ? ToolShape::kFlat
-                 : shape == "bull"  ? ToolShape::kBull
-                 : shape == "vee"   ? ToolShape::kVee
-                 : shape == "drill" ? ToolShape::kDrill
-                                    : ToolShape::kTaper;
-    tool.radius = keys.required_number("diameter") * millimetres / 2;
-    const auto corner = keys.length("corner_radius", millimetres);
+    const std::string shape = keys.choice("shape").value();
+    tool.shape = *keys.chosen("shape", {ToolShape::kBall, ToolShape::kFlat, ToolShape::kBull,
+                                        ToolShape::kVee, ToolShape::kDrill, ToolShape::kTaper});
+    tool.radius = keys.number("diameter").value() / 2;
+    const auto corner = keys.number("corner_radius");
     if (tool.shape == ToolShape::kBull && !corner) {
         keys.refuse("corner_radius", "is missing: a bull tool needs it");
     }
@@ -157,9 +130,9 @@ ReadTool read_tool(const toml::table& table,
         keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
                                                  tool.corner_radius, tool.radius));
     }
-    read_tip(keys, shape, millimetres, tool);
-    read_rates(keys, millimetres, tool);
-    const job::ToolFacts facts = read_facts(keys, millimetres);
+    read_tip(keys, shape, tool);
+    read_rates(keys, tool);
+    const job::ToolFacts facts = read_facts(keys);
     keys.check_all_read();
     return {tool, facts};
 }

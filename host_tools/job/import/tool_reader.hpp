@@ -13,18 +13,13 @@ struct ReadTool {
     job::ToolFacts facts;
 };
 
-// file         of the job or library, for messages
-// index        of the tool's table, from 1: the default of its number
-// millimetres  of one unit of the file
+// index  of the tool's table, from 1: the default of its number
 //
 // Errors: InputError with line and key.
-ReadTool read_tool(const toml::table& table,
-                   const std::string& file,
-                   std::size_t index,
-                   double millimetres);
+ReadTool read_tool(JobTable& keys, std::size_t index);
 
 // The keys `feed`, `plunge_feed`, `spindle` and `coolant` of a tool, or of an operation, which
 // override the tool's. A feed without a plunge feed makes that a quarter of itself.
-void read_rates(JobTable& keys, double millimetres, toolpath::Tool& tool);
+void read_rates(JobTable& keys, toolpath::Tool& tool);
 
 }  // namespace cusp::import

@@ -66,9 +66,6 @@ GroundRange read_range(const KeyValues& values, const Refuse& refuse)
         range.most_slope = (*slopes)[1];
     }
     if (const auto heights = values.find<std::vector<double>>("heights")) {
-        if (heights->size() != 2 || !((*heights)[0] < (*heights)[1])) {
-            refuse("heights", "needs the least and the greatest z, such as [-10, -2]");
-        }
         range.low = (*heights)[0];
         range.high = (*heights)[1];
     }

@@ -1,4 +1,4 @@
-// Words of kinds, and look-ups.
+// Forms of kinds, and look-ups.
 #include "host_tools/job/job/keys.hpp"
 
 #include <algorithm>
@@ -7,51 +7,56 @@
 
 namespace cusp::job {
 
-const char* words_of(KeyKind kind)
+const KindForm& form_of(KeyKind kind)
 {
-    switch (kind) {
-        case KeyKind::kLength:
-            return "length";
-        case KeyKind::kRate:
-            return "feed";
-        case KeyKind::kNumber:
-            return "number";
-        case KeyKind::kAngle:
-            return "angle";
-        case KeyKind::kCount:
-            return "whole number";
-        case KeyKind::kFlag:
-            return "true or false";
-        case KeyKind::kText:
-            return "text";
-        case KeyKind::kChoice:
-            return "choice";
-        case KeyKind::kFiles:
-            return "text or list of texts";
-        case KeyKind::kTexts:
-            return "list of texts";
-        case KeyKind::kLengths:
-            return "list of lengths";
-        case KeyKind::kNumbers:
-            return "number or list";
-        case KeyKind::kMargin:
-            return "length or two";
-        case KeyKind::kExtent:
-            return "[least, greatest]";
-        case KeyKind::kInterval:
-            return "length or [least, greatest]";
-        case KeyKind::kPairs:
-            return "list of pairs";
-        case KeyKind::kTool:
-            return "tool";
-        case KeyKind::kTools:
-            return "list of tools";
-        case KeyKind::kTable:
-            return "table";
-        case KeyKind::kTables:
-            return "tables";
-    }
-    return "";
+    // in the order of the kinds
+    static const std::vector<KindForm> kForms{
+        {"length", true},
+        {"feed", true},
+        {"number"},
+        {"angle"},
+        {"whole number"},
+        {"true or false"},
+        {"text"},
+        {"choice"},
+        {"text or list of texts"},
+        {"list of texts"},
+        {"list of lengths", true},
+        {"two lengths", true, false, {2}},
+        {"three lengths", true, false, {3}},
+        {"number or list", false, true},
+        {"angle or three", false, true, {1, 3}},
+        {"length or two", true, true, {1, 2}},
+        {"[least, greatest]", true, false, {2}},
+        {"length or [least, greatest]", true, true, {1, 2}},
+        {"list of pairs", true},
+        {"tool"},
+        {"list of tools"},
+        {"table"},
+        {"tables"},
+    };
+    return kForms.at(static_cast<std::size_t>(kind));
+}
+
+std::string Key::plain_help() const
+{
+    std::string plain = help;
+    plain.erase(std::remove(plain.begin(), plain.end(), '`'), plain.end());
+    return plain;
+}
+
+Key Key::needing(const std::vector<std::string>& keys) const
+{
+    Key key = *this;
+    key.needs = keys;
+    return key;
+}
+
+Key Key::excluding(const std::vector<std::string>& keys) const
+{
+    Key key = *this;
+    key.excludes = keys;
+    return key;
 }
 
 bool Key::has_number_otherwise() const

@@ -3,8 +3,10 @@
 //
 //     const Key depth{"depth", KeyKind::kLength, "needed", "below `top`", kPositive};
 //     const Key side{"side", KeyKind::kChoice, "outside", "of the loops", {}, {"outside", "inside"}};
+//     const Key pitch = Key{"pitch", KeyKind::kMargin, "none", "of a grid"}.needing({"grid"});
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -45,7 +47,10 @@ enum class KeyKind : std::uint8_t {
     kFiles,     // a text, or a list of texts
     kTexts,     // a list of texts
     kLengths,   // a list of lengths
+    kTwo,       // two lengths
+    kThree,     // three lengths
     kNumbers,   // a number, or a list of numbers
+    kTurn,      // an angle, or three
     kMargin,    // a length, or two
     kExtent,    // [least, greatest], lengths
     kInterval,  // a length, or [least, greatest]
@@ -56,8 +61,15 @@ enum class KeyKind : std::uint8_t {
     kTables     // one table or several
 };
 
-// The kind in words, such as "length" or "number or name of a tool".
-const char* words_of(KeyKind kind);
+// What a value of a kind looks like.
+struct KindForm {
+    const char* words;                  // such as "length" or "list of tools"
+    bool has_unit{false};               // its numbers are in the file's unit
+    bool one_or_list{false};            // one number counts as a list of it
+    std::vector<std::size_t> counts{};  // that a list may have; empty: any
+};
+
+const KindForm& form_of(KeyKind kind);
 
 struct KeyTable;
 
@@ -71,6 +83,17 @@ struct Key {
     Range range{kAnyNumber};
     std::vector<std::string> choices{};
     const KeyTable& (*members)(){nullptr};  // of a table
+    // The table has one of `needs` where it has this key, and none of `excludes`. Each is the name of another key, or a
+    // name and a value, such as "chip_load = true" or "clearing = \"adaptive\"".
+    std::vector<std::string> needs{};
+    std::vector<std::string> excludes{};
+
+    // `help` without the marks of docs/job_file.md.
+    std::string plain_help() const;
+
+    // Copies with these rules.
+    Key needing(const std::vector<std::string>& keys) const;
+    Key excluding(const std::vector<std::string>& keys) const;
 
     bool has_number_otherwise() const;
     // The number that `otherwise` begins with. Throws std::logic_error where it has none.

@@ -50,6 +50,37 @@ const std::vector<Key>& part_keys()
     return kKeys;
 }
 
+Key of_text(const Key& key) { return key.needing({"text"}); }
+
+// Keys that spell a text in place of a drawing.
+const std::vector<Key>& text_keys()
+{
+    static const std::vector<Key> kKeys{
+        Key{"text", Kind::kText, "none",
+            "letters in place of `boundary`; a line break begins another line (Text, below)"}
+            .needing({"size"})
+            .excluding({"boundary"}),
+        of_text({"font", Kind::kText, "single lines",
+                 "of `text`: file of a font (.ttf, .otf), or a font's name such as "
+                 "`\"DejaVuSans-Bold\"`"}),
+        of_text({"size", Kind::kLength, "with `text`: needed", "of `text`: height of its capitals",
+                 kPositive}),
+        of_text({"at", Kind::kTwo, "[0, 0]",
+                 "of `text`: place of its first baseline, as `align` says"}),
+        of_text(choice("align", {"left", "centre", "right"},
+                       "of `text`: the point of a line that is at `at`")),
+        of_text({"angle",
+                 Kind::kAngle,
+                 "0",
+                 "of `text`: its baseline, counter-clockwise from x",
+                 {-360, 360}}),
+        of_text({"arc", Kind::kLength, "none",
+                 "of `text`: radius of the circle through `at` that it follows; its centre is "
+                 "below the letters, with a negative radius above them"}),
+    };
+    return kKeys;
+}
+
 // Keys of tools, passes and rates.
 const std::vector<Key>& pass_keys()
 {
@@ -59,20 +90,24 @@ const std::vector<Key>& pass_keys()
         {"step_over", Kind::kLength, "the tool's", "the most between passes", kPositive},
         choice("clearing", {"contour", "adaptive"},
                "or `\"adaptive\"`: passes of bounded engagement (`docs/strategies.md`)"),
-        {"max_engagement",
-         Kind::kAngle,
-         "60",
-         "with `\"adaptive\"`: degrees of the tool's circumference in stock; in pockets a "
-         "`step_over` is the width of a straight cut, and the stricter counts",
-         {20, 150}},
+        Key{"max_engagement",
+            Kind::kAngle,
+            "60",
+            "with `\"adaptive\"`: degrees of the tool's circumference in stock; in pockets a "
+            "`step_over` is the width of a straight cut, and the stricter counts",
+            {20, 150}}
+            .needing({"clearing = \"adaptive\""}),
         {
             "chip_load",
             Kind::kFlag,
             "false",
             "the feed follows the engagement (`docs/strategies.md`); of flat ends",
         },
-        {"feed_min", Kind::kRate, "the feed", "with `chip_load`: least F word", kFeedRange},
-        {"feed_max", Kind::kRate, "twice the feed", "with `chip_load`: largest F word", kFeedRange},
+        Key{"feed_min", Kind::kRate, "the feed", "with `chip_load`: least F word", kFeedRange}
+            .needing({"chip_load = true"}),
+        Key{"feed_max", Kind::kRate, "twice the feed", "with `chip_load`: largest F word",
+            kFeedRange}
+            .needing({"chip_load = true"}),
         {"roughing", Kind::kFlag, "false", "rough in levels of `max_depth` before the finish"},
         {"depth", Kind::kLength, "needed", "below `top`: of the floor, or of the tool's tip",
          kPositive},
@@ -85,23 +120,6 @@ const std::vector<Key>& pass_keys()
                "(`engrave`)"),
         {"except_diameters", Kind::kLengths, "none",
          "circles of these diameters are left to other operations", kPositive},
-        {"text", Kind::kText, "none",
-         "letters in place of `boundary`; a line break begins another line (Text, below)"},
-        {"font", Kind::kText, "single lines",
-         "of `text`: file of a font (.ttf, .otf), or a font's name such as `\"DejaVuSans-Bold\"`"},
-        {"size", Kind::kLength, "with `text`: needed", "of `text`: height of its capitals",
-         kPositive},
-        {"at", Kind::kLengths, "[0, 0]", "of `text`: place of its first baseline, as `align` says"},
-        choice("align", {"left", "centre", "right"},
-               "of `text`: the point of a line that is at `at`"),
-        {"angle",
-         Kind::kAngle,
-         "0",
-         "of `text`: its baseline, counter-clockwise from x",
-         {-360, 360}},
-        {"arc", Kind::kLength, "none",
-         "of `text`: radius of the circle through `at` that it follows; its centre is below the "
-         "letters, with a negative radius above them"},
         {"may_open", Kind::kFlag, "false",
          "its cut may open into that of the other side (Set-ups, below)"},
     };
@@ -171,8 +189,10 @@ std::vector<Key> shared_keys(const std::vector<std::string>& names)
 {
     std::vector<Key> keys;
     for (const std::string& name : names) {
-        const Key* key = find_key(part_keys(), name);
-        key = key == nullptr ? find_key(pass_keys(), name) : key;
+        const Key* key = nullptr;
+        for (const std::vector<Key>* some : {&part_keys(), &pass_keys(), &text_keys()}) {
+            key = key == nullptr ? find_key(*some, name) : key;
+        }
         if (key == nullptr) {
             throw std::logic_error("no shared key " + name);
         }
@@ -183,7 +203,8 @@ std::vector<Key> shared_keys(const std::vector<std::string>& names)
 
 std::vector<std::string> with_text(std::vector<std::string> names)
 {
-    names.insert(names.end(), {"text", "font", "size", "at", "align", "angle", "arc"});
+    std::transform(text_keys().begin(), text_keys().end(), std::back_inserter(names),
+                   [](const Key& key) { return key.name; });
     return names;
 }
 
@@ -214,7 +235,8 @@ const KeyTable& tabs_table()
     static const KeyTable kTable{
         "tabs",
         "Bridges that hold a part while it is cut free.",
-        {{"count", Kind::kCount, "this or `places`", "on each loop, evenly spaced", {1, 1000}},
+        {Key{"count", Kind::kCount, "this or `places`", "on each loop, evenly spaced", {1, 1000}}
+             .excluding({"places"}),
          {"places", Kind::kLengths, "this or `count`", "`[x, y, x, y]`: each on the nearest loop"},
          {"width", Kind::kLength, "needed", "of the part at full height, along the loop",
           kPositive},

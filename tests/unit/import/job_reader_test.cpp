@@ -377,8 +377,10 @@ TEST(JobReader, RefusesAnUnknownStrategyAndAnUnknownTool)
 
 TEST(JobReader, RefusesAnOperationWithoutWhatItNeeds)
 {
-    STRCMP_CONTAINS("floor: is missing",
-                    refused(kHead + "[[operation]]\nstrategy = \"contour_pocket\"\n").c_str());
+    const std::string operation = kHead + "[[operation]]\nstrategy = \"contour_pocket\"\n";
+    STRCMP_CONTAINS("scallop: is missing: length, most that", refused(operation).c_str());
+    STRCMP_CONTAINS("floor: is missing: text or list of texts, files of surfaces",
+                    refused(operation + "scallop = 0.4\n").c_str());
     STRCMP_CONTAINS("boundary: is missing",
                     refused(kHead +
                             "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\n"
