@@ -14,7 +14,7 @@ package_packages="$host_packages $cad_packages $image_packages dpkg-dev file hel
 test_packages="$host_packages $cad_packages $image_packages cpputest fonts-dejavu-core libpolyclipping-dev python3 python3-jsonschema python3-numpy
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang lld libclang-rt-14-dev doxygen git"
 # Builds the core in WebAssembly, for the pages and npm.
-wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
+wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen"
 # Builds the planners in WebAssembly (preset wasm-engine): ten minutes of emscripten, before a release and not in CI.
 engine_packages="emscripten libfast-float-dev libeigen3-dev"
 # Reads our programs as LinuxCNC does, and opens our USB as Linux does: before a release.

@@ -9,9 +9,11 @@ function(cusp_missing_wasm_packages)
   find_file(CUSP_WASM_LIBC wasm32-wasi/libc.a PATHS /usr/lib NO_DEFAULT_PATH)
   find_path(CUSP_WASM_LIBCXX wasm32-wasi/c++/v1/vector PATHS /usr/include NO_DEFAULT_PATH)
   file(GLOB builtins /usr/lib/llvm-14/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a)
-  mark_as_advanced(CUSP_WASM_COMPILER CUSP_WASM_LINKER CUSP_WASM_LIBC CUSP_WASM_LIBCXX)
+  # clang runs it on its own where it finds it: the module is the same on every machine only with it.
+  find_program(CUSP_WASM_OPTIMIZER wasm-opt)
+  mark_as_advanced(CUSP_WASM_COMPILER CUSP_WASM_LINKER CUSP_WASM_LIBC CUSP_WASM_LIBCXX CUSP_WASM_OPTIMIZER)
   foreach(pair clang:CUSP_WASM_COMPILER lld:CUSP_WASM_LINKER wasi-libc:CUSP_WASM_LIBC
-      libc++-14-dev-wasm32:CUSP_WASM_LIBCXX libclang-rt-14-dev-wasm32:builtins)
+      libc++-14-dev-wasm32:CUSP_WASM_LIBCXX libclang-rt-14-dev-wasm32:builtins binaryen:CUSP_WASM_OPTIMIZER)
     string(REPLACE ":" ";" pair ${pair})
     list(GET pair 0 package)
     list(GET pair 1 place)
