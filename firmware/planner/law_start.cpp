@@ -26,7 +26,7 @@ float step_at(const LawSpline& spline, std::uint32_t k) noexcept
     return 0.5F * (spline.length_before(k) + spline.station(k).length);
 }
 
-// What a cell allows, by the greatest of its places whatever their signs.
+// The limits along a cell, by the greatest of its places whatever their signs.
 class CellLimits {
 public:
     CellLimits(const LawSpline& spline, std::uint32_t k) noexcept
@@ -114,7 +114,7 @@ public:
     void round_tops() noexcept;
 
 private:
-    // Of the coefficients from the one before `from_` to the one behind the window.
+    // One for each coefficient from that before `from_` to that behind the window.
     using Values = std::array<float, kMostWindow + 2>;
 
     float& top(std::uint32_t j) noexcept { return tops_[j + 1 - from_]; }

@@ -1,4 +1,4 @@
-// Where the steps of a window begin: close to the law that they lead to, so that few are needed.
+// Starts of windows: the steps begin close to the law that they lead to, so that few are needed.
 //
 //     start_by_ramps(spline, window, end_of_kept(spline, window, planned));
 //     if (greatest_use(spline, window) < 1) { ... }  // else the window begins at the plan before it

@@ -68,7 +68,7 @@ int run_once(const SimArguments& arguments)
     return result.good() ? kDone : kFoundWrong;
 }
 
-// What was parsed of an option's text.
+// The value that was parsed from the text of an option. Errors: InputError where there is none.
 template <class Value>
 Value value_of(const std::optional<Value>& parsed, const std::string& option, const char* fault)
 {

@@ -155,7 +155,7 @@ Schema has_any(const std::vector<std::string>& rules)
     return {{"anyOf", any}};
 }
 
-// What the rest of the table has to have, or not, beside the key.
+// The rest of the table has or lacks other keys beside this one.
 Schema dependency_of(const Key& key)
 {
     Schema form = key.needs.empty() ? Schema::object() : has_any(key.needs);

@@ -63,7 +63,7 @@ public:
     std::optional<std::array<double, 2>> interval(const char* key);
     // Two numbers [min, max], min below max.
     std::optional<std::array<double, 2>> extent(const char* key);
-    // Of a key of two lengths.
+    // A key of two lengths.
     std::optional<Vec2d> point(const char* key);
     // A single text counts as a list of one.
     std::optional<std::vector<std::string>> texts(const char* key);
@@ -99,7 +99,7 @@ public:
         return place ? std::optional{all.begin()[*place]} : std::nullopt;
     }
 
-    // What `work` returns. An InputError in it is one of the key's value.
+    // Returns the result of `work`. An InputError in it is one of the value of the key.
     template <class Work>
     auto blamed(const char* key, const Work& work) const -> decltype(work())
     {

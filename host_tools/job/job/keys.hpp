@@ -61,7 +61,7 @@ enum class KeyKind : std::uint8_t {
     kTables     // one table or several
 };
 
-// What a value of a kind looks like.
+// How a value of a kind looks.
 struct KindForm {
     const char* words;                  // such as "length" or "list of tools"
     bool has_unit{false};               // its numbers are in the file's unit

@@ -1,4 +1,4 @@
-// What the builds of both npm packages share: options, tools, dist/ and types.
+// The builds of both npm packages share options, tools, dist/ and types.
 import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
