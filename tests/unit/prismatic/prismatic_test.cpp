@@ -247,7 +247,9 @@ TEST(Prismatic, ToolsThatDoNotSuitAreRefused)
             "chamfer needs a vee or a taper, tool 1 is flat");
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 4\ntool = 3",
             "is more than the flank of tool 3 cuts");
-    const std::string vee = "[tool]\nshape = \"vee\"\ndiameter = 6\n[cutting]\nfeed = 1\n";
+    const std::string vee =
+        "[tool]\nshape = \"vee\"\ndiameter = 6\n[cutting]\nfeed = 1\n"
+        "[[operation]]\nstrategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 1\n";
     STRCMP_CONTAINS(
         "tip_angle: is missing: a vee tool needs the angle",
         refusal([&] { read_job(folder.with("vee.toml", vee), cusp::strategies::all()); }).c_str());
